@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <utility>
 
 #include "common/layouts.hpp"
@@ -33,7 +34,8 @@ StageWork edges_work(const FrameSize& frame, const EdgesConfig& config) {
 /// doc/method.md section 2: bilinear samples, mean-free, scaled to 8 bits, with their norm.
 StageWork patches_work(const FrameSize& frame) {
   const double sample = 4 + 8 + 2 + 2 + 2 + 2;  // position, bilinear, mean, largest, scale and round, norm
-  return {frame.pixels + frame.edges * (kPlaceBytes + kEdgePatchBytes), frame.edges * 2 * kPatchSamples * sample};
+  const double edges = frame.with_candidates + frame.stereo_edges;  // those at their refined right positions
+  return {frame.pixels + edges * (kPlaceBytes + kEdgePatchBytes), edges * 2 * kPatchSamples * sample};
 }
 
 /// doc/method.md section 2: a blur of 13 taps along both axes and a gradient per pixel, 2 x 11 x 11 samples per edge
@@ -137,7 +139,13 @@ StageWork wide_matching_work(const FrameSize& frame) {
 class CountingTap : public Tap {
  public:
   void stereo_filter(StereoFilter filter, const CandidateLists& lists) override {
-    if (filter == StereoFilter::orientation) size.stereo_candidates = count(lists);
+    if (filter == StereoFilter::orientation) {
+      size.stereo_candidates = count(lists);
+      size.with_candidates =
+          static_cast<double>(std::set<std::int32_t>(lists.target.begin(), lists.target.end()).size());
+      for (std::size_t row = 0; row + 1 < lists.first.size(); ++row)
+        size.with_candidates += lists.first[row + 1] > lists.first[row] ? 1 : 0;
+    }
     if (next(filter) == StereoFilter::refinement) size.refined = count(lists);
     if (filter == StereoFilter::refinement) size.clusters = count(lists);
   }

@@ -13,6 +13,7 @@ struct FrameSize {
   double disparity_range = 0;  ///< [px]
   double pixels = 0, edges = 0, left_edges = 0;
   double stereo_candidates = 0;  ///< after distance, disparity and orientation
+  double with_candidates = 0;    ///< edges that have candidates or are some
   double refined = 0;            ///< of these, similar enough to be refined
   double clusters = 0;
   double stereo_edges = 0, base_edges = 0;              ///< of this frame and of the previous one
