@@ -1,3 +1,6 @@
+#include <optional>
+
+#include "common/coarse_search.hpp"
 #include "matching.hpp"
 #include "quadedge/pi.hpp"
 #include "reference/stereo_relaxation.hpp"
@@ -15,6 +18,8 @@ struct RelaxationScene {
   EpipolarGeometry geometry;
   EdgeSet left;
   reference::StereoClusters clusters;
+  std::pair<Image, Image> views;
+  std::optional<reference::CoarseDisparity> witness;
 
   explicit RelaxationScene(const StereoRig& of_rig) : rig(of_rig) {
     config.max_disparity = 60;
@@ -38,7 +43,13 @@ struct RelaxationScene {
     clusters.first.push_back(static_cast<std::int32_t>(clusters.position.size()));
   }
   reference::StereoRelaxation relax() const {
-    return reference::stereo_relaxation(clusters, left, geometry, rig.left.width, rig.left.height, config);
+    return reference::stereo_relaxation(clusters, left, geometry, rig.left.width, rig.left.height, config,
+                                        witness ? &*witness : nullptr);
+  }
+  /// From now on a coarse disparity of these views is the witness.
+  void consult(const Image& left_view, const Image& right_view) {
+    views = {left_view, right_view};
+    witness = reference::coarse_disparity(left_view.view(), right_view.view(), coarse_search(rig, geometry).value());
   }
   /// Position of edge i's choice; NaN: none.
   double chosen(const reference::StereoRelaxation& relaxation, std::size_t i) const {
@@ -69,7 +80,10 @@ struct RelaxationScene {
           device_clusters.packed.write(context, packed);
           device_clusters.count.write(context, counts);
           stages::DeviceRelaxation found;
-          stage.run(upload(context, left), geometry, candidates, device_clusters, found);
+          stages::CoarseDisparity coarse(context, variants, kMaxValue8);
+          if (witness) coarse.run(upload(context, views.first), upload(context, views.second), witness->search);
+          const stages::CoarseDisparity* const asked = witness ? &coarse : nullptr;
+          stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
           const auto belief = found.belief.read(clusters.position.size());
           const auto chosen = found.chosen.read(rows);
           const auto score = found.score.read(rows);
@@ -82,7 +96,9 @@ struct RelaxationScene {
             different += same ? 0 : 1;
           }
           CHECK(different <= band);
-          stage.run(upload(context, left), geometry, candidates, device_clusters, found);
+          CHECK(found.host_tally.edges == truth.tally.edges);
+          CHECK(std::abs(found.host_tally.undecided - truth.tally.undecided) <= static_cast<int>(band));
+          stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
           CHECK(found.belief.read(clusters.position.size()) == belief);
           CHECK(found.chosen.read(rows) == chosen);
           CHECK(found.score.read(rows) == score);
@@ -178,6 +194,29 @@ TEST_CASE("stereo relaxation: a few unambiguous edges resolve a repeated texture
   std::size_t right = 0;
   for (std::size_t i = 0; i < scene.left.size(); ++i) right += scene.chosen(relaxation, i) == 10 ? 1 : 0;
   CHECK(right == scene.left.size());
+}
+
+TEST_CASE("stereo relaxation: a coarse disparity decides where all neighbours agree on the wrong candidates",
+          "[stereo][matching][device]") {
+  RelaxationScene scene = wall(10, 8, 0.003);
+  Image left(97, 71), right(97, 71);
+  for (int y = 0; y < 71; ++y) {
+    for (int x = 0; x < 97; ++x) {
+      left.set(x, y, static_cast<int>(smooth_grey(3 * x, y)));
+      right.set(x, y, static_cast<int>(smooth_grey(3 * (x + 10), y)));
+    }
+  }
+  const auto right_choices_of = [&] {
+    const auto relaxation = scene.relax();
+    std::size_t right_ones = 0;
+    for (std::size_t i = 0; i < scene.left.size(); ++i) right_ones += scene.chosen(relaxation, i) == 10 ? 1 : 0;
+    return right_ones;
+  };
+  CHECK(right_choices_of() == 0);
+  scene.compare_devices(0);
+  scene.consult(left, right);
+  CHECK(right_choices_of() > scene.left.size() * 9 / 10);
+  scene.compare_devices(0);
 }
 
 TEST_CASE("stereo relaxation: candidates that neighbours support need less similarity", "[stereo][matching]") {
