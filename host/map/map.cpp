@@ -38,7 +38,7 @@ constexpr double kMostChange = 1;
 /// since the key rig. A closure has about four times that variance, since a kept rig has a fraction of the edges.
 constexpr double kWorthwhile = 12;
 
-/// A node is kept as a place if its view differs from those of the latest places by more than this [rad].
+/// A node is not kept as a place if its view differs by less than this from that of one of the latest places [rad].
 constexpr double kNewView = 0.15;
 
 /// Number of closures that wait for a witness. A witness is found in the rigs that follow, or not at all.
@@ -171,7 +171,7 @@ bool Map::Implementation::add(const FrameResult& result) {
   return changed;
 }
 
-/// Of the current rig's edges [1/m].
+/// Mean inverse depth of the current rig's edges [1/m].
 double Map::Implementation::mean_inverse_depth() const {
   const odometry::CurrentRig now = odometry_.current_rig();
   const auto& edges =
@@ -226,7 +226,7 @@ bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
   return motion.measured.covariance.trace() > kWorthwhile * last_motion_.measured.covariance.trace();
 }
 
-/// Compares the current rig, which is a node, with places and keeps it, unless a place sees the same already.
+/// Compares the current rig, which is a node, with places, and keeps it unless that adds no view.
 bool Map::Implementation::recognise(int node) {
   const odometry::CurrentRig now = odometry_.current_rig();
   const double inverse_depth = mean_inverse_depth();
@@ -333,8 +333,8 @@ bool Map::Implementation::is_rival(const map::Place& place, const std::vector<Li
   });
 }
 
-/// Of the current rig's closures with another segment, those that place it in two different parts of that are
-/// ambiguous.
+/// Marks closures of the current rig with one other segment as ambiguous if they place it in different parts of that
+/// segment.
 void Map::Implementation::reject_contradictions(const std::vector<ListedClosure>& joining) {
   for (const ListedClosure& one : joining) {
     for (const ListedClosure& other : joining) {
@@ -349,8 +349,7 @@ void Map::Implementation::keep(const ListedClosure& closure) {
   listed(closure).verdict = ClosureVerdict::kept;
 }
 
-/// Keeps a closure if the map expects it, or if it agrees with another that the map does not expect. \returns whether
-/// the map has changed
+/// Keeps a closure if the map expects it, or if it agrees with a pending closure. \returns whether the map has changed
 bool Map::Implementation::decide(const ListedClosure& closure) {
   if (listed(closure).verdict == ClosureVerdict::ambiguous) return false;
   const GraphEdge& edge = closure.edge;

@@ -18,7 +18,7 @@ class Confirmation {
   Confirmation(const Config& config, frontend::Frontend& frontend, StepBuilder& steps, const Acceptance& acceptance)
       : config_(config), frontend_(frontend), steps_(steps), acceptance_(acceptance) {}
 
-  /// Returns the motion since the key rig or, if that is out of view, since the base. \param current_from_base the
+  /// Returns the motion since the key rig or, if that is not confirmed, since the base. \param current_from_base the
   /// proposed motion \param closely whether inliers have to lie within a third of the usual distance
   /// \param confident_support below it, the support by the base may replace that by the key rig
   /// \param known a motion that has been confirmed; null: none \returns null if the proposal leads to that motion

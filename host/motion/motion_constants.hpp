@@ -51,8 +51,8 @@ constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1;
 /// Two motions whose explained areas have a ratio above this are ambiguous.
 constexpr double kCompetingAreaRatio = 0.4;
 
-/// A motion that the first search finds to explain less than this fraction of the area that another one explains is not
-/// searched for again: further rounds have added up to a quarter, which leaves it below kCompetingAreaRatio.
+/// A motion that after the first round explains less than this fraction of the area that another one explains gets no
+/// further rounds: these have added at most a quarter, which leaves it below kCompetingAreaRatio.
 constexpr double kHopelessAreaRatio = 0.75 * kCompetingAreaRatio;
 
 /// Fraction of the quads that are static although the motion would have moved them. Valid motions reach 0.036 in single

@@ -1,5 +1,5 @@
 #pragma once
-/// \file median.hpp  The middle one of some values.
+/// \file median.hpp  Median of a list.
 
 #include <algorithm>
 #include <cstddef>

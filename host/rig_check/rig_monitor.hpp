@@ -28,7 +28,7 @@ class RigMonitor {
   /// \param max_disparity up to which they were searched, in the middle of the left image [px]
   RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity);
 
-  /// Adds the image motion of that frame since the last one; reports a camera that seems to lag.
+  /// Adds the image motion of the frame passed to judge() since the last one; reports a camera that seems to lag.
   std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);
 
   /// Checks a single frame without edges, as `quadedge check` does. \param max_disparity of the cascade [px]

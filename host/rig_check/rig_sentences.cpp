@@ -113,9 +113,8 @@ std::string sentence(const RigFinding& finding) {
       const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
       return percent(finding.region.ratio) + " of the left image's texture, between columns " + number(from.x(), 0) +
              " and " + number(to.x(), 0) + " and rows " + number(from.y(), 0) + " and " + number(to.y(), 0) +
-             ", does not move although it is nearer than most of what moves: is it a part of the vehicle or dirt? a "
-             "mask "
-             "leaves it out";
+             ", does not move although it is nearer than most of what moves: is it part of the vehicle, or dirt? Use a "
+             "mask to exclude it";
     }
     case RigFindingKind::long_baseline:
       return "the baseline is " + number(finding.number, 3) + " m: is it given in millimetres?";

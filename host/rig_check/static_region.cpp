@@ -49,15 +49,19 @@ double correlation(const std::vector<float>& one, const std::vector<float>& othe
 
 std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& left,
                                                           const std::vector<CornerMatch>& matches) {
-  if (cells_.empty()) start(left);
+  if (cells_.empty()) {
+    start(left);
+    return std::nullopt;
+  }
   for (const CornerMatch& match : matches) {
-    const int column = static_cast<int>(match.left.x()) / kStaticCell, row = static_cast<int>(match.left.y()) / kStaticCell;
+    const int column = static_cast<int>(match.left.x()) / kStaticCell,
+              row = static_cast<int>(match.left.y()) / kStaticCell;
     if (column < columns_ && row < rows_)
       cells_[static_cast<std::size_t>(row * columns_ + column)].inverse_depths.push_back(match.inverse_depth);
   }
-  if (frames_++ % kStaticPeriod != 0) return std::nullopt;
+  if (++frames_ % kStaticPeriod != 0) return std::nullopt;
   compare(left);
-  if (frames_ <= kStaticWindow) return std::nullopt;
+  if (frames_ < kStaticWindow) return std::nullopt;
   const auto region = judge();
   start(left);
   return region;

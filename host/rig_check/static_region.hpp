@@ -17,8 +17,8 @@ struct StaticRegion {
 };
 
 /// Compares cells of the left image with the same cells some frames before. What is static although it is nearer than
-/// what moves does not belong to the scene. Images of a camera at rest, distant scenery and objects that pass before a
-/// camera at rest are no such region.
+/// what moves does not belong to the scene. A camera at rest and distant scenery do not count as such a
+/// region.
 class StaticRegionDetector {
  public:
   /// Adds the next image. \param matches of this frame, whose depths are used

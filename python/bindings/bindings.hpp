@@ -8,7 +8,7 @@ namespace quadedge::python {
 namespace nb = nanobind;
 using namespace nb::literals;
 
-/// Of functions that neither take nor make Python objects.
+/// For functions that neither take nor return Python objects.
 constexpr auto kReleasesGil = nb::call_guard<nb::gil_scoped_release>();
 
 void bind_errors(nb::module_& module);

@@ -364,7 +364,7 @@ void bind_odometry(nb::module_& module) {
            "trajectory broke and no place joins its segments, those of the largest segment. Raises UsageError without\n"
            "``loops=True`` and after close().")
       .def("save_map", &Odometry::save_map, kReleasesGil, "path"_a,
-           "Writes the places of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
+           "Writes the key rigs of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
            "Raises DataError if it cannot be written, UsageError without ``loops=True`` and after close().")
       .def_prop_ro(
           "rig", &Odometry::rig, kView,
