@@ -197,7 +197,7 @@ TEST_CASE("stereo relaxation: a few unambiguous edges resolve a repeated texture
 }
 
 TEST_CASE("stereo relaxation: a coarse disparity decides where all neighbours agree on the wrong candidates",
-          "[stereo][matching][device]") {
+          "[stereo][matching][device][oclgrind]") {
   RelaxationScene scene = wall(10, 8, 0.003);
   Image left(97, 71), right(97, 71);
   for (int y = 0; y < 71; ++y) {
