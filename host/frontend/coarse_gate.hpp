@@ -6,28 +6,26 @@
 
 namespace quadedge::frontend {
 
-/// Opens in the frame in which neighbours leave stereo.coarse_ties of the edges undecided, and closes after
-/// the first frame in which they leave fewer; never opens for a rig that is not rectified. Depends only on the frames
-/// so far.
+/// Is open for frames in which neighbours leave stereo.coarse_ties of the edges undecided, and never for a rig that is
+/// not rectified. A frame starts as the one before it ended and is searched again if that was wrong, so that its result
+/// does not depend on the frames before it.
 class CoarseGate {
  public:
   CoarseGate(const StereoConfig& config, bool is_rectified)
       : limit_(is_rectified && config.relaxation_rounds > 0 ? config.coarse_ties : 1) {}
 
-  void start_frame() { is_open_ = opens_next_; }
   bool is_open() const { return is_open_; }
-  /// Whether the frame was searched as it needs. If not, the gate is open now and the frame is to be searched again;
-  /// the second answer is always true.
+  /// Whether the frame was searched as it needs. If not, the gate is as it should be now, and the frame is to be
+  /// searched again; for the same tally the second answer is true.
   bool suffices(const RelaxationTally& tally) {
-    opens_next_ = limit_ < 1 && tally.undecided >= limit_ * tally.edges;
     const bool was_open = is_open_;
-    is_open_ = is_open_ || opens_next_;
+    is_open_ = limit_ < 1 && tally.undecided >= limit_ * tally.edges;
     return was_open == is_open_;
   }
 
  private:
   double limit_;
-  bool is_open_ = false, opens_next_ = false;
+  bool is_open_ = false;
 };
 
 }  // namespace quadedge::frontend

@@ -101,7 +101,6 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
     right_.sift.describe(right_.edges.positions(), right_sift_);
   }
   range_.start_frame();
-  gate_.start_frame();
   while (!find_stereo_edges(current)) {
   }
   counts_.disparity_range = range_.disparity();

@@ -103,7 +103,6 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);
 
   range_.start_frame();
-  gate_.start_frame();
   while (!search_stereo(now, left, right)) {
   }
   counts_.disparity_range = range_.disparity();

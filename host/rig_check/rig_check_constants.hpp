@@ -83,7 +83,7 @@ constexpr double kStaticTexture = 4;
 constexpr double kStaticCorrelation = 0.9, kChangedCorrelation = 0.5;
 /// Static part of the textured cells, and the part that has to change.
 constexpr double kMinStaticRatio = 0.05, kMinMovingRatio = 0.3;
-constexpr std::size_t kMinStaticDepths = 20;
+constexpr int kMinStaticMatches = 20;
 
 // The time between the two images (synchronisation.cpp).
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "rig_check/median.hpp"
 #include "rig_check/rig_check_constants.hpp"
@@ -56,8 +55,10 @@ std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& lef
   for (const CornerMatch& match : matches) {
     const int column = static_cast<int>(match.left.x()) / kStaticCell,
               row = static_cast<int>(match.left.y()) / kStaticCell;
-    if (column < columns_ && row < rows_)
-      cells_[static_cast<std::size_t>(row * columns_ + column)].inverse_depths.push_back(match.inverse_depth);
+    if (column >= columns_ || row >= rows_) continue;
+    Cell& cell = cells_[static_cast<std::size_t>(row * columns_ + column)];
+    cell.inverse_depths += match.inverse_depth;
+    ++cell.matches;
   }
   if (++frames_ % kStaticPeriod != 0) return std::nullopt;
   compare(left);
@@ -89,27 +90,29 @@ void StaticRegionDetector::compare(const PinholeView& left) {
 }
 
 std::optional<StaticRegion> StaticRegionDetector::judge() const {
+  struct Part {
+    double cells = 0;
+    int matches = 0;
+    std::vector<double> inverse_depths;  // means of the cells that have matches
+  };
+  Part still, moving;
   StaticRegion region;
-  std::vector<double> still, moving;  // inverse depths
-  double textured = 0, still_cells = 0, moving_cells = 0;
+  double textured = 0;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.texture.empty()) continue;
     ++textured;
-    if (cell.is_static) {
-      ++still_cells;
-      region.bounds.extend(bounds(i));
-    } else if (2 * cell.changes > kStaticWindow / kStaticPeriod) {
-      ++moving_cells;
-    } else {
-      continue;
-    }
-    auto& depths = cell.is_static ? still : moving;
-    std::copy(cell.inverse_depths.begin(), cell.inverse_depths.end(), std::back_inserter(depths));
+    if (cell.is_static) region.bounds.extend(bounds(i));
+    if (!cell.is_static && 2 * cell.changes <= kStaticWindow / kStaticPeriod) continue;
+    Part& part = cell.is_static ? still : moving;
+    ++part.cells;
+    part.matches += cell.matches;
+    if (cell.matches > 0) part.inverse_depths.push_back(cell.inverse_depths / cell.matches);
   }
-  region.ratio = still_cells / std::max(textured, 1.0);
-  const bool is_part = region.ratio > kMinStaticRatio && moving_cells > kMinMovingRatio * textured;
-  if (!is_part || std::min(still.size(), moving.size()) < kMinStaticDepths || median(still) <= median(moving))
+  region.ratio = still.cells / std::max(textured, 1.0);
+  const bool is_part = region.ratio > kMinStaticRatio && moving.cells > kMinMovingRatio * textured;
+  if (!is_part || std::min(still.matches, moving.matches) < kMinStaticMatches ||
+      median(still.inverse_depths) <= median(moving.inverse_depths))
     return std::nullopt;
   return region;
 }

@@ -28,10 +28,11 @@ class StaticRegionDetector {
  private:
   /// A cell of the image: its texture at the start of the window, and what became of it.
   struct Cell {
-    std::vector<float> texture;          ///< reduced grey levels, zero-mean, of unit length; empty if flat
-    bool is_static = true;               ///< in all comparisons so far
-    int changes = 0;                     ///< comparisons in which the texture is another one
-    std::vector<double> inverse_depths;  ///< of matches in this cell [1/m]
+    std::vector<float> texture;  ///< reduced grey levels, zero-mean, of unit length; empty if flat
+    bool is_static = true;       ///< in all comparisons so far
+    int changes = 0;             ///< comparisons in which the texture is another one
+    double inverse_depths = 0;   ///< sum over the matches in this cell [1/m]
+    int matches = 0;
   };
 
   void start(const PinholeView& left);
