@@ -31,7 +31,7 @@ TEST_CASE("presets: the default preset equals the program's defaults", "[cli]") 
 
 TEST_CASE("presets: --preset applies its file; --config and the command line override it", "[cli][device]") {
   CHECK(effective({"--preset", "dense"}).edges.budget == 0);
-  CHECK(effective({"--preset", "fast"}).edges.budget == 8000);
+  CHECK(effective({"--preset", "fast"}).edges.budget == 7000);
   CHECK(effective({"--preset", "dense", "--edges.budget", "9000"}).edges.budget == 9000);
   const TemporaryFolder folder;
   dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 7000\n");
