@@ -6,10 +6,13 @@ using namespace quadedge::pose;
 
 namespace {
 
-/// Quads of a drive, seen by a rig whose right principal point is `offset` px off its calibration.
-QuadObservations quads_with_offset(const generated::Problem& problem, double offset, std::uint64_t seed) {
-  quadedge::StereoRig seeing = problem.rig;
+/// Quads of a drive, seen by a rig whose right principal point is off its calibration: by `offset` px in both frames,
+/// and by `later` px more in the current one.
+QuadObservations quads_with_offset(const generated::Problem& problem, double offset, std::uint64_t seed,
+                                   double later = 0) {
+  quadedge::StereoRig seeing = problem.rig, seeing_later = problem.rig;
   seeing.right.cx += offset;
+  seeing_later.right.cx += offset + later;
   generated::Random random(seed);
   QuadObservations quads;
   while (static_cast<int>(quads.size()) < problem.quads) {
@@ -17,7 +20,7 @@ QuadObservations quads_with_offset(const generated::Problem& problem, double off
     const OrientedPoint moved{problem.motion * p.point, problem.motion.linear() * p.tangent};
     if (moved.point.z() < 0.5 * problem.near) continue;
     const auto before = generated::disturb(seeing, p, problem.noise, true, random);
-    const auto after = generated::disturb(seeing, moved, problem.noise, false, random);
+    const auto after = generated::disturb(seeing_later, moved, problem.noise, false, random);
     quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(quads.size()), generated::limits());
   }
   return quads;
@@ -42,8 +45,9 @@ TEST_CASE("An offset of all disparities makes the motion too long unless it is f
     const double largest_disparity = problem.rig.left.fx * problem.rig.baseline() / problem.near;
     CHECK(std::abs(plain.current_from_previous.translation().norm() / length - 1) >
           std::abs(offset) / largest_disparity);
-    CHECK(fitted.offset == Approx(offset).margin(4 * std::sqrt(fitted.offset_variance)));
-    CHECK(fitted.offset_variance < 0.05 * 0.05);
+    CHECK(fitted.learned->offset == Approx(offset).margin(4 * std::sqrt(fitted.learned->offset_variance)));
+    CHECK(fitted.offset == Approx(offset).margin(0.15));
+    CHECK(fitted.learned->offset_variance < 0.25 * 0.3 * 0.3);
     CHECK(std::abs(fitted.current_from_previous.translation().norm() / length - 1) < 0.002);
     const Vector6d error = generated::error_of(fitted.current_from_previous, problem.motion);
     CHECK(error.dot(fitted.covariance.ldlt().solve(error)) <
@@ -58,7 +62,29 @@ TEST_CASE("A camera at rest leaves the disparity offset undetermined", "[pose][o
   const auto quads = quads_with_offset(problem, 0.3, 43);
   const Refined fitted = generated::refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
   REQUIRE(fitted.solved);
-  CHECK(fitted.offset_variance > 0.9 * 0.3 * 0.3);
+  CHECK(fitted.learned->offset_variance > 0.9 * 0.3 * 0.3);
   CHECK(std::abs(fitted.offset) < 0.1);
   CHECK(fitted.current_from_previous.translation().norm() < 0.01);
+}
+
+TEST_CASE("Systematic errors are not learned as an offset where that looks like a motion", "[pose][offset_fit]") {
+  generated::Problem problem = generated::drive();
+  problem.quads = 3000;
+  problem.near = 12;
+  problem.far = 15;
+  problem.noise = {0.02, 0.07, 0.005};
+  quadedge::PoseConfig config;
+  const double length = problem.motion.translation().norm();
+  for (const double later : {0.02, -0.02}) {
+    const auto quads = quads_with_offset(problem, 0, 47, later);
+    const Refined fitted = generated::refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
+    REQUIRE(fitted.solved);
+    CAPTURE(fitted.offset, fitted.learned->offset, fitted.learned->offset_variance);
+    CHECK(std::abs(fitted.offset) > 5 * std::abs(later));
+    CHECK(std::abs(fitted.learned->offset) < 0.5 * std::abs(fitted.offset));
+    CHECK(std::abs(fitted.learned->offset) < 2 * std::sqrt(fitted.learned->offset_variance));
+    CHECK(fitted.learned->offset_variance > 0.7 * 0.3 * 0.3);
+    CHECK(std::abs(fitted.learned->current_from_previous.translation().norm() - length) <
+          std::abs(fitted.current_from_previous.translation().norm() - length));
+  }
 }

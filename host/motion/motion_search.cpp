@@ -51,6 +51,10 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   }
   StepHandle found = std::move(trials.at(selection.trial).outcome());
   found->doubt = selection.doubt;
+  if (const auto& learned = found->motion.learned) {
+    found->motion.current_from_previous = learned->current_from_previous;
+    found->motion.covariance = learned->covariance;
+  }
   if (found->ok() && !selection.accepted) found->motion.status = pose::MotionStatus::no_consensus;
   return found;
 }

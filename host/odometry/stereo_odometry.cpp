@@ -300,10 +300,10 @@ void StereoOdometry::Implementation::locate(const motion::MotionStep& step, Fram
 
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
-  result.disparity_offset = offset_.value() + step.motion.offset;
-  result.disparity_offset_sigma =
-      std::sqrt(step.motion.offset_variance > 0 ? step.motion.offset_variance : offset_.variance());
-  if (const auto large = rig_check::judge_disparity_offset(result.disparity_offset))
+  const pose::PoseAndOffset learned = step.motion.learned.value_or(pose::PoseAndOffset());
+  result.disparity_offset = offset_.value() + learned.offset;
+  result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
+  if (const auto large = rig_check::judge_disparity_offset(offset_.value() + step.motion.offset))
     warn(rig_check::warning(*large), result);
   result.ambiguous_motion = step.doubt.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
@@ -326,7 +326,7 @@ void StereoOdometry::Implementation::locate(const motion::MotionStep& step, Fram
   if (result.new_key_rig) {
     // All frames located against one key rig share its disparities, so that together they carry no more information
     // than the last, most distant one.
-    offset_.update(step.motion.offset, step.motion.offset_variance, fitness.frames);
+    offset_.update(learned.offset, learned.offset_variance, fitness.frames);
     state_.set_key(current_, world_from_current);
   } else {
     state_.base = {current_, current_from_key, key_from_current};

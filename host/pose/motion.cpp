@@ -61,7 +61,7 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
     covariance = refined.covariance;
     solved = refined.solved;
     estimate.offset = refined.offset;
-    estimate.offset_variance = refined.offset_variance;
+    estimate.learned = refined.learned;
     estimate.inliers = refined.inliers;
   } else {
     estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,

@@ -34,9 +34,10 @@ struct MotionEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the estimated pose (for any status)
   int inliers = 0;
-  double inlier_ratio = 0;                 ///< inliers / quads
-  double offset = 0, offset_variance = 0;  ///< correction of all disparities, see fit_offset() [px, px^2]
-  int hypotheses = 0, draws = 0;           ///< numbers of the consensus search, see Consensus
+  double inlier_ratio = 0;               ///< inliers / quads
+  double offset = 0;                     ///< free correction of all disparities, see OffsetFit [px]
+  std::optional<PoseAndOffset> learned;  ///< what to take over if the motion is adopted, see OffsetFit
+  int hypotheses = 0, draws = 0;         ///< numbers of the consensus search, see Consensus
 };
 
 /// Estimates the motion: consensus of two-quad samples, followed by least squares over all inliers.

@@ -10,15 +10,25 @@
 
 namespace quadedge::pose {
 
-/// A pose and the disparity offset.
-struct OffsetFit {
-  /// In: initial pose; out: fitted pose. Left cameras, metres.
-  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
-  /// In and out; [px], added to every right point along its epipolar line, away from the point at infinity.
+/// Solution of the equations.
+struct FreeFit {
+  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
+  /// [px], added to every right point along its epipolar line, away from the point at infinity.
   double offset = 0;
-  /// Covariance of (pose, offset) [rad, m, px], including the prior on the offset.
-  Eigen::Matrix<double, 7, 7> covariance = Eigen::Matrix<double, 7, 7>::Zero();
-  double offset_variance = 0;  ///< [px^2], from the weights alone
+};
+
+/// A pose and the disparity offset, with their uncertainties.
+struct PoseAndOffset : FreeFit {
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose [rad, m]
+  double offset_variance = 0;              ///< [px^2], including the prior
+};
+
+struct OffsetFit {
+  FreeFit free;  ///< in: initial pose and offset; out: solution
+  /// What is worth learning from it. Where an offset looks like a motion, as with all edges at one depth straight ahead
+  /// or while the camera hardly moves, small systematic errors of the edges decide about the free offset. Systematic
+  /// errors (kSystematicPosition, kSystematicDisparity) are added to its variance.
+  PoseAndOffset learned;
 };
 
 /// Continues a fit of `terms` with one more unknown: the common offset of all disparities left by rectification, with a
@@ -31,8 +41,9 @@ struct OffsetFit {
 /// the larger factor would make the offset converge more slowly than the data allow (KITTI 01: end drift of 1.9 instead
 /// of 1.7 %).
 /// \param reprojection_scale ratio of measured to assumed variance of the reprojection residuals
-/// \returns false, with `result` unchanged, if the equations have no solution
+/// \param focal_length of the left camera [px]
+/// \returns false if the equations have no solution
 bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
-                double reprojection_scale, ReprojectionTerms& terms, OffsetFit& result);
+                double reprojection_scale, double focal_length, ReprojectionTerms& terms, OffsetFit& result);
 
 }  // namespace quadedge::pose

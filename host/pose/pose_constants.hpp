@@ -28,6 +28,9 @@ constexpr std::size_t kSameSelection = 500;
 /// Lower limit of the ratio of measured to assumed variances, for noise-free data.
 constexpr double kSmallestScale = 1e-6;
 
+/// Systematic errors of positions and of disparities that may look like an offset of all disparities [px].
+constexpr double kSystematicPosition = 0.03, kSystematicDisparity = 0.07;
+
 /// Minimum ratio of the pivots of the normal equations, after scaling the diagonal to one.
 constexpr double kSmallestPivot = 1e-12;
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "pose/offset_fit.hpp"
 #include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
@@ -124,19 +123,19 @@ class Refinement {
   /// Returns false, with the pose unchanged, if the fit with the offset has no solution.
   bool find_offset(double variance) {
     OffsetFit both;
-    both.current_from_previous = result_.current_from_previous;
+    both.free.current_from_previous = result_.current_from_previous;
     const auto fit_both = [&](const MeasuredCovariance& covariance) {
-      return fit_offset(config_, covariance, variance, work_.reprojection_scale, work_.terms, both);
+      return fit_offset(config_, covariance, variance, work_.reprojection_scale, rig_.left.fx, work_.terms, both);
     };
     // An offset that is not yet included in the disparities would look like correlated errors. It is therefore
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
-    result_.current_from_previous = both.current_from_previous;
-    fit_both(covariance_at(both.offset));
-    result_.current_from_previous = both.current_from_previous;
-    result_.covariance = both.covariance.topLeftCorner<6, 6>();
-    result_.offset = both.offset;
-    result_.offset_variance = both.offset_variance;
+    result_.current_from_previous = both.free.current_from_previous;
+    fit_both(covariance_at(both.free.offset));
+    result_.current_from_previous = both.free.current_from_previous;
+    result_.covariance = both.learned.covariance;
+    result_.offset = both.free.offset;
+    result_.learned = both.learned;
     return true;
   }
 

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pose/covariance.hpp"
+#include "pose/offset_fit.hpp"
 #include "pose/reprojection_terms.hpp"
 #include "pose/scoring.hpp"
 
@@ -30,7 +32,8 @@ struct Refined {
   int inliers = 0;
   Matrix6d covariance = Matrix6d::Zero();  ///< see MeasuredCovariance::inflated()
   bool solved = false;  ///< false: no fit was possible; the pose is the initial one and the covariance zero
-  double offset = 0, offset_variance = 0;  ///< disparity offset, see fit_offset() [px, px^2]
+  double offset = 0;    ///< free disparity offset, see OffsetFit [px]
+  std::optional<PoseAndOffset> learned;  ///< see OffsetFit; without a value there was no fit with an offset
 };
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and Gauss-Newton with Student-t weights over
