@@ -197,9 +197,13 @@ TEST_CASE("coarse disparity: every device and variant gives exactly the referenc
     for_each_variant("coarse_disparity",
                      [&](opencl::Context& context, const Variants& variants, const std::string& name) {
                        INFO(name);
+                       const stages::DeviceImage on_left = upload(context, left), on_right = upload(context, right);
                        stages::CoarseDisparity stage(context, variants, of.max_value);
+                       const std::size_t before = context.bytes();
                        for (int run = 0; run < 2; ++run) {
-                         stage.run(upload(context, left), upload(context, right), search);
+                         stage.run(on_left, on_right, search);
+                         CHECK(context.bytes() - before <= stages::CoarseDisparity::bytes(search));
+                         CHECK(2 * (context.bytes() - before) >= stages::CoarseDisparity::bytes(search));
                          CHECK(stage.positions().read(expected.size()) == expected);
                        }
                      });

@@ -6,6 +6,7 @@
 #include "common/coarse_search.hpp"
 #include "common/epipolar_rows.hpp"
 #include "common/layouts.hpp"
+#include "frontend/memory_fit.hpp"
 
 namespace quadedge::frontend {
 
@@ -119,7 +120,9 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
 const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStereoEdges& rig) {
   if (!gate_.is_open()) return nullptr;
   const auto search = coarse_search(calibration_, range_.geometry());
-  if (!search) return nullptr;
+  if (!search ||
+      !fits_beside(calibration_, config_, stages::CoarseDisparity::bytes(*search), context_.limits().memory_bytes))
+    return nullptr;
   coarse_.run(rig.left_image, rig.right_image, *search);
   return &coarse_;
 }

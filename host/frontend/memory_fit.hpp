@@ -20,4 +20,7 @@ struct MemoryFit {
 /// \throws DeviceError if the images alone need too much memory
 MemoryFit fit_memory(const StereoRig& rig, const Config& config, std::size_t memory_bytes);
 
+/// Whether a buffer of `bytes` fits beside what fit_memory() reckons with.
+bool fits_beside(const StereoRig& rig, const Config& config, std::size_t bytes, std::size_t memory_bytes);
+
 }  // namespace quadedge::frontend

@@ -28,6 +28,14 @@ void CoarseDisparity::prepare(const DeviceImage& image, int height, const PlaneR
   planes_(range, half_, rows.width, height, rows.front, rows.stride, rows.mirrored ? 1 : 0, planes);
 }
 
+std::size_t CoarseDisparity::bytes(const CoarseDisparityArguments& search) {
+  const auto width = static_cast<std::size_t>(search.width), stride = static_cast<std::size_t>(search.right_stride);
+  const std::size_t volume = width * static_cast<std::size_t>(search.levels) * (sizeof(cl_uchar) + sizeof(cl_ushort));
+  const std::size_t planes = (kCoarsePlanes + 1) * (width + stride);
+  return static_cast<std::size_t>(search.height) *
+         (volume + planes + stride * sizeof(cl_uint) + width * sizeof(cl_float));
+}
+
 void CoarseDisparity::run(const DeviceImage& left, const DeviceImage& right, const CoarseDisparityArguments& search) {
   context_.begin_stage("coarse_disparity");
   search_ = search;

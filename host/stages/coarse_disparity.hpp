@@ -16,6 +16,9 @@ class CoarseDisparity {
   /// `max_value`: largest value of the images' pixels.
   CoarseDisparity(opencl::Context& context, const std::map<std::string, std::string>& variants, int max_value);
 
+  /// Memory that a search takes [bytes].
+  static std::size_t bytes(const CoarseDisparityArguments& search);
+
   /// Matches the images of `search`, which are rectified.
   void run(const DeviceImage& left, const DeviceImage& right, const CoarseDisparityArguments& search);
 
