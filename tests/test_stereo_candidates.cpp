@@ -29,12 +29,19 @@ double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double directi
   return std::abs(std::cos(direction) * along.y() - std::sin(direction) * along.x());
 }
 
+double across(const RectificationError& error, const Vector2d& p, const PinholeCamera& left) {
+  return error.offset + error.slope_x * (p.x() / left.width - 0.5) + error.slope_y * (p.y() / left.height - 0.5);
+}
+
 /// Filters 1 to 3 of doc/method.md section 3 by definition, in double precision. Positive: distance inside the limits
 /// in units of single-precision error (2e-3 px, 1e-5 rad).
-double margin(const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe, const EdgeSet& left,
-              std::size_t i, const EdgeSet& right, std::size_t j) {
+/// \param error of a rectified rig
+double margin(const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe,
+              const RectificationError& error, const EdgeSet& left, std::size_t i, const EdgeSet& right,
+              std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
-  const Vector2d p(left.x[i], left.y[i]), q(right.x[j], right.y[j]);
+  const Vector2d p(left.x[i], left.y[i]),
+      q = Vector2d(right.x[j], right.y[j]) - Vector2d(0, across(error, p, rig.left));
   if ((rig.right_from_left.linear() * rig.left.ray(p)).z() <= 0) return -1e9;
   const Vector3d t = rig.right_from_left.translation();
   Eigen::Matrix3d cross;
@@ -57,7 +64,7 @@ double margin(const StereoRig& rig, const StereoConfig& config, const DisparityP
 /// Counts the certain members; checks that every list is ascending, holds all certain members and no certain outsider.
 std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
                         const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe,
-                        const EdgeSet& left, const EdgeSet& right) {
+                        const RectificationError& error, const EdgeSet& left, const EdgeSet& right) {
   REQUIRE(first.size() == left.size() + 1);
   REQUIRE(first.back() == static_cast<int>(target.size()));
   std::size_t certain = 0, missing = 0, extra = 0, disordered = 0;
@@ -66,7 +73,7 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
     disordered += std::adjacent_find(begin, end, [](auto a, auto b) { return a >= b; }) != end ? 1 : 0;
     for (std::size_t j = 0; j < right.size(); ++j) {
       const bool listed = std::binary_search(begin, end, static_cast<std::int32_t>(j));
-      const double inside = margin(rig, config, probe, left, i, right, j);
+      const double inside = margin(rig, config, probe, error, left, i, right, j);
       certain += inside > 1 ? 1 : 0;
       missing += inside > 1 && !listed ? 1 : 0;
       extra += inside < -1 && listed ? 1 : 0;
@@ -80,10 +87,11 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 
 /// Compares the reference and every device and variant with the definition.
 std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left,
-                             const EdgeSet& right, const DisparityProbe& probe = {0, 0}) {
-  const auto geometry = make_epipolar_geometry(rig, config);
+                             const EdgeSet& right, const DisparityProbe& probe = {0, 0},
+                             const RectificationError& error = {}) {
+  const auto geometry = corrected(make_epipolar_geometry(rig, config), error, rig.left);
   const auto lists = reference::stereo_candidates(left, right, geometry, probe);
-  const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, left, right);
+  const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, error, left, right);
   for_each_variant("stereo_candidates",
                    [&](opencl::Context& context, const Variants& variants, const std::string& name) {
                      INFO(name);
@@ -92,7 +100,7 @@ std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, c
                      stages::DeviceCandidates found;
                      stage.run(device_left, device_right, rig.right.height, geometry, probe, found);
                      const auto target = found.target.read(static_cast<std::size_t>(found.host_total));
-                     check_lists(found.first.read(left.size() + 1), target, rig, config, probe, left, right);
+                     check_lists(found.first.read(left.size() + 1), target, rig, config, probe, error, left, right);
                      std::vector<cl_int> listed(right.size());
                      for (const auto j : target) listed[static_cast<std::size_t>(j)] = 1;
                      if (left.size() > 0) CHECK(stage.listed().read(right.size()) == listed);
@@ -160,6 +168,33 @@ TEST_CASE("epipolar line: passes through the projections of every depth in a gen
   }
 }
 
+TEST_CASE("epipolar line: corrected by a rectification error it lies beside the calibrated one, at the same positions",
+          "[stereo][matching]") {
+  const RectificationError error{0.8, 0.5, -0.3};
+  CHECK(error.largest() == Approx(1.2));
+  StereoConfig config;
+  config.min_depth = 0.7;
+  for (const auto& [rig, margin] : {std::pair(flat_rig(640, 480, 500, 0.2), 1e-3), std::pair(crooked_rig(), 0.1)}) {
+    const auto geometry = make_epipolar_geometry(rig, config), moved = corrected(geometry, error, rig.left);
+    Random random(3);
+    for (int k = 0; k < 200; ++k) {
+      const Vector2d p(random(0, rig.left.width), random(0, rig.left.height));
+      const auto x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
+      const EpipolarLine line = epipolar_line(geometry, x, y), beside = epipolar_line(moved, x, y);
+      REQUIRE(beside.valid);
+      for (const float s : {0.0F, line.s_max}) {
+        const Vector2d from_calibrated(beside.x + s * beside.ex - line.x - s * line.ex,
+                                       beside.y + s * beside.ey - line.y - s * line.ey);
+        CHECK(from_calibrated.x() * line.ex + from_calibrated.y() * line.ey == Approx(0).margin(margin));
+        CHECK(from_calibrated.x() * line.ey - from_calibrated.y() * line.ex ==
+              Approx(across(error, p, rig.left)).margin(margin));
+      }
+    }
+    const auto same = corrected(geometry, {}, rig.left);
+    CHECK(std::equal(std::begin(same.h), std::end(same.h), std::begin(geometry.h)));
+  }
+}
+
 TEST_CASE("epipolar geometry: refuses an unlimited search", "[stereo][matching]") {
   CHECK_THROWS_AS(make_epipolar_geometry(flat_rig(), StereoConfig{}), UsageError);
 }
@@ -189,6 +224,15 @@ TEST_CASE("stereo candidates: probes search farther than the other edges", "[ste
     CHECK(with > without);
     CHECK(all > with);
   }
+}
+
+TEST_CASE("stereo candidates: with a rectification error they lie around the corrected line",
+          "[stereo][matching][device]") {
+  StereoConfig config;
+  config.min_depth = 0.7;
+  const StereoRig rig = flat_rig(131, 77, 120, 0.12);
+  const auto [left, right] = random_scene(rig, 400, config.min_depth, 17);
+  CHECK(check_everywhere(rig, config, left, right, {0, 0}, {0.9, 0.6, -0.4}) > 60);
 }
 
 TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",

@@ -40,6 +40,20 @@ EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig
   return geometry;
 }
 
+EpipolarGeometry corrected(EpipolarGeometry g, const RectificationError& error, const PinholeCamera& left) {
+  const auto x = static_cast<float>(left.cx), y = static_cast<float>(left.cy);
+  const EpipolarLine middle = epipolar_line(g, x, y);
+  if (!middle.valid) return g;
+  const RectificationError::Plane across = error.plane(left.width, left.height);
+  const auto scale = static_cast<double>(g.h[6] * x + g.h[7] * y + g.h[8]);
+  const double terms[3] = {scale * across.x, scale * across.y, scale * across.one};
+  for (std::size_t k = 0; k < 3; ++k) {
+    g.h[k] += middle.ey * static_cast<float>(terms[k]);
+    g.h[3 + k] -= middle.ex * static_cast<float>(terms[k]);
+  }
+  return g;
+}
+
 EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities, bool all_orientations) {
   if (all_disparities) {
     geometry.tolerance = kWholeImage;
