@@ -41,7 +41,8 @@ double margin(const StereoRig& rig, const StereoConfig& config, const DisparityP
               std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
   const Vector2d p(left.x[i], left.y[i]),
-      q = Vector2d(right.x[j], right.y[j]) - Vector2d(0, across(error, p, rig.left));
+      q = Vector2d(right.x[j], right.y[j]) -
+          Vector2d(-error.slope_x / rig.left.width * (p.y() - rig.left.cy), across(error, p, rig.left));
   if ((rig.right_from_left.linear() * rig.left.ray(p)).z() <= 0) return -1e9;
   const Vector3d t = rig.right_from_left.translation();
   Eigen::Matrix3d cross;
@@ -168,27 +169,37 @@ TEST_CASE("epipolar line: passes through the projections of every depth in a gen
   }
 }
 
-TEST_CASE("epipolar line: corrected by a rectification error it lies beside the calibrated one, at the same positions",
+TEST_CASE("epipolar line: corrected by a rectification error it is that of a displaced and rolled right camera",
           "[stereo][matching]") {
-  const RectificationError error{0.8, 0.5, -0.3};
-  CHECK(error.largest() == Approx(1.2));
+  constexpr double kRoll = 2e-3;  // rad
   StereoConfig config;
-  config.min_depth = 0.7;
-  for (const auto& [rig, margin] : {std::pair(flat_rig(640, 480, 500, 0.2), 1e-3), std::pair(crooked_rig(), 0.1)}) {
-    const auto geometry = make_epipolar_geometry(rig, config), moved = corrected(geometry, error, rig.left);
+  config.max_disparity = 40;
+  StereoRig vertical = flat_rig(640, 480, 500, 0.2);
+  vertical.right_from_left.translation() = Vector3d(0, -0.2, 0);
+  for (const auto& [rig, margin] :
+       {std::pair(flat_rig(640, 480, 500, 0.2), 1e-3), std::pair(vertical, 1e-3), std::pair(crooked_rig(), 0.1)}) {
+    const auto geometry = make_epipolar_geometry(rig, config);
+    const EpipolarLine middle =
+        epipolar_line(geometry, static_cast<float>(rig.left.cx), static_cast<float>(rig.left.cy));
+    const Vector2d normal(middle.ey, -middle.ex);
+    StereoRig moved = rig;
+    moved.right.cx += 0.8 * normal.x();
+    moved.right.cy += 0.8 * normal.y();
+    moved.right_from_left = Eigen::AngleAxisd(kRoll, Vector3d::UnitZ()) * rig.right_from_left;
+    const double zoom = rig.right.fx / rig.left.fx;
+    RectificationError error{0.8, kRoll * zoom * rig.left.width * normal.y(),
+                             -kRoll * zoom * rig.left.height * normal.x()};
+    error.offset +=
+        error.slope_x * (0.5 - rig.left.cx / rig.left.width) + error.slope_y * (0.5 - rig.left.cy / rig.left.height);
+    const auto wanted = make_epipolar_geometry(moved, config), found = corrected(geometry, error, rig.left);
     Random random(3);
     for (int k = 0; k < 200; ++k) {
-      const Vector2d p(random(0, rig.left.width), random(0, rig.left.height));
-      const auto x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
-      const EpipolarLine line = epipolar_line(geometry, x, y), beside = epipolar_line(moved, x, y);
-      REQUIRE(beside.valid);
-      for (const float s : {0.0F, line.s_max}) {
-        const Vector2d from_calibrated(beside.x + s * beside.ex - line.x - s * line.ex,
-                                       beside.y + s * beside.ey - line.y - s * line.ey);
-        CHECK(from_calibrated.x() * line.ex + from_calibrated.y() * line.ey == Approx(0).margin(margin));
-        CHECK(from_calibrated.x() * line.ey - from_calibrated.y() * line.ex ==
-              Approx(across(error, p, rig.left)).margin(margin));
-      }
+      const auto x = static_cast<float>(random(0, rig.left.width)), y = static_cast<float>(random(0, rig.left.height));
+      const EpipolarLine there = epipolar_line(wanted, x, y), line = epipolar_line(found, x, y);
+      REQUIRE(line.valid);
+      CHECK(line.x == Approx(there.x).margin(margin));
+      CHECK(line.y == Approx(there.y).margin(margin));
+      CHECK(line.ex * there.ey - line.ey * there.ex == Approx(0).margin(1.1 * kRoll));
     }
     const auto same = corrected(geometry, {}, rig.left);
     CHECK(std::equal(std::begin(same.h), std::end(same.h), std::begin(geometry.h)));

@@ -13,8 +13,9 @@ namespace quadedge {
 /// \throws UsageError if neither is given
 EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config);
 
-/// The geometry whose lines pass through the points that lie beside those of the calibration. Positions on the lines,
-/// and with them disparities, stay the same. \param left the camera that `error` refers to
+/// The geometry whose lines pass through the points that lie beside those of the calibration. A change of `error` along
+/// the lines is that of a right camera that is rolled about its optical axis, so that points are displaced along the
+/// lines, too: positions on the lines are those without error. \param left the camera that `error` refers to
 EpipolarGeometry corrected(EpipolarGeometry geometry, const RectificationError& error, const PinholeCamera& left);
 
 /// The same geometry with limits removed, for taps: all disparities, all orientations.

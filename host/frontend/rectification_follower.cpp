@@ -1,6 +1,7 @@
 #include "frontend/rectification_follower.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rig_check/epipolar_probe.hpp"
 
@@ -12,6 +13,9 @@ constexpr double kLargest = 2;     // px; beyond, patches at the uncorrected rig
 constexpr int kLeastSamples = 40;  // of a fit
 /// Scatter around the fit over the distances from the lines, at most; with less, the correction does not pay.
 constexpr double kScatterRatio = 0.35;
+/// Slopes below four standard deviations are 0: 4 sqrt(12) by 1.48 for the deviation that belongs to the scatter,
+/// by 1.25 for the loss of a robust fit.
+constexpr double kSlopeNoise = 25;
 constexpr double kSpreadRatio = 0.5;  // difference between frames over their mean, at most
 constexpr double kReleased = 2;       // an error in use is kept up to limits this many times as wide
 constexpr int kMemory = 20;           // frames
@@ -59,7 +63,11 @@ RectificationError RectificationFollower::judge(const rig_check::EpipolarFit& me
       measured.scatter > released * kScatterRatio * measured.residual || spread_ > released * kSpreadRatio * largest)
     return {};
   const double factor = std::min(1.0, kLargest / largest);
-  return {factor * measured.offset, factor * measured.slope_x, factor * measured.slope_y};
+  const double noise = kSlopeNoise * measured.scatter / std::sqrt(static_cast<double>(measured.samples));
+  const auto certain = [&](double slope) {
+    return factor * slope * std::max(0.0, 1 - noise * noise / std::max(slope * slope, 1e-12));
+  };
+  return {factor * measured.offset, certain(measured.slope_x), certain(measured.slope_y)};
 }
 
 }  // namespace quadedge::frontend
