@@ -89,7 +89,7 @@ typedef struct {
 // epipolar line starts at the point of infinite depth and runs towards nearer points. Positions on the line are
 // measured by s, pixels from the point at infinity; on a rectified rig s is the disparity.
 typedef struct {
-  float h[9];               // K_R R0 K_L^-1, row-major
+  float h[9];               // K_R R0 K_L^-1, row-major; corrected by the rectification error that the search follows
   float t[3];               // K_R T0
   float epipole[3];         // left epipole, homogeneous: the left line through p runs along epipole.xy - epipole.z p
   float inverse_min_depth;  // 1/m; 0 where max_disparity limits the search

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/epipolar_geometry.hpp"
 #include "common/epipolar_rows.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
@@ -139,8 +140,8 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
                    kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
         REQUIRE(count_kept(kept_left) < all[0].maxima.x.size() / 2);
 
-        stages::EdgeSelection selection(context, config, left, right, in_left.maxima());
-        selection.run(in_left.maxima(), in_right.maxima());
+        stages::EdgeSelection selection(context, config, in_left.maxima());
+        selection.run(left, right, in_left.maxima(), in_right.maxima());
         selection.request();
         CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
         CHECK(read(in_right.maxima(), width, height).rows == kept_rows(all[1], kept_right));
@@ -148,11 +149,32 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
         // The next frame is selected independently.
         find(in_left, 1);
         find(in_right, 2);
-        selection.run(in_left.maxima(), in_right.maxima());
+        selection.run(left, right, in_left.maxima(), in_right.maxima());
         selection.request();
         CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
         CHECK(selection.host_spacing() == static_cast<double>(spacing));
       }
+    }
+  }
+}
+
+TEST_CASE("edge selection: rows that lie beside the calibrated ones keep their numbers", "[edges]") {
+  const RectificationError error{0.8, 0.5, -0.3};
+  for (const auto& rig : {rectified_rig(640, 480), general_rig(640, 480)}) {
+    const auto number = [](const SelectionArguments& of, const Eigen::Vector2d& p) {
+      const auto x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
+      const EpipolarRows& rows = of.rows;
+      return static_cast<double>((rows.across_x * x + rows.across_y * y + rows.across_1) /
+                                 (rows.forward_x * x + rows.forward_y * y + rows.forward_1));
+    };
+    const SelectionArguments left = selection_arguments(rig, Side::left, {}, error),
+                             right = selection_arguments(rig, Side::right, {}, error);
+    StereoConfig config;
+    config.max_disparity = 20;
+    const EpipolarGeometry moved = corrected(make_epipolar_geometry(rig, config), error, rig.left);
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(20, 30), Eigen::Vector2d(330, 200), Eigen::Vector2d(600, 440)}) {
+      const EpipolarLine line = epipolar_line(moved, static_cast<float>(p.x()), static_cast<float>(p.y()));
+      CHECK(number(right, {line.x, line.y}) == Approx(number(left, p)).margin(0.1));
     }
   }
 }

@@ -166,6 +166,39 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
   }
 }
 
+TEST_CASE("frontend: rows that lie beside those of the calibration are found, with the same disparities",
+          "[frontend][matching][device]") {
+  const RenderedScene scene("room", 320, 200, 1);
+  auto names = all_devices();
+  names.emplace_back("reference");
+  for (const auto& name : names) {
+    INFO(name);
+    Device device(name, kept_programs());
+    const auto edges_of = [&](double offset, double* correction) {
+      StereoRig rig = scene.rig;
+      rig.right.cy -= offset;  // the image lies lower than the calibration says
+      const auto frontend = frontend::make_frontend(rig, device, scene.config);
+      const StereoEdges edges = frontend->process(scene.frame(0))->edges;
+      *correction = frontend->counts().epipolar_correction;
+      return edges;
+    };
+    double none = 0, some = 0;
+    const StereoEdges expected = edges_of(0, &none), found = edges_of(0.8, &some);
+    CHECK(none == 0);
+    CHECK(some == Approx(0.8).margin(0.05));
+    std::map<std::int32_t, std::size_t> row_of;
+    for (std::size_t i = 0; i < expected.size(); ++i) row_of[expected.left_index[i]] = i;
+    std::size_t same = 0, on_line = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const auto row = row_of.find(found.left_index[i]);
+      same += row != row_of.end() && std::abs(found.right_x[i] - expected.right_x[row->second]) < 0.1F ? 1 : 0;
+      on_line += std::abs(found.right_y[i] - (found.left_y[i] - 0.8F)) < 1e-3F ? 1 : 0;
+    }
+    CHECK(on_line == found.size());  // of the calibration
+    CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(expected.size()));
+  }
+}
+
 TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "[frontend][device]") {
   const RenderedScene scene("cables", 120, 75, 4);
   auto names = all_devices();

@@ -12,7 +12,7 @@ namespace {
 class CountingFrontend : public frontend::Frontend {
  public:
   CountingFrontend(const StereoRig& rig, const Config& config)
-      : device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
+      : Frontend(rig, config.stereo), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
 
   frontend::RigHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
   void match(const frontend::Rig& base, const TemporalSearch& search, TemporalMatches& matches) override {

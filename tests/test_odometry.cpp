@@ -34,6 +34,13 @@ double turn_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd((a.inverse() * b).linear()).angle();
 }
 
+/// The room, whose right images lie lower than the calibration says.
+RenderedScene room_with_rows_off_by(double pixels) {
+  RenderedScene scene = room();
+  scene.rig.right.cy -= pixels;
+  return scene;
+}
+
 /// The first frame is the origin in both. Metres and degrees.
 void check_pose(const std::optional<Eigen::Isometry3d>& world_from_left, const Eigen::Isometry3d& truth, double metres,
                 double degrees) {
@@ -243,6 +250,47 @@ TEST_CASE("odometry: the search beside the rig check leaves no trace of a frame 
   }
 }
 
+TEST_CASE("odometry: rows that lie beside those of the calibration cost no accuracy, but are warned of",
+          "[odometry][rig][device]") {
+  const RenderedScene off = room_with_rows_off_by(0.8);
+  auto names = all_devices();
+  names.emplace_back("reference");
+  for (const auto& name : names) {
+    INFO(name);
+    const auto right = track(room(), name, room().config), found = track(off, name, off.config);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      CHECK(right[i].diagnostics.rig_evidence.epipolar_correction == 0);
+      CHECK(found[i].diagnostics.rig_evidence.epipolar_correction == Approx(0.8).margin(0.05));
+      CHECK(found[i].counts.stereo_edges > 0.95 * right[i].counts.stereo_edges);
+      CHECK(found[i].counts.inliers >= 0.9 * right[i].counts.inliers);
+      check_pose(found[i].world_from_left, room().world_from_left[i], 2e-3, 0.1);
+    }
+    REQUIRE(found[0].warnings.size() == 1);
+    CHECK(found[0].warnings[0].kind == WarningKind::doubtful_calibration);
+  }
+}
+
+TEST_CASE("odometry: lost frames leave no trace in the rectification error", "[odometry][rig][device]") {
+  // Before the first frame with a pose, and after it.
+  const RenderedScene off = room_with_rows_off_by(0.8);
+  const Image grey(off.rig.left.width, off.rig.left.height);
+  for (const std::size_t lost : {std::size_t{0}, std::size_t{4}}) {
+    const auto last_frames = [&](const StereoFrame& mismatch) {
+      Device device(all_devices().front(), kept_programs());
+      StereoOdometry odometry(off.rig, device, off.config);
+      std::vector<FrameResult> results;
+      for (std::size_t i = 0; i < off.left.size(); ++i)
+        results.push_back(odometry.track(at(static_cast<std::int64_t>(i), i == lost ? mismatch : off.frame(i))));
+      return results;
+    };
+    const auto exchanged = last_frames({0, off.right[lost].view(), off.left[lost].view()}),
+               empty = last_frames({0, grey.view(), grey.view()});
+    CHECK(exchanged[lost].status == FrameStatus::lost_rig_mismatch);
+    CHECK(empty[lost].status == FrameStatus::lost_too_few_edges);
+    for (std::size_t i = lost + 1; i < exchanged.size(); ++i) CHECK(same_bytes(exchanged[i], empty[i]));
+  }
+}
+
 TEST_CASE("odometry: a pair of images that repeats is tracked with a message in each frame and one warning",
           "[odometry][rig][device]") {
   Device device(all_devices().front(), kept_programs());
@@ -278,9 +326,12 @@ TEST_CASE("odometry: a wrong principal point of the right camera is warned of", 
 }
 
 TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry][device]") {
-  const auto several = track(room(), all_devices().front(), room().config);
+  const RenderedScene off = room_with_rows_off_by(0.8);
+  auto several = track(room(), all_devices().front(), room().config);
+  for (const auto& result : track(off, all_devices().front(), off.config)) several.push_back(result);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const auto alone = track(room(), all_devices().front(), room().config);
+  auto alone = track(room(), all_devices().front(), room().config);
+  for (const auto& result : track(off, all_devices().front(), off.config)) alone.push_back(result);
   for (std::size_t i = 0; i < several.size(); ++i) {
     CHECK(same_bytes(several[i], alone[i]));
     CHECK(several[i].diagnostics.rig_evidence.matched_ratio == alone[i].diagnostics.rig_evidence.matched_ratio);

@@ -29,12 +29,20 @@ double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double directi
   return std::abs(std::cos(direction) * along.y() - std::sin(direction) * along.x());
 }
 
+double across(const RectificationError& error, const Vector2d& p, const PinholeCamera& left) {
+  return error.offset + error.slope_x * (p.x() / left.width - 0.5) + error.slope_y * (p.y() / left.height - 0.5);
+}
+
 /// Filters 1 to 3 of doc/method.md section 3 by definition, in double precision. Positive: distance inside the limits
 /// in units of single-precision error (2e-3 px, 1e-5 rad).
-double margin(const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe, const EdgeSet& left,
-              std::size_t i, const EdgeSet& right, std::size_t j) {
+/// \param error of a rectified rig
+double margin(const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe,
+              const RectificationError& error, const EdgeSet& left, std::size_t i, const EdgeSet& right,
+              std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
-  const Vector2d p(left.x[i], left.y[i]), q(right.x[j], right.y[j]);
+  const Vector2d p(left.x[i], left.y[i]),
+      q = Vector2d(right.x[j], right.y[j]) -
+          Vector2d(-error.slope_x / rig.left.width * (p.y() - rig.left.cy), across(error, p, rig.left));
   if ((rig.right_from_left.linear() * rig.left.ray(p)).z() <= 0) return -1e9;
   const Vector3d t = rig.right_from_left.translation();
   Eigen::Matrix3d cross;
@@ -57,7 +65,7 @@ double margin(const StereoRig& rig, const StereoConfig& config, const DisparityP
 /// Counts the certain members; checks that every list is ascending, holds all certain members and no certain outsider.
 std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
                         const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe,
-                        const EdgeSet& left, const EdgeSet& right) {
+                        const RectificationError& error, const EdgeSet& left, const EdgeSet& right) {
   REQUIRE(first.size() == left.size() + 1);
   REQUIRE(first.back() == static_cast<int>(target.size()));
   std::size_t certain = 0, missing = 0, extra = 0, disordered = 0;
@@ -66,7 +74,7 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
     disordered += std::adjacent_find(begin, end, [](auto a, auto b) { return a >= b; }) != end ? 1 : 0;
     for (std::size_t j = 0; j < right.size(); ++j) {
       const bool listed = std::binary_search(begin, end, static_cast<std::int32_t>(j));
-      const double inside = margin(rig, config, probe, left, i, right, j);
+      const double inside = margin(rig, config, probe, error, left, i, right, j);
       certain += inside > 1 ? 1 : 0;
       missing += inside > 1 && !listed ? 1 : 0;
       extra += inside < -1 && listed ? 1 : 0;
@@ -80,10 +88,11 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 
 /// Compares the reference and every device and variant with the definition.
 std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left,
-                             const EdgeSet& right, const DisparityProbe& probe = {0, 0}) {
-  const auto geometry = make_epipolar_geometry(rig, config);
+                             const EdgeSet& right, const DisparityProbe& probe = {0, 0},
+                             const RectificationError& error = {}) {
+  const auto geometry = corrected(make_epipolar_geometry(rig, config), error, rig.left);
   const auto lists = reference::stereo_candidates(left, right, geometry, probe);
-  const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, left, right);
+  const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, error, left, right);
   for_each_variant("stereo_candidates",
                    [&](opencl::Context& context, const Variants& variants, const std::string& name) {
                      INFO(name);
@@ -92,7 +101,7 @@ std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, c
                      stages::DeviceCandidates found;
                      stage.run(device_left, device_right, rig.right.height, geometry, probe, found);
                      const auto target = found.target.read(static_cast<std::size_t>(found.host_total));
-                     check_lists(found.first.read(left.size() + 1), target, rig, config, probe, left, right);
+                     check_lists(found.first.read(left.size() + 1), target, rig, config, probe, error, left, right);
                      std::vector<cl_int> listed(right.size());
                      for (const auto j : target) listed[static_cast<std::size_t>(j)] = 1;
                      if (left.size() > 0) CHECK(stage.listed().read(right.size()) == listed);
@@ -160,6 +169,43 @@ TEST_CASE("epipolar line: passes through the projections of every depth in a gen
   }
 }
 
+TEST_CASE("epipolar line: corrected by a rectification error it is that of a displaced and rolled right camera",
+          "[stereo][matching]") {
+  constexpr double kRoll = 2e-3;  // rad
+  StereoConfig config;
+  config.max_disparity = 40;
+  StereoRig vertical = flat_rig(640, 480, 500, 0.2);
+  vertical.right_from_left.translation() = Vector3d(0, -0.2, 0);
+  for (const auto& [rig, margin] :
+       {std::pair(flat_rig(640, 480, 500, 0.2), 1e-3), std::pair(vertical, 1e-3), std::pair(crooked_rig(), 0.1)}) {
+    const auto geometry = make_epipolar_geometry(rig, config);
+    const EpipolarLine middle =
+        epipolar_line(geometry, static_cast<float>(rig.left.cx), static_cast<float>(rig.left.cy));
+    const Vector2d normal(middle.ey, -middle.ex);
+    StereoRig moved = rig;
+    moved.right.cx += 0.8 * normal.x();
+    moved.right.cy += 0.8 * normal.y();
+    moved.right_from_left = Eigen::AngleAxisd(kRoll, Vector3d::UnitZ()) * rig.right_from_left;
+    const double zoom = rig.right.fx / rig.left.fx;
+    RectificationError error{0.8, kRoll * zoom * rig.left.width * normal.y(),
+                             -kRoll * zoom * rig.left.height * normal.x()};
+    error.offset +=
+        error.slope_x * (0.5 - rig.left.cx / rig.left.width) + error.slope_y * (0.5 - rig.left.cy / rig.left.height);
+    const auto wanted = make_epipolar_geometry(moved, config), found = corrected(geometry, error, rig.left);
+    Random random(3);
+    for (int k = 0; k < 200; ++k) {
+      const auto x = static_cast<float>(random(0, rig.left.width)), y = static_cast<float>(random(0, rig.left.height));
+      const EpipolarLine there = epipolar_line(wanted, x, y), line = epipolar_line(found, x, y);
+      REQUIRE(line.valid);
+      CHECK(line.x == Approx(there.x).margin(margin));
+      CHECK(line.y == Approx(there.y).margin(margin));
+      CHECK(line.ex * there.ey - line.ey * there.ex == Approx(0).margin(1.1 * kRoll));
+    }
+    const auto same = corrected(geometry, {}, rig.left);
+    CHECK(std::equal(std::begin(same.h), std::end(same.h), std::begin(geometry.h)));
+  }
+}
+
 TEST_CASE("epipolar geometry: refuses an unlimited search", "[stereo][matching]") {
   CHECK_THROWS_AS(make_epipolar_geometry(flat_rig(), StereoConfig{}), UsageError);
 }
@@ -189,6 +235,15 @@ TEST_CASE("stereo candidates: probes search farther than the other edges", "[ste
     CHECK(with > without);
     CHECK(all > with);
   }
+}
+
+TEST_CASE("stereo candidates: with a rectification error they lie around the corrected line",
+          "[stereo][matching][device]") {
+  StereoConfig config;
+  config.min_depth = 0.7;
+  const StereoRig rig = flat_rig(131, 77, 120, 0.12);
+  const auto [left, right] = random_scene(rig, 400, config.min_depth, 17);
+  CHECK(check_everywhere(rig, config, left, right, {0, 0}, {0.9, 0.6, -0.4}) > 60);
 }
 
 TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",

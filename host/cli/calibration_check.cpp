@@ -14,7 +14,7 @@ void check_numbers(const StereoRig& rig, DatasetCheck& check) {
 }
 
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
-  const auto [evidence, findings] = rig_check::RigMonitor::examine(
+  const auto [evidence, fit, findings] = rig_check::RigMonitor::examine(
       dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(dataset.rig));
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
   char text[160];

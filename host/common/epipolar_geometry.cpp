@@ -40,6 +40,23 @@ EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig
   return geometry;
 }
 
+EpipolarGeometry corrected(EpipolarGeometry g, const RectificationError& error, const PinholeCamera& left) {
+  const auto x = static_cast<float>(left.cx), y = static_cast<float>(left.cy);
+  const EpipolarLine middle = epipolar_line(g, x, y);
+  if (!middle.valid) return g;
+  const auto ex = static_cast<double>(middle.ex), ey = static_cast<double>(middle.ey);
+  const auto scale = static_cast<double>(g.h[6] * x + g.h[7] * y + g.h[8]);
+  const RectificationError::Plane plane = error.plane(left.width, left.height);
+  const double roll = -plane.x * ex - plane.y * ey;
+  const double across[3] = {plane.x, plane.y, plane.one},
+               along[3] = {roll * ey, -roll * ex, roll * (left.cy * ex - left.cx * ey)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    g.h[k] += static_cast<float>(scale * (across[k] * ey + along[k] * ex));
+    g.h[3 + k] += static_cast<float>(scale * (along[k] * ey - across[k] * ex));
+  }
+  return g;
+}
+
 EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities, bool all_orientations) {
   if (all_disparities) {
     geometry.tolerance = kWholeImage;

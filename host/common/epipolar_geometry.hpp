@@ -3,6 +3,7 @@
 /// the right image. doc/method.md section 3.
 
 #include "common/layouts.hpp"
+#include "common/rectification_error.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
@@ -11,6 +12,11 @@ namespace quadedge {
 /// The search is limited by `max_disparity` if positive, otherwise by `min_depth`.
 /// \throws UsageError if neither is given
 EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config);
+
+/// The geometry whose lines pass through the points that lie beside those of the calibration. A change of `error` along
+/// the lines is that of a right camera that is rolled about its optical axis, so that points are displaced along the
+/// lines, too: positions on the lines are those without error. \param left the camera that `error` refers to
+EpipolarGeometry corrected(EpipolarGeometry geometry, const RectificationError& error, const PinholeCamera& left);
 
 /// The same geometry with limits removed, for taps: all disparities, all orientations.
 EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities, bool all_orientations);

@@ -2,6 +2,7 @@
 /// \file epipolar_rows.hpp  Common numbering of the epipolar lines of both images of a rig. doc/method.md section 1.
 
 #include "common/layouts.hpp"
+#include "common/rectification_error.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/side.hpp"
@@ -13,6 +14,8 @@ namespace quadedge {
 EpipolarRows epipolar_rows(const StereoRig& rig, Side side);
 
 /// Arguments of kernels/edge_selection.cl for an image. The right image, which is searched, keeps slightly more edges.
-SelectionArguments selection_arguments(const StereoRig& rig, Side side, const StereoConfig& config);
+/// \param error of the right image's rows, which are numbered as they lie in it
+SelectionArguments selection_arguments(const StereoRig& rig, Side side, const StereoConfig& config,
+                                       const RectificationError& error = {});
 
 }  // namespace quadedge

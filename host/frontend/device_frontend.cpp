@@ -27,16 +27,15 @@ DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& ca
       sift(context, camera.width, camera.height, config.sift, config.variants, max_value) {}
 
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
-    : context_(context),
+    : Frontend(rig, config.stereo),
+      context_(context),
       config_(config),
       range_(rig, config),
       gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()),
-      calibration_(rig),
       left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),
       threshold_(context, config.edges, config.variants),
-      selection_(context, config.edges, selection_arguments(rig, Side::left, config.stereo),
-                 selection_arguments(rig, Side::right, config.stereo), left_.detection.maxima()),
+      selection_(context, config.edges, left_.detection.maxima()),
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants, rig.max_value),
@@ -68,7 +67,9 @@ void DeviceFrontend::detect(DeviceRig& current) {
   context_.flush();
   left_.mask.run(left_.detection.maxima());
   right_.mask.run(right_.detection.maxima());
-  selection_.run(left_.detection.maxima(), right_.detection.maxima());
+  selection_.run(selection_arguments(calibration_, Side::left, config_.stereo),
+                 selection_arguments(calibration_, Side::right, config_.stereo, rectification_.error()),
+                 left_.detection.maxima(), right_.detection.maxima());
   left_.detection.take_directions(left_.plane, left_.edges);
   right_.detection.take_directions(right_.plane, right_.edges);
   threshold_.request();
@@ -90,27 +91,30 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   stages::DeviceStereoEdges& rig = current.on_device;
   left_.undistortion.run(frame.left, rig.left_image.pixels);
   right_.undistortion.run(frame.right, rig.right_image.pixels);
-  detect(current);
-  if (tap_ != nullptr) tap_->edges(edges(Side::left), edges(Side::right));
-
-  left_.patches.prepare(rig.left_image.pixels);
-  right_.patches.prepare(rig.right_image.pixels);
-  if (tap_ != nullptr || config_.stereo.sift_max > 0) {
-    left_.sift.prepare(rig.left_image.pixels);
-    right_.sift.prepare(rig.right_image.pixels);
-    left_.sift.describe(left_.edges.positions(), left_sift_);
-    right_.sift.describe(right_.edges.positions(), right_sift_);
-  }
-  range_.start_frame();
-  while (!find_stereo_edges(current)) {
-  }
+  rectification_.start_frame();
+  do {
+    detect(current);
+    left_.patches.prepare(rig.left_image.pixels);
+    right_.patches.prepare(rig.right_image.pixels);
+    if (tap_ != nullptr || config_.stereo.sift_max > 0) {
+      left_.sift.prepare(rig.left_image.pixels);
+      right_.sift.prepare(rig.right_image.pixels);
+      left_.sift.describe(left_.edges.positions(), left_sift_);
+      right_.sift.describe(right_.edges.positions(), right_sift_);
+    }
+    range_.start_frame();
+    while (!find_stereo_edges(current)) {
+    }
+  } while (!rectification_.suffices(frame, current.edges));
   counts_.disparity_range = range_.disparity();
+  counts_.epipolar_correction = rectification_.error().largest();
   rig.has_sift = false;
   current.is_restored = false;
   indexed_ = false;
   wide_rows_ = -1;
   context_.flush();  // the right patches, while the host goes on
   if (tap_ != nullptr) {
+    tap_->edges(edges(Side::left), edges(Side::right));
     tap_candidates_without_limits();
     tap_stereo();
   }
@@ -129,7 +133,7 @@ const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStere
 
 bool DeviceFrontend::find_stereo_edges(DeviceRig& current) {
   stages::DeviceStereoEdges& rig = current.on_device;
-  const EpipolarGeometry& geometry = range_.geometry();
+  const EpipolarGeometry geometry = corrected(range_.geometry(), rectification_.error(), calibration_.left);
   stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
                          range_.probe(left_.edges.host_count), candidates_);
   left_.patches.cut(left_.edges.positions(), candidates_.counts, rig.left_patches);
@@ -141,7 +145,8 @@ bool DeviceFrontend::find_stereo_edges(DeviceRig& current) {
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
   context_.flush();
   relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, witness(rig));
-  mutual_.run(left_.edges, right_.edges, right_.patches, geometry, clusters_, relaxed_, owners_, rig, current.edges);
+  mutual_.run(left_.edges, right_.edges, right_.patches, range_.geometry(), clusters_, relaxed_, owners_, rig,
+              current.edges);
   const bool range_suffices = range_.suffices(current.edges, left_.edges.host_count);
   return gate_.suffices(relaxed_.host_tally) && range_suffices;
 }

@@ -93,7 +93,6 @@ class DeviceFrontend : public Frontend {
   Config config_;
   RangeFollower range_;
   CoarseGate gate_;
-  StereoRig calibration_;
   Camera left_, right_;
   stages::EdgeThreshold threshold_;
   stages::EdgeSelection selection_;

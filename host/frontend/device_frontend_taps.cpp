@@ -34,7 +34,9 @@ void DeviceFrontend::set_tap(Tap* tap) {
 void DeviceFrontend::tap_candidates_without_limits() {
   stages::DeviceCandidates lists;
   for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
-    const EpipolarGeometry geometry = without_limits(range_.geometry(), filter < StereoFilter::disparity, true);
+    const EpipolarGeometry geometry =
+        without_limits(corrected(range_.geometry(), rectification_.error(), calibration_.left),
+                       filter < StereoFilter::disparity, true);
     stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
                            range_.probe(left_.edges.host_count), lists);
     tap_->stereo_filter(filter, lists.read());

@@ -6,6 +6,7 @@
 
 #include "common/temporal_search.hpp"
 #include "frontend/kept_rig.hpp"
+#include "frontend/rectification_follower.hpp"
 #include "frontend/rig.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
@@ -19,8 +20,9 @@ namespace quadedge::frontend {
 
 /// Counts of the current frame.
 struct FrontendCounts {
-  double edge_threshold = 0;   ///< of both images [grey levels per px]
-  double disparity_range = 0;  ///< maximum disparity searched in the middle of the left image [px]
+  double edge_threshold = 0;       ///< of both images [grey levels per px]
+  double disparity_range = 0;      ///< maximum disparity searched in the middle of the left image [px]
+  double epipolar_correction = 0;  ///< see RigEvidence
   int edges_left = 0, edges_right = 0;
   int dropped_edges = 0;                      ///< beyond edges.max_edges, in both images
   int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() with a candidate before the agreement
@@ -55,6 +57,9 @@ class Frontend {
     return matches;
   }
 
+  /// Takes over the rectification error measured in the current frame, which the search of the next ones corrects.
+  void take(const rig_check::EpipolarFit& fit) { rectification_.take(fit); }
+
   /// Keeps the current rig in a compact form.
   virtual KeptRig keep() = 0;
   /// Restores a kept rig as a base of match() and match_globally().
@@ -70,6 +75,11 @@ class Frontend {
   virtual void set_tap(Tap* tap) { tap_ = tap; }
 
  protected:
+  Frontend(const StereoRig& rig, const StereoConfig& config)
+      : calibration_(rig), rectification_(calibration_, config) {}
+
+  StereoRig calibration_;
+  RectificationFollower rectification_;
   FrontendCounts counts_;
   Tap* tap_ = nullptr;
 };

@@ -61,7 +61,7 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : calibration_(rig),
+    : Frontend(rig, config.stereo),
       config_(config),
       threshold_(config.edges),
       range_(rig, config),
@@ -76,7 +76,8 @@ void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
   now.edges_spacing = 0;
   if (config_.edges.budget > 0) {
     const SelectionArguments in_left = selection_arguments(calibration_, Side::left, config_.stereo),
-                             in_right = selection_arguments(calibration_, Side::right, config_.stereo);
+                             in_right =
+                                 selection_arguments(calibration_, Side::right, config_.stereo, rectification_.error());
     const reference::GradientMaxima left_maxima = maxima_of(left), right_maxima = maxima_of(right);
     const float spacing =
         reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges.budget);
@@ -96,17 +97,23 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   now.right = pinhole_image(frame.right, calibration_.right_undistortion);
   const double threshold = threshold_.next({now.left.view(), now.right.view()});
   counts_.edge_threshold = threshold;
-  detect(now, threshold);
-  counts_.edges_left = static_cast<int>(left_edges_.size());
-  counts_.edges_right = static_cast<int>(right_edges_.size());
-  if (tap_ != nullptr) tap_->edges(left_edges_, right_edges_);
-  const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);
-
-  range_.start_frame();
-  while (!search_stereo(now, left, right)) {
-  }
+  reference::EdgeDescriptions left;
+  rectification_.start_frame();
+  do {
+    counts_.dropped_edges = 0;
+    detect(now, threshold);
+    counts_.edges_left = static_cast<int>(left_edges_.size());
+    counts_.edges_right = static_cast<int>(right_edges_.size());
+    left = describe(now.left, left_edges_, config_);
+    const auto right = describe(now.right, right_edges_, config_);
+    range_.start_frame();
+    while (!search_stereo(now, left, right)) {
+    }
+  } while (!rectification_.suffices(frame, now.edges));
   counts_.disparity_range = range_.disparity();
+  counts_.epipolar_correction = rectification_.error().largest();
   if (tap_ != nullptr) {
+    tap_->edges(left_edges_, right_edges_);
     tap_candidates();
     tap_clusters();
     tap_->stereo(now.edges);
@@ -123,19 +130,19 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
 
 bool ReferenceFrontend::search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
                                       const reference::EdgeDescriptions& right) {
-  const EpipolarGeometry& geometry = range_.geometry();
+  const EpipolarGeometry geometry = corrected(range_.geometry(), rectification_.error(), calibration_.left);
   candidates_ = reference::stereo_candidates(left_edges_, right_edges_, geometry, range_.probe(counts_.edges_left));
   scores_ = reference::candidate_filters(candidates_, left, right, stereo_limits(config_.stereo));
   const auto refined =
       reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_, geometry,
                                    candidates_, config_.stereo, config_.patches.offset, scores_);
   clusters_ = reference::stereo_clusters(candidates_, scores_, refined, right_edges_, config_.stereo);
-  const auto search = gate_.is_open() ? coarse_search(calibration_, geometry) : std::nullopt;
+  const auto search = gate_.is_open() ? coarse_search(calibration_, range_.geometry()) : std::nullopt;
   std::optional<reference::CoarseDisparity> witness;
   if (search) witness = reference::coarse_disparity(now.left.view(), now.right.view(), *search);
   relaxation_ = reference::stereo_relaxation(clusters_, left_edges_, geometry, calibration_.left.width,
                                              calibration_.left.height, config_.stereo, witness ? &*witness : nullptr);
-  now.edges = reference::stereo_mutual(clusters_, relaxation_, left_edges_, geometry, config_.stereo);
+  now.edges = reference::stereo_mutual(clusters_, relaxation_, left_edges_, range_.geometry(), config_.stereo);
   const bool range_suffices = range_.suffices(now.edges, counts_.edges_left);
   return gate_.suffices(relaxation_.tally) && range_suffices;
 }

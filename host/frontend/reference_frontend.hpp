@@ -42,7 +42,6 @@ class ReferenceFrontend : public Frontend {
   void tap_candidates();
   void tap_clusters();
 
-  StereoRig calibration_;
   Config config_;
   reference::EdgeThreshold threshold_;
   RangeFollower range_;

@@ -161,7 +161,8 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   result.stamp_ns = frame.stamp_ns;
   const frontend::RigHandle rig = frontend_->process(frame);
   const frontend::FrontendCounts& counts = frontend_->counts();
-  const rig_check::RigReport report = rig_monitor_.judge(frame, rig->edges, counts.edges_left, counts.disparity_range);
+  const rig_check::RigReport report =
+      rig_monitor_.judge(frame, rig->edges, counts.edges_left, counts.disparity_range, counts.epipolar_correction);
   if (static_cast<int>(rig->edges.size()) < config_.pose.min_inliers) {
     result.status = LocalisationStatus::lost_too_few_edges;
     result.message = std::to_string(rig->edges.size()) + " stereo edges";
@@ -179,6 +180,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
     velocity_.observe(result.map_from_left->inverse() * *last_, 1);
   else
     velocity_.forget();
+  if (result.map_from_left) frontend_->take(report.fit);
   last_ = result.map_from_left;
   result.latency_ms = milliseconds_since(start);
   return result;

@@ -155,8 +155,8 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   rig_check::RigReport rig_report;
   tbb::task_group beside;
   beside.run([&] {
-    rig_report =
-        rig_monitor_.judge(frame, current_->edges, result.counts.edges_left, result.diagnostics.disparity_range);
+    rig_report = rig_monitor_.judge(frame, current_->edges, result.counts.edges_left,
+                                    result.diagnostics.disparity_range, frontend_->counts().epipolar_correction);
   });
   double stereo_ms = clock.lap();
   FoundMotion found = has_edges && state_.has_started() ? search() : FoundMotion();
@@ -183,6 +183,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     }
     result.timing.stages.push_back({kPoseStage, found.pose_ms + clock.lap()});
   }
+  if (result.world_from_left) frontend_->take(rig_report.fit);
   result.segment = state_.segment;
   state_.world_from_last = result.pose_or_prediction();
   for (const Warning& warning : result.warnings) reported_.insert(warning.kind);

@@ -60,6 +60,7 @@ struct RigFinding {
 /// What was measured in a frame, and what is wrong with it.
 struct RigReport {
   RigEvidence evidence;
+  EpipolarFit fit;                   ///< of the patches around stereo edges
   std::vector<RigFinding> findings;  ///< a mismatch is the only one
 
   /// The reason why the frame cannot be used, or null.

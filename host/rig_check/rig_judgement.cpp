@@ -84,8 +84,8 @@ std::vector<RigFinding> judge_search(const ProbeSearch& search, const EpipolarFi
     add(evidence.negative_ratio > kMajority ? RigFindingKind::negative_disparities : RigFindingKind::far_off_lines);
     return findings;
   }
-  if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !(evidence.matched_ratio > kReliableMatchedRatio))
-    add(RigFindingKind::off_lines);
+  const bool finds_edges_on_lines = evidence.matched_ratio > kReliableMatchedRatio && evidence.epipolar_correction == 0;
+  if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !finds_edges_on_lines) add(RigFindingKind::off_lines);
   if (evidence.beyond_ratio > kWarningRatio) add(RigFindingKind::beyond_range);
   if (evidence.negative_ratio > kWarningRatio) add(RigFindingKind::some_negative_disparities);
   return findings;

@@ -80,12 +80,15 @@ bool RigMonitor::needs_search(const RigEvidence& evidence) const {
          evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease;
 }
 
-RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity) {
+RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
+                            double correction) {
   RigReport report;
   RigEvidence& evidence = report.evidence;
+  evidence.epipolar_correction = correction;
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
   probe_.align(frame, edges, corner_matches_);
-  if (const EpipolarFit fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height); fit.samples > 0) {
+  const EpipolarFit& fit = report.fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height);
+  if (fit.samples > 0) {
     evidence.epipolar_residual = fit.residual;
     evidence.epipolar_offset = fit.offset;
     evidence.epipolar_slope_x = fit.slope_x;

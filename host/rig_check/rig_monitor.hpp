@@ -26,7 +26,9 @@ class RigMonitor {
   /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
   /// \param edges its stereo edges \param left_edges number of edges in its left image
   /// \param max_disparity up to which they were searched, in the middle of the left image [px]
-  RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity);
+  /// \param correction see RigEvidence::epipolar_correction
+  RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
+                  double correction = 0);
 
   /// Adds the image motion of the frame passed to judge() since the last one; reports a camera that seems to lag.
   std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);

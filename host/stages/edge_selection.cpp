@@ -6,14 +6,11 @@
 
 namespace quadedge::stages {
 
-EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
-                             const SelectionArguments& right, const EdgeMaxima& maxima)
+EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const EdgeMaxima& maxima)
     : context_(context),
       budget_(config.budget),
       local_size_(context.is_cpu() ? 1 : 64),
-      weighing_group_(std::min<std::size_t>(64, context.limits().group_items)),
-      left_(left),
-      right_(right) {
+      weighing_group_(std::min<std::size_t>(64, context.limits().group_items)) {
   spacing_.write(context, {0.0F});
   if (budget_ == 0) return;
   tally_.write(context, {0, 0});
@@ -50,14 +47,15 @@ void EdgeSelection::choose(const SelectionArguments& arguments, EdgeMaxima& maxi
   }
 }
 
-void EdgeSelection::run(EdgeMaxima& left, EdgeMaxima& right) {
+void EdgeSelection::run(const SelectionArguments& in_left, const SelectionArguments& in_right, EdgeMaxima& left,
+                        EdgeMaxima& right) {
   if (budget_ == 0) return;
   context_.begin_stage("edge_selection");
-  weigh(left_, left, 0);
-  weigh(right_, right, 1);
+  weigh(in_left, left, 0);
+  weigh(in_right, right, 1);
   space_({1, 1}, budget_, tally_, spacing_);
-  choose(left_, left);
-  choose(right_, right);
+  choose(in_left, left);
+  choose(in_right, right);
 }
 
 }  // namespace quadedge::stages

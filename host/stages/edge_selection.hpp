@@ -11,13 +11,12 @@ namespace quadedge::stages {
 /// lines. The spacing stays on the device, so the host does not wait.
 class EdgeSelection {
  public:
-  /// \param left, right see selection_arguments()
   /// \param maxima the argument of later calls of run()
-  EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
-                const SelectionArguments& right, const EdgeMaxima& maxima);
+  EdgeSelection(opencl::Context& context, const EdgesConfig& config, const EdgeMaxima& maxima);
 
   /// Enqueues the selection in both images. Does nothing if edges.budget is 0.
-  void run(EdgeMaxima& left, EdgeMaxima& right);
+  /// \param in_left, in_right see selection_arguments()
+  void run(const SelectionArguments& in_left, const SelectionArguments& in_right, EdgeMaxima& left, EdgeMaxima& right);
 
   /// Copies the spacing to host_spacing(), which is valid after the next wait for the queue.
   void request() { spacing_.read_later(&host_spacing_, 1); }
@@ -36,7 +35,6 @@ class EdgeSelection {
   opencl::Context& context_;
   cl_int budget_;
   std::size_t local_size_, weighing_group_;
-  SelectionArguments left_, right_;
   opencl::Buffer<cl_int> tally_;  ///< weights of the left and the right image
   opencl::Buffer<cl_float> spacing_;
   cl_float host_spacing_ = 0;

@@ -59,9 +59,10 @@ struct StereoEdges {
   std::vector<std::int32_t> left_index;  ///< index of the left edge
   std::vector<std::int32_t>
       right_index;  ///< index of the right edge that was refined; neighbours on one left curve may share it
-  std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge [px, rad]
-  std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
-  std::vector<float> left_scale_drift;                   ///< of the left edge, see EdgeSet; empty: unknown
+  std::vector<float> left_x, left_y, left_direction;  ///< the detected left edge [px, rad]
+  std::vector<float> right_x, right_y,
+      right_direction;                  ///< the refined right point, on its epipolar line by the calibration
+  std::vector<float> left_scale_drift;  ///< of the left edge, see EdgeSet; empty: unknown
   std::vector<float> ncc;  ///< NCC of the refined pair: the mean of the edges' own patches and the better side
 
   EdgePositionsView positions(Side side) const {

@@ -19,6 +19,7 @@ struct RigEvidence {
   double epipolar_slope_x = kUnknown,
          epipolar_slope_y = kUnknown;  ///< change over the width and height of the left image [px]
   int epipolar_samples = 0;
+  double epipolar_correction = 0;  ///< largest distance from the lines that the stereo search allowed for [px]
 
   // From a wide search around the epipolar lines, which is done in some frames only:
   double found_ratio =

@@ -145,6 +145,8 @@ void bind_evidence(nb::module_& module) {
               "Median distance of matched patches from their epipolar lines [px].")
       .def_ro("epipolar_offset", &RigEvidence::epipolar_offset,
               "Signed distance from the epipolar line at the image centre [px].")
+      .def_ro("epipolar_correction", &RigEvidence::epipolar_correction,
+              "Largest distance from the epipolar lines that the stereo search allowed for [px].")
       .def_ro("searched_residual", &RigEvidence::searched_residual,
               "Median distance from the epipolar line of corners searched for in a wide band around it [px];\n"
               "measured in some frames only.")

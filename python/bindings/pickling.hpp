@@ -43,8 +43,8 @@ auto members(Self& self, const FrameCounts&) {
 template <class Self>
 auto members(Self& self, const RigEvidence&) {
   return std::tie(self.matched_ratio, self.epipolar_residual, self.epipolar_offset, self.epipolar_slope_x,
-                  self.epipolar_slope_y, self.epipolar_samples, self.found_ratio, self.searched_residual,
-                  self.on_line_ratio, self.negative_ratio, self.beyond_ratio);
+                  self.epipolar_slope_y, self.epipolar_samples, self.epipolar_correction, self.found_ratio,
+                  self.searched_residual, self.on_line_ratio, self.negative_ratio, self.beyond_ratio);
 }
 template <class Self>
 auto members(Self& self, const StageTime&) {
