@@ -118,9 +118,10 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
   }
 }
 
-// The derivatives at (x, y), written to d[0], d[8], d[16] ...; the columns of the window lie in lanes of 8.
+// The derivatives at (x, y), written to d[0], d[8], d[16] ...: each is the sum of its lanes. The columns of the window
+// lie in lanes of 8.
 static inline void window_derivatives(global const float* plane, const int stride, const float x, const float y,
-                                      float* d) {
+                                      float8* d) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   const int whole_x = (int)x, whole_y = (int)y;
   float weights_y[ORDERS][COLUMNS];
@@ -138,28 +139,22 @@ static inline void window_derivatives(global const float* plane, const int strid
   }
   const float8 level = (float8)window_level(plane, stride, whole_x, whole_y);
   global const float* window = WINDOW(plane, stride, whole_x, whole_y);
-  // Two blocks at a time, so that the sums stay in registers.
+  for (int k = 0; k < TAPS; ++k, window += stride) {
+    float8 grey[BLOCKS];
 #pragma unroll
-  for (int b = 0; b < BLOCKS; b += 2) {
-    global const float* row = window + 8 * b;
-    for (int k = 0; k < TAPS; ++k, row += stride) {
-      const float8 low = LOAD8(row) - level;
-      const float8 high = b + 1 < BLOCKS ? LOAD8(row + 8) - level : low;
+    for (int b = 0; b < BLOCKS; ++b) grey[b] = LOAD8(window + 8 * b) - level;
 #pragma unroll
-      for (int order = 0; order < ORDERS; ++order) {
-        const float8 weight = (float8)weights_y[order][k];
-        sums[order][b] = fma(weight, low, sums[order][b]);
-        if (b + 1 < BLOCKS) sums[order][b + 1] = fma(weight, high, sums[order][b + 1]);
-      }
+    for (int order = 0; order < ORDERS; ++order) {
+      const float8 weight = (float8)weights_y[order][k];
+#pragma unroll
+      for (int b = 0; b < BLOCKS; ++b) sums[order][b] = fma(weight, grey[b], sums[order][b]);
     }
   }
 #define DOT(position, order_x, order_y)                                                                    \
   {                                                                                                        \
     float8 sum_ = wx[0][order_x] * sums[order_y][0];                                                       \
     _Pragma("unroll") for (int b = 1; b < BLOCKS; ++b) sum_ = fma(wx[b][order_x], sums[order_y][b], sum_); \
-    const float4 four_ = sum_.lo + sum_.hi;                                                                \
-    const float2 two_ = four_.lo + four_.hi;                                                               \
-    d[8 * (position)] = two_.x + two_.y;                                                                   \
+    d[8 * (position)] = sum_;                                                                              \
   }
   DOT(0, 1, 0)
   DOT(1, 0, 1)
@@ -177,6 +172,20 @@ static inline void window_derivatives(global const float* plane, const int strid
   DOT(13, 0, 4)
 }
 
+// The sums of the lanes of eight vectors.
+static inline float8 lane_sums(const float8* v) {
+  float8 four[4], two[2];
+#pragma unroll
+  for (int k = 0; k < 4; ++k) four[k] = (float8)(v[k].lo, v[k + 4].lo) + (float8)(v[k].hi, v[k + 4].hi);
+#pragma unroll
+  for (int k = 0; k < 2; ++k) {
+    const float8 a = four[2 * k], b = four[2 * k + 1];
+    two[k] = (float8)(a.s01, b.s01, a.s45, b.s45) + (float8)(a.s23, b.s23, a.s67, b.s67);
+  }
+  const float8 a = two[0], b = two[1];
+  return (float8)(a.s02, b.s02, a.s46, b.s46) + (float8)(a.s13, b.s13, a.s57, b.s57);
+}
+
 // Third-order direction and Newton step of the winners, written in their position in scan order.
 // One work-item = one row of the doubled grid, 8 edges at a time.
 kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, global const float* plane,
@@ -192,7 +201,8 @@ kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, glo
   global float* strengths = edges + 3 * max_edges;
   global float* drifts = edges + 4 * max_edges;
   const int first = row_first[row], count = min(counts[row], max_edges - first);
-  float derivatives[DERIVATIVES * 8], x[8], y[8], theta[8], drift[8];
+  float8 derivatives[DERIVATIVES * 8];
+  float x[8], y[8], theta[8], drift[8];
   for (int k = 0; k < 8 * DERIVATIVES; ++k) derivatives[k] = 0.0f;
   for (int k = 0; k < 8; ++k) x[k] = y[k] = 0.0f;
   for (int begin = 0; begin < count; begin += 8) {
@@ -206,7 +216,7 @@ kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, glo
                          AT_CELL ? 0.5f * (float)row : winner.y, derivatives + k);
     }
     float8 d[DERIVATIVES], edge_x = vload8(0, x), edge_y = vload8(0, y), edge_drift;
-    for (int j = 0; j < DERIVATIVES; ++j) d[j] = vload8(j, derivatives);
+    for (int j = 0; j < DERIVATIVES; ++j) d[j] = lane_sums(derivatives + 8 * j);
     vstore8(third_order8(d, newton_max, &edge_x, &edge_y, &edge_drift), 0, theta);
     vstore8(edge_drift, 0, drift);
     vstore8(edge_x, 0, x);
