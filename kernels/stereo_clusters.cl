@@ -50,18 +50,22 @@ kernel void stereo_clusters(const StereoClusterArguments args, global const int*
         chosen = order[k];
     }
     const float chosen_rank = rank_in_cluster(state, similarity, chosen);
-    float cosine = 0.0f, sine = 0.0f;
-    for (int k = from; k < to; ++k) {
-      const float distance = position[order[k]] - position[chosen];
-      const float weight = exp(-0.5f * (distance / args.cluster_sigma) * (distance / args.cluster_sigma));
-      float member_cosine;
-      const float member_sine = sine_cosine(right_direction[target[order[k]]], &member_cosine);
-      cosine += weight * member_cosine;
-      sine += weight * member_sine;
+    float direction = right_direction[target[chosen]];
+    if (to - from > 1) {  // the mean
+      float cosine = 0.0f, sine = 0.0f;
+      for (int k = from; k < to; ++k) {
+        const float distance = position[order[k]] - position[chosen];
+        const float weight = exp(-0.5f * (distance / args.cluster_sigma) * (distance / args.cluster_sigma));
+        float member_cosine;
+        const float member_sine = sine_cosine(right_direction[target[order[k]]], &member_cosine);
+        cosine += weight * member_cosine;
+        sine += weight * member_sine;
+      }
+      direction = atan2(sine, cosine);
     }
     const int k = begin + found;
     cluster_position[k] = position[chosen];
-    cluster_direction[k] = atan2(sine, cosine);
+    cluster_direction[k] = direction;
     cluster_anchor[k] = target[chosen];
     cluster_similarity[k] = chosen_rank;
     ++found;
