@@ -34,8 +34,8 @@ static inline float line_angle_between(float a, float b) {
   return d > 0.5f * PI_F ? PI_F - d : d;
 }
 
-// Vectors at any address of their elements. PoCL splits vload16 into pairs of floats; a packed structure becomes one or
-// two plain loads.
+// Vectors at any address of their elements. PoCL splits vload16 into pairs of floats and vstore16 into four parts; a
+// packed structure becomes one or two plain loads or stores.
 typedef struct __attribute__((packed)) {
   float16 lanes;
 } packed16;
@@ -43,6 +43,7 @@ typedef struct __attribute__((packed)) {
   float8 lanes;
 } packed8;
 #define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
+#define STORE(value, pointer) (((global packed16*)(pointer))->lanes = (value))
 #define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
 
 // Lanes of a comparison as bits, lane k at bit k. Compilers do not see that AVX-512 has them as bits already.

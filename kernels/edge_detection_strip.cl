@@ -1,12 +1,14 @@
 // edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs
 // edge_detection.cl.
 
-// The lower 16 bits, each two places above the one before.
-static inline uint spread_bits(uint bits) {
-  bits = (bits | bits << 8) & 0x00ff00ffu;
-  bits = (bits | bits << 4) & 0x0f0f0f0fu;
-  bits = (bits | bits << 2) & 0x33333333u;
-  return (bits | bits << 1) & 0x55555555u;
+// The lower 16 bits of both, in turn.
+static inline uint interleave_bits(const uint even, const uint odd) {
+  ulong bits = (ulong)even | (ulong)odd << 32;
+  bits = (bits | bits << 8) & 0x00ff00ff00ff00fful;
+  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0ful;
+  bits = (bits | bits << 2) & 0x3333333333333333ul;
+  bits = (bits | bits << 1) & 0x5555555555555555ul;
+  return (uint)bits | (uint)(bits >> 31);
 }
 
 // Gradient and maximum test of strip_rows rows of the doubled grid per work-item.
@@ -35,41 +37,44 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
     if (row < begin_y || row >= end_y || pixels == 0) counts[row] = 0;
   }
   if (pixels == 0) return;
+  // Column sums start at the last multiple of 16 floats of the plane that is far enough to the left: aligned vectors
+  // take one access to the cache, others two.
+  const int skipped = (margin - RADIUS + PAD_X) & 15;
 
   for (int row = begin_y - 1; row <= end_y; ++row) {
     if (begin_y >= end_y) break;
-    // Along y: column sums for the pixels margin - RADIUS .. width - 1 - margin + RADIUS + 1.
+    // Along y: column sums for the pixels margin - RADIUS - skipped .. width - 1 - margin + RADIUS + 1.
     const int phase_y = row & 1;
-    global const float* source = plane + ((row >> 1) + PAD_Y) * stride + PAD_X + margin - RADIUS;
+    global const float* source = plane + ((row >> 1) + PAD_Y) * stride + PAD_X + margin - RADIUS - skipped;
     global const float* weights_g = SMOOTH_TAPS(taps, phase_y);
     global const float* weights_dg = SLOPE_TAPS(taps, phase_y);
-    for (int i = 0; i < pixels + 2 * PAIRS; i += 16) {
+    for (int i = 0; i < skipped + pixels + 2 * PAIRS; i += 16) {
 #define AT(k) LOAD(source + i + (k)*stride)
       float16 g, dg;
       SMOOTH(float16, g, AT, weights_g, phase_y)
       SLOPE(float16, dg, AT, weights_dg, phase_y)
 #undef AT
-      vstore16(g, 0, smooth_y + i);
-      vstore16(dg, 0, slope_y + i);
+      STORE(g, smooth_y + i);
+      STORE(dg, slope_y + i);
     }
     // Along x: gradient and magnitude of both phases.
     global float* now = lines + (2 + 6 * ((row + 3) % 3)) * line;
     for (int i = 0; i < pixels; i += 16) {
       float16 gx0, gx1, gy0, gy1;
-#define AT(k) LOAD(smooth_y + i + RADIUS + (k))
+#define AT(k) LOAD(smooth_y + skipped + i + RADIUS + (k))
       SLOPE(float16, gx0, AT, SLOPE_TAPS(taps, 0), 0)
       SLOPE(float16, gx1, AT, SLOPE_TAPS(taps, 1), 1)
 #undef AT
-#define AT(k) LOAD(slope_y + i + RADIUS + (k))
+#define AT(k) LOAD(slope_y + skipped + i + RADIUS + (k))
       SMOOTH(float16, gy0, AT, SMOOTH_TAPS(taps, 0), 0)
       SMOOTH(float16, gy1, AT, SMOOTH_TAPS(taps, 1), 1)
 #undef AT
-      vstore16(gx0, 0, now + i);
-      vstore16(gy0, 0, now + line + i);
-      vstore16(MAGNITUDE(gx0, gy0), 0, now + 2 * line + i);
-      vstore16(gx1, 0, now + 3 * line + i);
-      vstore16(gy1, 0, now + 4 * line + i);
-      vstore16(MAGNITUDE(gx1, gy1), 0, now + 5 * line + i);
+      STORE(gx0, now + i);
+      STORE(gy0, now + line + i);
+      STORE(MAGNITUDE(gx0, gy0), now + 2 * line + i);
+      STORE(gx1, now + 3 * line + i);
+      STORE(gy1, now + 4 * line + i);
+      STORE(MAGNITUDE(gx1, gy1), now + 5 * line + i);
     }
     if (row <= begin_y) continue;
 
@@ -100,7 +105,7 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
       win1 &= IS_MAXIMUM(m1, ahead1, behind1);
       const uint won0 = lane_bits(win0), won1 = lane_bits(win1);
       if ((won0 | won1) == 0) continue;
-      uint won = spread_bits(won0) | spread_bits(won1) << 1;  // bit n: cell n of the 32
+      uint won = interleave_bits(won0, won1);  // bit n: cell n of the 32
       float ahead[32], behind[32];
       vstore16(ahead0, 0, ahead);
       vstore16(ahead1, 1, ahead);
