@@ -94,18 +94,20 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
       const int16 close = dx * dx + dy * dy <= radius * radius;
       const uint lanes = end - k < LANES ? (1u << (uint)(end - k)) - 1u : ~0u;
       const uint passing = lane_bits(close & (min(turn, full_turn - turn) <= orientation)) & lanes;
-#ifdef TAP
-      const uint visited = lane_bits(close) & lanes;
+#if defined(PACKED_LANES) && !defined(TAP)
+      ((packed16*)(target + near))->lanes = PACKED_LANES(as_int16(LOAD(numbers + k)), passing);
+      near += (int)popcount(passing);
 #else
-      const uint visited = passing;
-#endif
-      for (uint rest = visited; rest != 0u; rest &= rest - 1u) {
-        const int lane = lowest_bit(rest), number = numbers[k + lane];
+      uint visited = passing;
+      TAPPED(visited = lane_bits(close) & lanes;)
+      for (; visited != 0u; visited &= visited - 1u) {
+        const int lane = lowest_bit(visited), number = numbers[k + lane];
         TAPPED(const int turned = !(passing >> (uint)lane & 1u);)
         TAPPED(tap->at[near] = tap_candidate(tap, number, turned ? ORIENTATION_ORDER : kCandidateAlive);)
         TAPPED(if (turned) continue;)
         target[near++] = number;
       }
+#endif
     }
 #endif
     for (; k < end; ++k) {
