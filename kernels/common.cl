@@ -34,8 +34,8 @@ static inline float line_angle_between(float a, float b) {
   return d > 0.5f * PI_F ? PI_F - d : d;
 }
 
-// Vectors at any address of their elements. PoCL splits vload16 into pairs of floats; a packed structure becomes one or
-// two plain loads.
+// Vectors at any address of their elements. PoCL splits vload16 into pairs of floats and vstore16 into four parts; a
+// packed structure becomes one or two plain loads or stores.
 typedef struct __attribute__((packed)) {
   float16 lanes;
 } packed16;
@@ -43,6 +43,7 @@ typedef struct __attribute__((packed)) {
   float8 lanes;
 } packed8;
 #define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
+#define STORE(value, pointer) (((global packed16*)(pointer))->lanes = (value))
 #define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
 
 // Lanes of a comparison as bits, lane k at bit k. Compilers do not see that AVX-512 has them as bits already.
@@ -61,3 +62,9 @@ static inline uint lane_bits(const int16 lanes) {
 
 // Number of the lowest bit of `bits`, which must not be 0.
 static inline int lowest_bit(const uint bits) { return 31 - (int)clz(bits & -bits); }
+
+#ifdef __AVX512F__
+// The lanes whose bits are set, in their order from lane 0 on, and any others after them: one instruction and no branch
+// in place of a loop over the bits.
+#define PACKED_LANES(lanes, bits) as_float16(__builtin_ia32_compresssi512_mask(lanes, lanes, (ushort)(bits)))
+#endif

@@ -1,12 +1,14 @@
 // edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs
 // edge_detection.cl.
 
-// The lower 16 bits, each two places above the one before.
-static inline uint spread_bits(uint bits) {
-  bits = (bits | bits << 8) & 0x00ff00ffu;
-  bits = (bits | bits << 4) & 0x0f0f0f0fu;
-  bits = (bits | bits << 2) & 0x33333333u;
-  return (bits | bits << 1) & 0x55555555u;
+// The lower 16 bits of both, in turn.
+static inline uint interleave_bits(const uint even, const uint odd) {
+  ulong bits = (ulong)even | (ulong)odd << 32;
+  bits = (bits | bits << 8) & 0x00ff00ff00ff00fful;
+  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0ful;
+  bits = (bits | bits << 2) & 0x3333333333333333ul;
+  bits = (bits | bits << 1) & 0x5555555555555555ul;
+  return (uint)bits | (uint)(bits >> 31);
 }
 
 // Gradient and maximum test of strip_rows rows of the doubled grid per work-item.
@@ -35,41 +37,44 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
     if (row < begin_y || row >= end_y || pixels == 0) counts[row] = 0;
   }
   if (pixels == 0) return;
+  // Column sums start at the last multiple of 16 floats of the plane that is far enough to the left: aligned vectors
+  // take one access to the cache, others two.
+  const int skipped = (margin - RADIUS + PAD_X) & 15;
 
   for (int row = begin_y - 1; row <= end_y; ++row) {
     if (begin_y >= end_y) break;
-    // Along y: column sums for the pixels margin - RADIUS .. width - 1 - margin + RADIUS + 1.
+    // Along y: column sums for the pixels margin - RADIUS - skipped .. width - 1 - margin + RADIUS + 1.
     const int phase_y = row & 1;
-    global const float* source = plane + ((row >> 1) + PAD_Y) * stride + PAD_X + margin - RADIUS;
+    global const float* source = plane + ((row >> 1) + PAD_Y) * stride + PAD_X + margin - RADIUS - skipped;
     global const float* weights_g = SMOOTH_TAPS(taps, phase_y);
     global const float* weights_dg = SLOPE_TAPS(taps, phase_y);
-    for (int i = 0; i < pixels + 2 * PAIRS; i += 16) {
+    for (int i = 0; i < skipped + pixels + 2 * PAIRS; i += 16) {
 #define AT(k) LOAD(source + i + (k)*stride)
       float16 g, dg;
       SMOOTH(float16, g, AT, weights_g, phase_y)
       SLOPE(float16, dg, AT, weights_dg, phase_y)
 #undef AT
-      vstore16(g, 0, smooth_y + i);
-      vstore16(dg, 0, slope_y + i);
+      STORE(g, smooth_y + i);
+      STORE(dg, slope_y + i);
     }
     // Along x: gradient and magnitude of both phases.
     global float* now = lines + (2 + 6 * ((row + 3) % 3)) * line;
     for (int i = 0; i < pixels; i += 16) {
       float16 gx0, gx1, gy0, gy1;
-#define AT(k) LOAD(smooth_y + i + RADIUS + (k))
+#define AT(k) LOAD(smooth_y + skipped + i + RADIUS + (k))
       SLOPE(float16, gx0, AT, SLOPE_TAPS(taps, 0), 0)
       SLOPE(float16, gx1, AT, SLOPE_TAPS(taps, 1), 1)
 #undef AT
-#define AT(k) LOAD(slope_y + i + RADIUS + (k))
+#define AT(k) LOAD(slope_y + skipped + i + RADIUS + (k))
       SMOOTH(float16, gy0, AT, SMOOTH_TAPS(taps, 0), 0)
       SMOOTH(float16, gy1, AT, SMOOTH_TAPS(taps, 1), 1)
 #undef AT
-      vstore16(gx0, 0, now + i);
-      vstore16(gy0, 0, now + line + i);
-      vstore16(MAGNITUDE(gx0, gy0), 0, now + 2 * line + i);
-      vstore16(gx1, 0, now + 3 * line + i);
-      vstore16(gy1, 0, now + 4 * line + i);
-      vstore16(MAGNITUDE(gx1, gy1), 0, now + 5 * line + i);
+      STORE(gx0, now + i);
+      STORE(gy0, now + line + i);
+      STORE(MAGNITUDE(gx0, gy0), now + 2 * line + i);
+      STORE(gx1, now + 3 * line + i);
+      STORE(gy1, now + 4 * line + i);
+      STORE(MAGNITUDE(gx1, gy1), now + 5 * line + i);
     }
     if (row <= begin_y) continue;
 
@@ -100,7 +105,7 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
       win1 &= IS_MAXIMUM(m1, ahead1, behind1);
       const uint won0 = lane_bits(win0), won1 = lane_bits(win1);
       if ((won0 | won1) == 0) continue;
-      uint won = spread_bits(won0) | spread_bits(won1) << 1;  // bit n: cell n of the 32
+      uint won = interleave_bits(won0, won1);  // bit n: cell n of the 32
       float ahead[32], behind[32];
       vstore16(ahead0, 0, ahead);
       vstore16(ahead1, 1, ahead);
@@ -118,9 +123,10 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
   }
 }
 
-// The derivatives at (x, y), written to d[0], d[8], d[16] ...; the columns of the window lie in lanes of 8.
+// The derivatives at (x, y), written to d[0], d[8], d[16] ...: each is the sum of its lanes. The columns of the window
+// lie in lanes of 8.
 static inline void window_derivatives(global const float* plane, const int stride, const float x, const float y,
-                                      float* d) {
+                                      float8* d) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   const int whole_x = (int)x, whole_y = (int)y;
   float weights_y[ORDERS][COLUMNS];
@@ -138,28 +144,22 @@ static inline void window_derivatives(global const float* plane, const int strid
   }
   const float8 level = (float8)window_level(plane, stride, whole_x, whole_y);
   global const float* window = WINDOW(plane, stride, whole_x, whole_y);
-  // Two blocks at a time, so that the sums stay in registers.
+  for (int k = 0; k < TAPS; ++k, window += stride) {
+    float8 grey[BLOCKS];
 #pragma unroll
-  for (int b = 0; b < BLOCKS; b += 2) {
-    global const float* row = window + 8 * b;
-    for (int k = 0; k < TAPS; ++k, row += stride) {
-      const float8 low = LOAD8(row) - level;
-      const float8 high = b + 1 < BLOCKS ? LOAD8(row + 8) - level : low;
+    for (int b = 0; b < BLOCKS; ++b) grey[b] = LOAD8(window + 8 * b) - level;
 #pragma unroll
-      for (int order = 0; order < ORDERS; ++order) {
-        const float8 weight = (float8)weights_y[order][k];
-        sums[order][b] = fma(weight, low, sums[order][b]);
-        if (b + 1 < BLOCKS) sums[order][b + 1] = fma(weight, high, sums[order][b + 1]);
-      }
+    for (int order = 0; order < ORDERS; ++order) {
+      const float8 weight = (float8)weights_y[order][k];
+#pragma unroll
+      for (int b = 0; b < BLOCKS; ++b) sums[order][b] = fma(weight, grey[b], sums[order][b]);
     }
   }
 #define DOT(position, order_x, order_y)                                                                    \
   {                                                                                                        \
     float8 sum_ = wx[0][order_x] * sums[order_y][0];                                                       \
     _Pragma("unroll") for (int b = 1; b < BLOCKS; ++b) sum_ = fma(wx[b][order_x], sums[order_y][b], sum_); \
-    const float4 four_ = sum_.lo + sum_.hi;                                                                \
-    const float2 two_ = four_.lo + four_.hi;                                                               \
-    d[8 * (position)] = two_.x + two_.y;                                                                   \
+    d[8 * (position)] = sum_;                                                                              \
   }
   DOT(0, 1, 0)
   DOT(1, 0, 1)
@@ -177,6 +177,20 @@ static inline void window_derivatives(global const float* plane, const int strid
   DOT(13, 0, 4)
 }
 
+// The sums of the lanes of eight vectors.
+static inline float8 lane_sums(const float8* v) {
+  float8 four[4], two[2];
+#pragma unroll
+  for (int k = 0; k < 4; ++k) four[k] = (float8)(v[k].lo, v[k + 4].lo) + (float8)(v[k].hi, v[k + 4].hi);
+#pragma unroll
+  for (int k = 0; k < 2; ++k) {
+    const float8 a = four[2 * k], b = four[2 * k + 1];
+    two[k] = (float8)(a.s01, b.s01, a.s45, b.s45) + (float8)(a.s23, b.s23, a.s67, b.s67);
+  }
+  const float8 a = two[0], b = two[1];
+  return (float8)(a.s02, b.s02, a.s46, b.s46) + (float8)(a.s13, b.s13, a.s57, b.s57);
+}
+
 // Third-order direction and Newton step of the winners, written in their position in scan order.
 // One work-item = one row of the doubled grid, 8 edges at a time.
 kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, global const float* plane,
@@ -192,7 +206,8 @@ kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, glo
   global float* strengths = edges + 3 * max_edges;
   global float* drifts = edges + 4 * max_edges;
   const int first = row_first[row], count = min(counts[row], max_edges - first);
-  float derivatives[DERIVATIVES * 8], x[8], y[8], theta[8], drift[8];
+  float8 derivatives[DERIVATIVES * 8];
+  float x[8], y[8], theta[8], drift[8];
   for (int k = 0; k < 8 * DERIVATIVES; ++k) derivatives[k] = 0.0f;
   for (int k = 0; k < 8; ++k) x[k] = y[k] = 0.0f;
   for (int begin = 0; begin < count; begin += 8) {
@@ -206,7 +221,7 @@ kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, glo
                          AT_CELL ? 0.5f * (float)row : winner.y, derivatives + k);
     }
     float8 d[DERIVATIVES], edge_x = vload8(0, x), edge_y = vload8(0, y), edge_drift;
-    for (int j = 0; j < DERIVATIVES; ++j) d[j] = vload8(j, derivatives);
+    for (int j = 0; j < DERIVATIVES; ++j) d[j] = lane_sums(derivatives + 8 * j);
     vstore8(third_order8(d, newton_max, &edge_x, &edge_y, &edge_drift), 0, theta);
     vstore8(edge_drift, 0, drift);
     vstore8(edge_x, 0, x);

@@ -61,9 +61,11 @@ kernel void side_patches(const PatchArguments args, global const uint* corners, 
   cut_two_patches(corners, width, height, patch_frame(x, y, cosine, sine, 1.0f, offset),
                   patch_frame(x, y, cosine, sine, -1.0f, offset), rows);
   float16 largest = 0.0f, squares = 0.0f;
+#pragma unroll
   for (int i = 0; i < kPatchRows; ++i) largest = max(largest, fabs(rows[i]));
   const float2 scales = scale_of(largest_lanes(both_used(largest)));
   const float16 scale = (float16)((float8)(scales.x), (float8)(scales.y));
+#pragma unroll
   for (int i = 0; i < kPatchRows; ++i) {
     const float16 row = both_used((rows[i] * scale + NO_FRACTION) - NO_FRACTION);
     squares += row * row;

@@ -62,9 +62,12 @@ static inline int lies_inside(const int base_x, const int base_y, const int widt
   return base_x >= 0 && base_y >= 0 && base_x + 2 * PATCH_REACH < width && base_y + 2 * PATCH_REACH < height;
 }
 
+// Called functions pass the rows through memory.
+#define INLINED static inline __attribute__((always_inline))
+
 // Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
-static inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                             const float dx, const float dy, float8* rows) {
+INLINED void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                       const float dx, const float dy, float8* rows) {
   const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
   const float x = frame.x + dx, y = frame.y + dy;
   // Relative to this pixel all samples inside the image have positive coordinates, so that truncating rounds down.
@@ -104,8 +107,8 @@ static inline void cut_patch(global const uint* corners, const int width, const 
 }
 
 // Two patches of one direction at once, as the halves of float16 rows; each the same bits as from cut_patch().
-static inline void cut_two_patches(global const uint* corners, const int width, const int height, const PatchFrame low,
-                                   const PatchFrame high, float16* rows) {
+INLINED void cut_two_patches(global const uint* corners, const int width, const int height, const PatchFrame low,
+                             const PatchFrame high, float16* rows) {
   const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
   const int low_x = (int)low.x - PATCH_REACH, low_y = (int)low.y - PATCH_REACH;
   const int high_x = (int)high.x - PATCH_REACH, high_y = (int)high.y - PATCH_REACH;

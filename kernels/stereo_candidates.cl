@@ -67,6 +67,14 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
     uint passing = lane_bits((distance <= wanted->tau) & (s >= wanted->s_low) & (s <= wanted->s_high) &
                              (min(turn, full_turn - turn) <= wanted->orientation));
     if (end - begin < LANES) passing &= (1u << (uint)(end - begin)) - 1u;
+#ifdef PACKED_LANES
+    if (count + LANES <= room) {
+      const int16 lanes = begin + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      STORE(PACKED_LANES(lanes, passing), target + count);
+      count += (int)popcount(passing);
+      passing = 0u;
+    }
+#endif
     for (; passing != 0u; passing &= passing - 1u, ++count) {
       if (count < room) target[count] = begin + lowest_bit(passing);
     }

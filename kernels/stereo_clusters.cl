@@ -9,6 +9,22 @@ static inline float rank_in_cluster(global const uchar* state, global const floa
   return state[c] == kCandidateRepresented ? similarity[c] - kBehindAll : similarity[c];
 }
 
+// The mean direction of the members order[from] .. order[to - 1], weighted by their distance from `middle`.
+static inline float mean_direction(global const float* position, global const float* right_direction,
+                                   global const int* target, global const int* order, const int from, const int to,
+                                   const float middle, const float sigma) {
+  float cosine = 0.0f, sine = 0.0f;
+  for (int k = from; k < to; ++k) {
+    const float distance = position[order[k]] - middle;
+    const float weight = exp(-0.5f * (distance / sigma) * (distance / sigma));
+    float member_cosine;
+    const float member_sine = sine_cosine(right_direction[target[order[k]]], &member_cosine);
+    cosine += weight * member_cosine;
+    sine += weight * member_sine;
+  }
+  return atan2(sine, cosine);
+}
+
 // One work-item = one left edge. Sorts its alive and represented candidates by position, cuts the row where the gap
 // reaches cluster_gap, the direction differs by more than cluster_orientation, or cluster_size_max is reached. The most
 // similar member represents a cluster. `order` is scratch.
@@ -50,18 +66,11 @@ kernel void stereo_clusters(const StereoClusterArguments args, global const int*
         chosen = order[k];
     }
     const float chosen_rank = rank_in_cluster(state, similarity, chosen);
-    float cosine = 0.0f, sine = 0.0f;
-    for (int k = from; k < to; ++k) {
-      const float distance = position[order[k]] - position[chosen];
-      const float weight = exp(-0.5f * (distance / args.cluster_sigma) * (distance / args.cluster_sigma));
-      float member_cosine;
-      const float member_sine = sine_cosine(right_direction[target[order[k]]], &member_cosine);
-      cosine += weight * member_cosine;
-      sine += weight * member_sine;
-    }
     const int k = begin + found;
     cluster_position[k] = position[chosen];
-    cluster_direction[k] = atan2(sine, cosine);
+    cluster_direction[k] = to - from == 1 ? right_direction[target[chosen]]
+                                          : mean_direction(position, right_direction, target, order, from, to,
+                                                           position[chosen], args.cluster_sigma);
     cluster_anchor[k] = target[chosen];
     cluster_similarity[k] = chosen_rank;
     ++found;

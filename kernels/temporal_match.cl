@@ -81,30 +81,33 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
   const int last_row = cell_of(y + radius, kCellHeight, rows);
 #ifdef LANES
   const int total = cell_first[columns * rows];
+  const float16 full_turn = 2.0f * PI_F;
 #endif
   int near = 0;
   for (int row = cell_of(y - radius, kCellHeight, rows); row <= last_row; ++row) {
     const int end = cell_first[row * columns + last_column + 1];
     int k = cell_first[row * columns + first_column];
 #ifdef LANES
-    // The same tests in the same arithmetic: by how much each fails at most. Points beyond the cells are read and left
-    // out.
+    // The same tests in the same arithmetic. Points beyond the cells are read and left out.
     for (const int last = min(end - 1, total - LANES); k <= last && near <= MOST - LANES; k += LANES) {
-      float excess[LANES];
-      TAPPED(float too_far[LANES];)
-      for (int lane = 0; lane < LANES; ++lane) {
-        const float dx = xs[k + lane] - x, dy = ys[k + lane] - y;
-        TAPPED(too_far[lane] = dx * dx + dy * dy - radius * radius;)
-        excess[lane] =
-            fmax(dx * dx + dy * dy - radius * radius, angle_between(directions[k + lane], direction) - orientation);
+      const float16 dx = LOAD(xs + k) - x, dy = LOAD(ys + k) - y, turn = fabs(LOAD(directions + k) - direction);
+      const int16 close = dx * dx + dy * dy <= radius * radius;
+      const uint lanes = end - k < LANES ? (1u << (uint)(end - k)) - 1u : ~0u;
+      const uint passing = lane_bits(close & (min(turn, full_turn - turn) <= orientation)) & lanes;
+#if defined(PACKED_LANES) && !defined(TAP)
+      ((packed16*)(target + near))->lanes = PACKED_LANES(as_int16(LOAD(numbers + k)), passing);
+      near += (int)popcount(passing);
+#else
+      uint visited = passing;
+      TAPPED(visited = lane_bits(close) & lanes;)
+      for (; visited != 0u; visited &= visited - 1u) {
+        const int lane = lowest_bit(visited), number = numbers[k + lane];
+        TAPPED(const int turned = !(passing >> (uint)lane & 1u);)
+        TAPPED(tap->at[near] = tap_candidate(tap, number, turned ? ORIENTATION_ORDER : kCandidateAlive);)
+        TAPPED(if (turned) continue;)
+        target[near++] = number;
       }
-      const int lanes = min(LANES, end - k);
-      for (int lane = 0; lane < lanes; ++lane) {  // points that do not pass are overwritten by the next ones
-        TAPPED(if (too_far[lane] <= 0.0f) tap->at[near] =
-                   tap_candidate(tap, numbers[k + lane], excess[lane] <= 0.0f ? kCandidateAlive : ORIENTATION_ORDER);)
-        target[near] = numbers[k + lane];
-        near += excess[lane] <= 0.0f;
-      }
+#endif
     }
 #endif
     for (; k < end; ++k) {

@@ -27,16 +27,24 @@ kernel IN_VECTORS void wide_describe(global const float* small, const int small_
   }
   float8 histogram[kWideCells * kWideCells];
   for (int cell = 0; cell < kWideCells * kWideCells; ++cell) histogram[cell] = 0.0f;
+  // Unrolled, so that weights are constants and the half of them that are zero are left out.
   for (int v = 0; v < SIDE; ++v) {
     float8 line[kWideCells];
     for (int cell = 0; cell < kWideCells; ++cell) line[cell] = 0.0f;
+#pragma unroll
     for (int u = 0; u < SIDE; ++u) {
       const float* p = samples + (v + 1) * (SIDE + 2) + u + 1;
       const float8 bins = wide_bins(p[1] - p[-1], p[SIDE + 2] - p[-(SIDE + 2)]);
-      for (int cell = 0; cell < kWideCells; ++cell) line[cell] += wide_weight(u - HALF, cell) * bins;
+#pragma unroll
+      for (int cell = 0; cell < kWideCells; ++cell)
+        if (wide_weight(u - HALF, cell) > 0.0f) line[cell] += wide_weight(u - HALF, cell) * bins;
     }
-    for (int cell = 0; cell < kWideCells * kWideCells; ++cell)
-      histogram[cell] += wide_weight(v - HALF, cell / kWideCells) * line[cell % kWideCells];
+    for (int row_of_cells = 0; row_of_cells < kWideCells; ++row_of_cells) {
+      const float weight = wide_weight(v - HALF, row_of_cells);
+      if (weight == 0.0f) continue;
+#pragma unroll
+      for (int cell = 0; cell < kWideCells; ++cell) histogram[row_of_cells * kWideCells + cell] += weight * line[cell];
+    }
   }
   float squares = 0.0f;
   for (int cell = 0; cell < kWideCells * kWideCells; ++cell) squares += wide_sum(histogram[cell] * histogram[cell]);
