@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "devices.hpp"
@@ -156,7 +157,10 @@ TEST_CASE("edge map: corrected poses move the views with their points, other vie
   for (std::size_t i = 0; i < after.size(); ++i) {
     CHECK((after[i].position - moved * before[i].position).norm() < 1e-9);
     CHECK((after[i].tangent.cast<double>() - moved.linear() * before[i].tangent.cast<double>()).norm() < 1e-5);
-    CHECK(after[i].sigma == Approx(before[i].sigma).epsilon(1e-3));
+    // Information is kept in single precision: rotating it adds 1e-7 of the largest direction's, about 1e6 / m^2 or
+    // more, to that of the smallest, which is 1 / sigma^2.
+    const double information = 1 / std::pow(before[i].sigma, 2);
+    CHECK(1 / std::pow(after[i].sigma, 2) == Approx(information).epsilon(1e-3).margin(0.1));
   }
   for (std::size_t i = 0; i < views.size(); ++i)
     CHECK((map.views()[i].world_from_left.matrix() - (moved * views[i].world_from_left).matrix()).norm() < 1e-12);
