@@ -29,7 +29,7 @@ constexpr std::size_t kSameSelection = 500;
 constexpr double kSmallestScale = 1e-6;
 
 /// Systematic errors of positions and of disparities that may look like an offset of all disparities [px].
-constexpr double kSystematicPosition = 0.03, kSystematicDisparity = 0.07;
+constexpr double kSystematicPosition = 0.02, kSystematicDisparity = 0.02;
 
 /// Minimum ratio of the pivots of the normal equations, after scaling the diagonal to one.
 constexpr double kSmallestPivot = 1e-12;
