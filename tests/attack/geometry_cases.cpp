@@ -262,7 +262,7 @@ std::vector<GeometryCase> make_cases() {
                          area < 0.5 ? Demand::right : Demand::reported, room, boards(area, speed, fine)});
   // Unsolved cases. The counts were measured when the row was added; a change that fixes a fault lowers them.
   const std::pair<const char*, int> open[] = {
-      {"right camera a frame late, cables", 6},
+      {"right camera a frame late, cables", 5},
       {"board over 45 % before a moving camera, cables", 0},
       {"board over 45 % before a moving camera, cables, mosaic", 0},
       {"still camera, board over 20 %, 2 px", 0},
