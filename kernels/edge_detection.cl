@@ -7,46 +7,41 @@
 //
 // Data: plane = the image as floats with replicated border (padded_plane.cl); pixel (i, j) lies at
 // (j + PAD_Y) * stride + i + PAD_X.
-// Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1,
-// between two.
-// taps = for phase 0, then phase 1: RADIUS + 1 weights of G, then of G', for the pairs of pixels at k + phase and -k.
-// winners = 4 floats per cell that won the maximum test: x, y, strength, X + direction_code() of the gradient.
+// taps = RADIUS + 1 weights of G, then of G', for the pairs of pixels at k and -k.
+// winners = 4 floats per pixel that won the maximum test: x, y, the pixel's column, direction_code() of its gradient.
 
 #ifndef RADIUS
 #define RADIUS 8
 #define SIGMA 2.0f
 #endif
-#ifndef AT_CELL
-#define AT_CELL 0
+#ifndef AT_PIXEL
+#define AT_PIXEL 0
 #endif
 
-#define PAIRS (RADIUS + 1)
 #define TAPS (2 * RADIUS + 2)    // per axis around an edge: at least RADIUS to either side
 #define BLOCKS ((TAPS + 7) / 8)  // the taps along x in lanes of 8
 #define COLUMNS (8 * BLOCKS)
 #define PAD_X (16 * ((RADIUS + 18) / 16))
 #define PAD_Y (RADIUS + 2)
 
-// Weights of one phase and order.
-#define SMOOTH_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS)
-#define SLOPE_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS + PAIRS)
+#define SMOOTH_TAPS(taps) (taps)
+#define SLOPE_TAPS(taps) ((taps) + RADIUS + 1)
 
-// result = sum over k of weights[k] * (AT(k + phase) +- AT(-k)), in this order. AT(k) is the sample k pixels further
-// on.
-#define SMOOTH(T, result, AT, weights, phase)                                                                        \
-  {                                                                                                                  \
-    T sum_ = (T)((weights)[0]) * (AT(phase) + AT(0));                                                                \
-    _Pragma("unroll") for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) + AT(-k), sum_); \
-    result = sum_;                                                                                                   \
+// result = sum over k of weights[k] * (AT(k) +- AT(-k)), in this order. AT(k) is the sample k pixels further on.
+#define SMOOTH(T, result, AT, weights)                                                                       \
+  {                                                                                                          \
+    T sum_ = (T)((weights)[0]) * AT(0);                                                                      \
+    _Pragma("unroll") for (int k = 1; k <= RADIUS; ++k) sum_ = fma((T)((weights)[k]), AT(k) + AT(-k), sum_); \
+    result = sum_;                                                                                           \
   }
-#define SLOPE(T, result, AT, weights, phase)                                                                         \
-  {                                                                                                                  \
-    T sum_ = (T)((weights)[0]) * (AT(phase) - AT(0));                                                                \
-    _Pragma("unroll") for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) - AT(-k), sum_); \
-    result = sum_;                                                                                                   \
+#define SLOPE(T, result, AT, weights)                                                                        \
+  {                                                                                                          \
+    T sum_ = (T)((weights)[1]) * (AT(1) - AT(-1));                                                           \
+    _Pragma("unroll") for (int k = 2; k <= RADIUS; ++k) sum_ = fma((T)((weights)[k]), AT(k) - AT(-k), sum_); \
+    result = sum_;                                                                                           \
   }
 
-// Gradient magnitude one step ahead of and behind a cell along its gradient, on the ring of its eight neighbours
+// Gradient magnitude one step ahead of and behind a pixel along its gradient, on the ring of its eight neighbours
 // (l, r, u, d: left, right, up, down).
 #define DEFINE_PROBES(NAME, T)                                                                                        \
   static inline void NAME(const T gx, const T gy, const T l, const T r, const T u, const T d, const T ul, const T ur, \
@@ -65,27 +60,25 @@ DEFINE_PROBES(probes16, float16)
 
 #define MAGNITUDE(gx, gy) sqrt(fma(gy, gy, (gx) * (gx)))
 
-// No smaller than either probe and larger than one.
-#define IS_MAXIMUM(m, ahead, behind) ((((m) > (behind)) & ((m) >= (ahead))) | (((m) >= (behind)) & ((m) > (ahead))))
+// Of equal neighbours along the gradient, only the first one is a maximum.
+#define IS_MAXIMUM(m, ahead, behind) (((m) > (behind)) & ((m) >= (ahead)))
 
-// The line along a gradient in steps of 0.2 degrees, as a fraction: that of 1024 codes, the upper half of which says
-// |gx| >= |gy|, the lower bits the ratio of the smaller to the larger component.
+// The line along a gradient in steps of 0.2 degrees: one of 1024 codes, the upper half of which says |gx| >= |gy|, the
+// lower bits the ratio of the smaller to the larger component.
 static inline float direction_code(const float gx, const float gy) {
   const int steep = fabs(gx) >= fabs(gy);
   const float ratio = (steep ? gy : gx) / (steep ? gx : gy);
   const float code = ((ratio + 1.0f) * 255.5f + 12582912.0f) - 12582912.0f; /* rounds to a whole number */
-  return ((steep ? 512.0f : 0.0f) + code) * (1.0f / 1024.0f);
+  return (steep ? 512.0f : 0.0f) + code;
 }
 
-// Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which
-// cancels.
-static inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, const float gy,
+// Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) pixels away, which cancels.
+static inline float4 parabola_peak(const int column, const int row, const float gx, const float gy,
                                    const float magnitude, const float ahead, const float behind) {
   const float rise = ahead - behind;
   const float t = -0.5f * rise / ((ahead - magnitude) + (behind - magnitude));
-  const float scale = 0.5f * t / fmax(fabs(gx), fabs(gy));
-  return (float4)(fma(scale, gx, 0.5f * (float)cell_x), fma(scale, gy, 0.5f * (float)cell_y),
-                  fma(0.25f * rise, t, magnitude), (float)cell_x + direction_code(gx, gy));
+  const float scale = t / fmax(fabs(gx), fabs(gy));
+  return (float4)(fma(scale, gx, (float)column), fma(scale, gy, (float)row), (float)column, direction_code(gx, gy));
 }
 
 // Weights of G and its derivatives up to the fourth at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
@@ -145,10 +138,11 @@ static inline float window_level(global const float* plane, const int stride, co
   14              // of the window: ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy, ixxxx, ixxxy, ixxyy, ixyyy, iyyyy
 #define ORDERS 5  // of derivation along one axis, 0 to 4
 
-// From the derivatives d at (x, y) to the direction; to the Newton step onto F = 0, which moves x and y; and to how far
-// the edge drifts towards its bright side per unit of log(SIGMA), by the heat equation.
+// From the derivatives d at (x, y) to the direction; to the Newton step onto F = 0, which moves x and y; to the
+// gradient magnitude; and to how far the edge drifts towards its bright side per unit of log(SIGMA), by the heat
+// equation.
 #define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                             \
-  static inline T NAME(const T* d, const float newton_max, T* x, T* y, T* drift) {                                     \
+  static inline T NAME(const T* d, const float newton_max, T* x, T* y, T* strength, T* drift) {                        \
     const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                                      \
     const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                               \
     const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7];        \
@@ -157,6 +151,7 @@ static inline float window_level(global const float* plane, const int stride, co
     const T slope = fx * d[0] + fy * d[1]; /* times |grad I| */                                                        \
     const T f = xx * d[2] + xy * d[3] + yy * d[4];                                                                     \
     const T magnitude = MAGNITUDE(d[0], d[1]);                                                                         \
+    *strength = magnitude;                                                                                             \
     const T longest = (T)newton_max;                                                                                   \
     const T step = slope < 0.0f ? clamp(-f * magnitude / slope, -longest, longest) / magnitude : (T)0.0f;              \
     *x = fma(step, d[0], *x);                                                                                          \

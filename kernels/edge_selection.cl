@@ -2,8 +2,8 @@
 // lines. doc/method.md section 1.
 //
 // Needs edge_detection.cl. In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or, with
-// IN_CELLS, of edge_detection_tile.cl (flags over the grid), which it thins out in place. An image's epipolar lines are
-// numbered by EpipolarRows in the same way in both images, so that an edge and its counterpart are kept together.
+// AT_PIXELS, of edge_detection_tile.cl (flags over the image), which it thins out in place. An image's epipolar lines
+// are numbered by EpipolarRows in the same way in both images, so that an edge and its counterpart are kept together.
 // First the maxima of both images are weighed by their number of edges at a spacing of 1 px, then the spacing is
 // computed from the budget, then the maxima are selected. All sums are integers, so their order does not matter.
 // Reference: host/reference/edge_selection.cpp.
@@ -11,7 +11,7 @@
 // The functions below for one maximum and for sixteen, with the same operations: T is float or float16, I int or int16.
 // crossing: the number of the epipolar line of a maximum; step: its difference between neighbouring maxima of the
 // curve; sine: of the angle between curve and line. The longer component of the tangent is 1, because neighbouring
-// maxima are half a pixel apart along it.
+// maxima are a pixel apart along it.
 // density: where a curve meets the lines at a small angle, the lines are closer, so that edges keep their distance: 1,
 // 1/2, 1/4, 1/8 or 1/16 of the spacing.
 // meets: true for the maximum of a curve that is nearest to a line of the lattice. width: 1; with 1.5 every other line
@@ -21,53 +21,52 @@
 // weight: the number of edges that a maximum contributes at a spacing of 1 px, times kSelectionUnit.
 #define CONVERT_TO_int convert_int
 #define CONVERT_TO_int16 convert_int16
-#define DEFINE_LATTICE(T, I, SUFFIX)                                                                              \
-  static inline T crossing##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code, \
-                                   T* step, T* sine) {                                                            \
-    const T code = (column_and_code - floor(column_and_code)) * 1024.0f;                                          \
-    const I steep = code >= 512.0f;                                                                               \
-    const T ratio = select(code, code - 512.0f, steep) / 255.5f - 1.0f;                                           \
-    const T tangent_x = select((T)1.0f, -ratio, steep), tangent_y = select(-ratio, (T)1.0f, steep);               \
-    const EpipolarRows rows = args->rows;                                                                         \
-    const T depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;                                     \
-    const T row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;                                \
-    const T by_x = (rows.across_x - row * rows.forward_x) / depth;                                                \
-    const T by_y = (rows.across_y - row * rows.forward_y) / depth;                                                \
-    const T rise = fabs(tangent_x * by_x + tangent_y * by_y);                                                     \
-    *step = 0.5f * rise;                                                                                          \
-    *sine = rise / sqrt((1.0f + ratio * ratio) * (by_x * by_x + by_y * by_y));                                    \
-    return row;                                                                                                   \
-  }                                                                                                               \
-  static inline T density##SUFFIX(const T sine) {                                                                 \
-    T density = select((T)1.0f, (T)0.5f, sine < 0.70710678f);                                                     \
-    density = select(density, (T)0.25f, sine < 0.35355339f);                                                      \
-    density = select(density, (T)0.125f, sine < 0.17677670f);                                                     \
-    return select(density, (T)0.0625f, sine < 0.08838835f);                                                       \
-  }                                                                                                               \
-  static inline I meets##SUFFIX(const T row, const T step, const T spacing, const float width) {                  \
-    const T distance = row - spacing * rint(row / spacing), reach = 0.5f * width * step;                          \
-    return distance >= -reach && distance < reach;                                                                \
-  }                                                                                                               \
-  static inline I chosen##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code,   \
-                                 const float spacing) {                                                           \
-    T step, sine;                                                                                                 \
-    const T row = crossing##SUFFIX(args, x, y, column_and_code, &step, &sine);                                    \
-    const float width = args->slack > 1.0f ? kSearchedWidth : 1.0f;                                               \
-    I chosen = meets##SUFFIX(row, step, spacing * density##SUFFIX(sine), width);                                  \
-    if (args->slack > 1.0f) {                                                                                     \
-      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine * args->slack), width);          \
-      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine / args->slack), width);          \
-    }                                                                                                             \
-    return chosen && sine >= args->min_sine;                                                                      \
-  }                                                                                                               \
-  static inline I weight##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code) { \
-    T step, sine;                                                                                                 \
-    crossing##SUFFIX(args, x, y, column_and_code, &step, &sine);                                                  \
-    const I weight = CONVERT_TO_##I(rint((float)kSelectionUnit * step / density##SUFFIX(sine)));                  \
-    return select((I)0, weight, sine >= args->min_sine);                                                          \
+#define DEFINE_LATTICE(T, I, SUFFIX)                                                                            \
+  static inline T crossing##SUFFIX(const SelectionArguments* args, const T x, const T y, const T code, T* step, \
+                                   T* sine) {                                                                   \
+    const I steep = code >= 512.0f;                                                                             \
+    const T ratio = select(code, code - 512.0f, steep) / 255.5f - 1.0f;                                         \
+    const T tangent_x = select((T)1.0f, -ratio, steep), tangent_y = select(-ratio, (T)1.0f, steep);             \
+    const EpipolarRows rows = args->rows;                                                                       \
+    const T depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;                                   \
+    const T row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;                              \
+    const T by_x = (rows.across_x - row * rows.forward_x) / depth;                                              \
+    const T by_y = (rows.across_y - row * rows.forward_y) / depth;                                              \
+    const T rise = fabs(tangent_x * by_x + tangent_y * by_y);                                                   \
+    *step = rise;                                                                                               \
+    *sine = rise / sqrt((1.0f + ratio * ratio) * (by_x * by_x + by_y * by_y));                                  \
+    return row;                                                                                                 \
+  }                                                                                                             \
+  static inline T density##SUFFIX(const T sine) {                                                               \
+    T density = select((T)1.0f, (T)0.5f, sine < 0.70710678f);                                                   \
+    density = select(density, (T)0.25f, sine < 0.35355339f);                                                    \
+    density = select(density, (T)0.125f, sine < 0.17677670f);                                                   \
+    return select(density, (T)0.0625f, sine < 0.08838835f);                                                     \
+  }                                                                                                             \
+  static inline I meets##SUFFIX(const T row, const T step, const T spacing, const float width) {                \
+    const T distance = row - spacing * rint(row / spacing), reach = 0.5f * width * step;                        \
+    return distance >= -reach && distance < reach;                                                              \
+  }                                                                                                             \
+  static inline I chosen##SUFFIX(const SelectionArguments* args, const T x, const T y, const T code,            \
+                                 const float spacing) {                                                         \
+    T step, sine;                                                                                               \
+    const T row = crossing##SUFFIX(args, x, y, code, &step, &sine);                                             \
+    const float width = args->slack > 1.0f ? kSearchedWidth : 1.0f;                                             \
+    I chosen = meets##SUFFIX(row, step, spacing * density##SUFFIX(sine), width);                                \
+    if (args->slack > 1.0f) {                                                                                   \
+      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine * args->slack), width);        \
+      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine / args->slack), width);        \
+    }                                                                                                           \
+    return chosen && sine >= args->min_sine;                                                                    \
+  }                                                                                                             \
+  static inline I weight##SUFFIX(const SelectionArguments* args, const T x, const T y, const T code) {          \
+    T step, sine;                                                                                               \
+    crossing##SUFFIX(args, x, y, code, &step, &sine);                                                           \
+    const I weight = CONVERT_TO_##I(rint((float)kSelectionUnit * step / density##SUFFIX(sine)));                \
+    return select((I)0, weight, sine >= args->min_sine);                                                        \
   }
 DEFINE_LATTICE(float, int, )
-#ifndef IN_CELLS
+#ifndef AT_PIXELS
 DEFINE_LATTICE(float16, int16, 16)
 #endif
 
@@ -80,20 +79,18 @@ kernel void edge_selection_spacing(const int budget, global int* tally, global f
   tally[0] = tally[1] = 0;
 }
 
-#ifdef IN_CELLS
+#ifdef AT_PIXELS
 
-// tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-group of GROUP per such
-// pair, which adds its sum once.
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edge_selection_weigh_cells(const SelectionArguments args,
-                                                                                          global const float* winners,
-                                                                                          global const uchar* flags,
-                                                                                          const int image,
-                                                                                          global int* tally) {
+// tally[image] += the weights of the maxima of every kSelectionSample-th row. One work-group of GROUP per such row,
+// which adds its sum once.
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edge_selection_weigh_pixels(
+    const SelectionArguments args, global const float* winners, global const uchar* flags, const int image,
+    global int* tally) {
   local int sums[GROUP];
-  const int item = (int)get_local_id(0), cells = 4 * args.width;
-  const size_t first = (size_t)get_group_id(0) * kSelectionSample * cells;
+  const int item = (int)get_local_id(0);
+  const size_t first = (size_t)get_group_id(0) * kSelectionSample * args.width;
   int sum = 0;
-  for (int i = item; i < cells; i += GROUP)
+  for (int i = item; i < args.width; i += GROUP)
     if (flags[first + i]) {
       const float4 winner = ((global const float4*)winners)[first + i];
       sum += weight(&args, winner.x, winner.y, winner.w);
@@ -106,14 +103,14 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edge_selection_we
   if (item == 0 && sums[0] > 0) atomic_add(tally + image, sums[0]);
 }
 
-// Clears the flags of the maxima that are not selected. One work-item per cell.
-kernel void edge_selection_cells(const SelectionArguments args, global const float* spacing_of_frame,
-                                 global const float* winners, global uchar* flags) {
-  const size_t cell = get_global_id(0);
+// Clears the flags of the maxima that are not selected. One work-item per pixel.
+kernel void edge_selection_pixels(const SelectionArguments args, global const float* spacing_of_frame,
+                                  global const float* winners, global uchar* flags) {
+  const size_t pixel = get_global_id(0);
   const float spacing = spacing_of_frame[0];
-  if (cell >= 4 * (size_t)args.width * args.height || spacing == 0.0f || !flags[cell]) return;
-  const float4 winner = ((global const float4*)winners)[cell];
-  flags[cell] = (uchar)chosen(&args, winner.x, winner.y, winner.w, spacing);
+  if (pixel >= (size_t)args.width * args.height || spacing == 0.0f || !flags[pixel]) return;
+  const float4 winner = ((global const float4*)winners)[pixel];
+  flags[pixel] = (uchar)chosen(&args, winner.x, winner.y, winner.w, spacing);
 }
 
 #else
@@ -126,23 +123,21 @@ static inline void transpose_maxima(global const float* maximum, float16* x, flo
   *code = (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
 }
 
-// Both kernels take sixteen maxima of a row at a time. Values read beyond the last one are not used (rows at the end of
-// the buffer have no maxima).
+// Both kernels take sixteen maxima of a row at a time. Values read beyond the last one are not used
+// (kMaximaAtOnce of them follow the last row).
 
-// tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-item per such pair.
+// tally[image] += the weights of the maxima of every kSelectionSample-th row. One work-item per such row.
 kernel void edge_selection_weigh_rows(const SelectionArguments args, global const float* winners,
                                       global const int* counts, const int image, global int* tally) {
-  const int pair = kSelectionSample * (int)get_global_id(0);
-  if (pair >= args.height) return;
+  const int row = kSelectionSample * (int)get_global_id(0);
+  if (row >= args.height) return;
   const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   int16 sums = 0;
-  for (int row = 2 * pair; row < 2 * pair + 2; ++row) {
-    global const float* in_row = winners + (size_t)row * 8 * args.width;
-    for (int begin = 0; begin < counts[row]; begin += 16) {
-      float16 x, y, code;
-      transpose_maxima(in_row + 4 * begin, &x, &y, &code);
-      sums += weight16(&args, x, y, code) & (begin + lanes < counts[row]);
-    }
+  global const float* in_row = winners + (size_t)row * 4 * args.width;
+  for (int begin = 0; begin < counts[row]; begin += 16) {
+    float16 x, y, code;
+    transpose_maxima(in_row + 4 * begin, &x, &y, &code);
+    sums += weight16(&args, x, y, code) & (begin + lanes < counts[row]);
   }
   const int8 eight = sums.lo + sums.hi;
   const int4 four = eight.lo + eight.hi;
@@ -150,13 +145,13 @@ kernel void edge_selection_weigh_rows(const SelectionArguments args, global cons
   if (two.x + two.y > 0) atomic_add(tally + image, two.x + two.y);
 }
 
-// Keeps the selected maxima of a row, in their order. One work-item per row of the doubled grid.
+// Keeps the selected maxima of a row, in their order. One work-item per row.
 kernel void edge_selection_rows(const SelectionArguments args, global const float* spacing_of_frame,
                                 global float* winners, global int* counts) {
   const int row = (int)get_global_id(0);
   const float spacing = spacing_of_frame[0];
-  if (row >= 2 * args.height || spacing == 0.0f) return;
-  global float* in_row = winners + (size_t)row * 8 * args.width;
+  if (row >= args.height || spacing == 0.0f) return;
+  global float* in_row = winners + (size_t)row * 4 * args.width;
   const int count = counts[row];
   int kept = 0;
   for (int begin = 0; begin < count; begin += 16) {

@@ -71,10 +71,10 @@ static inline void tally_gradient(const float grey, COLUMN const float* smooth_y
   if (grey <= 0.0f || grey >= args.max_grey) return;
   float gx, gy;
 #define AT(k) smooth_y[RADIUS + (k)]
-  SLOPE(float, gx, AT, SLOPE_TAPS(taps, 0), 0)
+  SLOPE(float, gx, AT, SLOPE_TAPS(taps))
 #undef AT
 #define AT(k) slope_y[RADIUS + (k)]
-  SMOOTH(float, gy, AT, SMOOTH_TAPS(taps, 0), 0)
+  SMOOTH(float, gy, AT, SMOOTH_TAPS(taps))
 #undef AT
   COUNT(gradient_bin(MAGNITUDE(gx, gy)));
 }
@@ -88,8 +88,8 @@ static inline void tally_gradients(global const float* pixel, const int points, 
 #define AT(k) LOAD(pixel + i - RADIUS + (k)*args.plane_stride)
   for (int i = 0; i < WINDOW_COLUMNS; i += 16) {
     float16 g, dg;
-    SMOOTH(float16, g, AT, SMOOTH_TAPS(taps, 0), 0)
-    SLOPE(float16, dg, AT, SLOPE_TAPS(taps, 0), 0)
+    SMOOTH(float16, g, AT, SMOOTH_TAPS(taps))
+    SLOPE(float16, dg, AT, SLOPE_TAPS(taps))
     vstore16(g, 0, smooth_y + i);
     vstore16(dg, 0, slope_y + i);
   }
@@ -123,8 +123,8 @@ static inline void tally_gradients(global const float* pixel, const int points, 
   barrier(CLK_LOCAL_MEM_FENCE);  // all work-items have read the previous columns
 #define AT(k) ONE(pixel + i - RADIUS + (k)*args.plane_stride)
   for (int i = item; i < columns; i += GROUP) {
-    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps, 0), 0)
-    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps, 0), 0)
+    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps))
+    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps))
   }
 #undef AT
   barrier(CLK_LOCAL_MEM_FENCE);

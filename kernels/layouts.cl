@@ -134,7 +134,7 @@ typedef struct {
 } ThresholdArguments;
 
 // Scratch memory of edge_detection_strip.cl: lines per work-item, and floats of a line in front of the first pixel.
-enum { kStripLines = 20, kStripLineFront = 16 };
+enum { kStripLines = 11, kStripLineFront = 16 };
 
 // edge_detection_strip.cl and edge_detection_tile.cl. Edges are packed in blocks of max_edges floats: x, y, direction,
 // strength.
@@ -156,11 +156,12 @@ typedef struct {
 
 enum {
   kSelectionUnit = 256,  // of the weights that edge_selection.cl adds up
-  kSelectionSample = 4   // one of so many pairs of rows of the doubled grid is weighed
+  kSelectionSample = 4,  // one of so many rows is weighed
+  kMaximaAtOnce = 16     // of a row that the selection tests together
 };
 FLOAT_CONSTANT kSearchedWidth = 1.25f;    // of the maxima around a line that the searched image keeps, in steps
 FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px: a maximum more or less does not change it
-FLOAT_CONSTANT kClosestSelection = 0.5f;  // px; maxima of a curve are not closer
+FLOAT_CONSTANT kClosestSelection = 1.0f;  // px; maxima of a curve are hardly closer
 
 // edge_selection.cl.
 typedef struct {

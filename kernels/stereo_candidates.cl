@@ -9,9 +9,9 @@
 // an exclusive scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
 
-// A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in
+// A position differs from that of its pixel by at most this along both axes [px] (kEdgeRowReach in
 // include/quadedge/edges.hpp).
-#define CELL_SLACK 0.5f
+#define EDGE_REACH 0.75f
 
 // Candidates tested together, of which some may be too far to the left.
 #ifdef LANES
@@ -20,7 +20,7 @@
 #define AT_ONCE 1
 #endif
 
-// An index in [begin, end) before which no x reaches `x`: positions within a row are ordered up to twice the slack;
+// An index in [begin, end) before which no x reaches `x`: positions within a row are ordered up to twice this reach;
 // fewer than AT_ONCE edges follow it that do not reach `x` either; they are tested with the others.
 static inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {
   while (end - begin >= AT_ONCE) {
@@ -105,22 +105,22 @@ static inline int visit_candidates(const float x, const float y, const float dir
   const float ax = line.x + wanted.s_low * line.ex, bx = line.x + wanted.s_high * line.ex;
   const float ay = line.y + wanted.s_low * line.ey, by = line.y + wanted.s_high * line.ey;
   const float x_low = fmin(ax, bx) - wanted.tau, x_high = fmax(ax, bx) + wanted.tau;
-  const float last_row = (float)(2 * right_height - 1);
-  const int row_low = (int)clamp(floor(2.0f * (fmin(ay, by) - wanted.tau - CELL_SLACK)), 0.0f, last_row);
-  const int row_high = (int)clamp(ceil(2.0f * (fmax(ay, by) + wanted.tau + CELL_SLACK)), 0.0f, last_row);
-  const int total = right_row_first[2 * right_height];
+  const float last_row = (float)(right_height - 1);
+  const int row_low = (int)clamp(floor(fmin(ay, by) - wanted.tau - EDGE_REACH), 0.0f, last_row);
+  const int row_high = (int)clamp(ceil(fmax(ay, by) + wanted.tau + EDGE_REACH), 0.0f, last_row);
+  const int total = right_row_first[right_height];
   int count = 0;
   for (int row = row_low; row <= row_high; ++row) {
     float from = x_low, to = x_high;
     if (fabs(wanted.nx) > 1e-4f) {
-      const float center = line.x - wanted.ny * (0.5f * (float)row - line.y) / wanted.nx;
-      const float reach = (wanted.tau + CELL_SLACK * fabs(wanted.ny)) / fabs(wanted.nx) + 0.01f;
+      const float center = line.x - wanted.ny * ((float)row - line.y) / wanted.nx;
+      const float reach = (wanted.tau + EDGE_REACH * fabs(wanted.ny)) / fabs(wanted.nx) + 0.01f;
       from = fmax(from, center - reach);
       to = fmin(to, center + reach);
     }
     const int end = right_row_first[row + 1];
-    const int begin = lower_bound_x(right_x, right_row_first[row], end, from - 2.0f * CELL_SLACK);
-    count = visit_row(&wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * CELL_SLACK, target,
+    const int begin = lower_bound_x(right_x, right_row_first[row], end, from - 2.0f * EDGE_REACH);
+    count = visit_row(&wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * EDGE_REACH, target,
                       room, count);
   }
   return count;

@@ -20,17 +20,18 @@ inline quadedge::reference::ReferenceEdges detect_edges(const quadedge::ImageVie
 
 inline void check_structure(const quadedge::reference::ReferenceEdges& edges, int width, int height,
                             const quadedge::EdgesConfig& config) {
-  REQUIRE(edges.row_first.size() == static_cast<std::size_t>(2 * height + 1));
+  REQUIRE(edges.row_first.size() == static_cast<std::size_t>(height + 1));
   CHECK(edges.row_first.front() == 0);
   CHECK(edges.row_first.back() == static_cast<int>(edges.size()));
-  for (int row = 0; row < 2 * height; ++row) {
+  for (int row = 0; row < height; ++row) {
     const auto r = static_cast<std::size_t>(row);
     REQUIRE(edges.row_first[r] <= edges.row_first[r + 1]);
     for (auto i = static_cast<std::size_t>(edges.row_first[r]); i < static_cast<std::size_t>(edges.row_first[r + 1]);
          ++i) {
-      REQUIRE(edges.cell_y[i] == row);
-      if (i > static_cast<std::size_t>(edges.row_first[r])) REQUIRE(edges.cell_x[i - 1] < edges.cell_x[i]);
-      REQUIRE(std::abs(edges.y[i] - 0.5 * row) < quadedge::kEdgeRowReach);
+      REQUIRE(edges.row[i] == row);
+      if (i > static_cast<std::size_t>(edges.row_first[r])) REQUIRE(edges.column[i - 1] < edges.column[i]);
+      REQUIRE(std::abs(edges.y[i] - row) < quadedge::kEdgeRowReach);
+      REQUIRE(std::abs(edges.x[i] - edges.column[i]) < quadedge::kEdgeRowReach);
     }
   }
   for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -44,18 +44,18 @@ struct Edge {
   double x, y, direction;
 };
 
-/// Edges in scan order of their nearest cells in the doubled grid, shifted by up to `slack` px: edges of neighbouring
-/// cells may not be in the order of x, like detected ones.
+/// Edges in scan order of their nearest pixels, shifted by up to `slack` px: like detected ones, edges of neighbouring
+/// pixels may not be in the order of x.
 inline EdgeSet make_edges(std::vector<Edge> edges, int height, double slack = 0, std::uint64_t seed = 1) {
-  const auto cell = [](double v) { return std::lround(2 * v); };
+  const auto pixel = [](double v) { return std::lround(v); };
   std::stable_sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
-    return std::pair(cell(a.y), cell(a.x)) < std::pair(cell(b.y), cell(b.x));
+    return std::pair(pixel(a.y), pixel(a.x)) < std::pair(pixel(b.y), pixel(b.x));
   });
   Random random(seed);
   EdgeSet set;
-  set.row_first.assign(2 * static_cast<std::size_t>(height) + 1, 0);
+  set.row_first.assign(static_cast<std::size_t>(height) + 1, 0);
   for (const Edge& edge : edges) {
-    const long row = std::clamp(cell(edge.y), 0L, 2L * height - 1);
+    const long row = std::clamp(pixel(edge.y), 0L, height - 1L);
     for (auto r = static_cast<std::size_t>(row) + 1; r < set.row_first.size(); ++r) ++set.row_first[r];
     set.x.push_back(static_cast<float>(edge.x + random(-slack, slack)));
     set.y.push_back(static_cast<float>(edge.y + random(-slack, slack)));

@@ -250,7 +250,7 @@ TEST_CASE("bench: the chosen threshold gives the requested number of edges", "[b
   frame.right = scene.right.front();
   for (const auto& name : all_devices()) {
     Device device(name, kept_programs());
-    for (const int wanted : {800, 3000}) {
+    for (const int wanted : {600, 1500}) {
       Config config = scene.config;
       config.edges.threshold = bench::threshold_for_edges(frame, wanted, device, config);
       const auto frontend = frontend::make_frontend(scene.rig, device, config);

@@ -91,7 +91,7 @@ TEST_CASE("config file: an error names the file, the line, the key, the expected
   CHECK_THAT(refusal("[edges]\nmargin = 10.5\n"), Contains("FILE:2: edges.margin: expected a whole number"));
   CHECK_THAT(refusal("[edges]\nmargin = 4294967297\n"), Contains("FILE:2: edges.margin: expected a whole number"));
   CHECK(refusal("[edges]\ndirection_at = \"here\"\n") ==
-        "FILE:2: edges.direction_at: expected subpixel, cell, found \"here\"");
+        "FILE:2: edges.direction_at: expected subpixel, pixel, found \"here\"");
   CHECK(refusal("[edges]\nsigma = [2]\n") == "FILE:2: edges.sigma: expected a number, found an array");
   CHECK(refusal("[stereo]\nncc_mni = 0.5\n") ==
         "FILE:2: unknown key \"stereo.ncc_mni\"; did you mean 'stereo.ncc_min'?");

@@ -57,7 +57,7 @@ TEST_CASE("constants: values outside the range are refused, its ends are accepte
   }
   config = {};
   config.edges.direction_at = "nowhere";
-  CHECK_THAT(fails(), Contains("edges.direction_at is nowhere") && Contains("subpixel, cell"));
+  CHECK_THAT(fails(), Contains("edges.direction_at is nowhere") && Contains("subpixel, pixel"));
   config = {};
   config.pose.min_inliers = 1;
   CHECK_THAT(fails(), Contains("pose.min_inliers is 1; allowed: at least 2"));

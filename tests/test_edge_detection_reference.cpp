@@ -66,7 +66,7 @@ TEST_CASE("edges: a vertical edge that is bright on the right points up, and con
 TEST_CASE("edges: pixel centres are integers, so a step between columns 31 and 32 lies at 31.5", "[edges]") {
   const Image image = render_shape(64, 48, 10, 250, [](double x, double) { return x > 31.5; });
   const ReferenceEdges edges = ::detect_edges(image.view(), {});
-  REQUIRE(edges.size() == 53);  // one per grid row strictly inside the margin: 21 .. 73
+  REQUIRE(edges.size() == 26);  // one per row strictly inside the margin: 11 .. 36
   for (const double x : edges.x) REQUIRE(std::abs(x - 31.5) < 1e-5);
 
   const Image lying = render_shape(48, 64, 10, 250, [](double, double y) { return y > 20.5; });
@@ -139,7 +139,8 @@ TEST_CASE("edges: the scale drift predicts where a larger scale finds the edges 
     drift /= static_cast<double>(count);
     moved /= static_cast<double>(count);
     REQUIRE(std::abs(moved) > 0.15);
-    CHECK(drift == Approx(moved).epsilon(0.1));
+    // Derivatives are taken at the peak of the parabola, which thin bars displace by a tenth of a pixel.
+    CHECK(drift == Approx(moved).epsilon(0.2));
   }
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("edges: a threshold of 2 accepts a contrast of 11 grey levels and reje
     return ::detect_edges(render_half_plane(64, 64, 31.5, 31.5, 0.0, 100, 100 + contrast).view(), {}).size();
   };
   CHECK(count(9) == 0);
-  CHECK(count(11) > 50);
+  CHECK(count(11) > 25);
 }
 
 TEST_CASE("edges: a flat image has none, at any grey level", "[edges]") {
@@ -229,11 +230,11 @@ TEST_CASE("edges: other scales detect the same straight edge with the expected s
   }
 }
 
-TEST_CASE("edges: on straight edges, directions at the cell agree with those at the sub-pixel point", "[edges]") {
+TEST_CASE("edges: on straight edges, directions at the pixel agree with those at the sub-pixel point", "[edges]") {
   const Image image = render_half_plane(64, 64, 31.4, 32.2, 37.0 * kDegree);
-  EdgesConfig cell;
-  cell.direction_at = "cell";
-  const ReferenceEdges edges = ::detect_edges(image.view(), cell);
+  EdgesConfig at_pixel;
+  at_pixel.direction_at = "pixel";
+  const ReferenceEdges edges = ::detect_edges(image.view(), at_pixel);
   REQUIRE(edges.size() > 40);
   for (const double direction : edges.direction)
     REQUIRE(angle_error(direction, (37.0 - 90.0) * kDegree) < 0.2 * kDegree);

@@ -54,7 +54,8 @@ TEST_CASE("edge mask: every device and variant keeps the same edges as the refer
   const EdgeSet expected = detect_edges(image.view(), reference, config, mask);
   REQUIRE(expected.size() > all.size() / 2);
   REQUIRE(expected.size() + 10 < all.size());
-  // Edges lie within half a pixel of their cell, and the Newton step moves them by less than another half.
+  // Edges lie within half a pixel of their pixel along both axes, and the Newton step moves them by less than another
+  // half.
   for (std::size_t i = 0; i < expected.size(); ++i) {
     bool clear = false;
     for (int y = static_cast<int>(expected.y[i]) - 1; y <= static_cast<int>(expected.y[i]) + 2; ++y)

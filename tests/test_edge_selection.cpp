@@ -45,30 +45,30 @@ struct DeviceMaxima {
 
 DeviceMaxima read(const stages::EdgeMaxima& maxima, int width, int height) {
   DeviceMaxima result;
-  const auto columns = 2 * static_cast<std::size_t>(width);
-  const auto winners = maxima.winners.read(8 * columns * static_cast<std::size_t>(height));
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  const auto winners = maxima.winners.read(4 * columns * rows);
   std::vector<cl_int> counts;
   std::vector<cl_uchar> flags;
-  if (maxima.in_cells) {
-    flags = maxima.flags.read(2 * columns * static_cast<std::size_t>(height));
+  if (maxima.at_pixels) {
+    flags = maxima.flags.read(columns * rows);
   } else {
-    counts = maxima.counts.read(2 * static_cast<std::size_t>(height));
+    counts = maxima.counts.read(rows);
   }
-  for (std::size_t row = 0; row < 2 * static_cast<std::size_t>(height); ++row) {
+  for (std::size_t row = 0; row < rows; ++row) {
     result.rows.emplace_back();
-    const std::size_t most = maxima.in_cells ? columns : static_cast<std::size_t>(counts[row]);
+    const std::size_t most = maxima.at_pixels ? columns : static_cast<std::size_t>(counts[row]);
     for (std::size_t k = 0; k < most; ++k) {
-      if (maxima.in_cells && flags[row * columns + k] == 0) continue;
+      if (maxima.at_pixels && flags[row * columns + k] == 0) continue;
       const cl_float* winner = winners.data() + 4 * (row * columns + k);
       result.rows.back().insert(result.rows.back().end(), winner, winner + 4);
-      const float code = (winner[3] - std::floor(winner[3])) * 1024.0F;
+      const float code = winner[3];
       const bool steep = code >= 512.0F;
       const float ratio = (steep ? code - 512.0F : code) / 255.5F - 1.0F;
       result.maxima.x.push_back(winner[0]);
       result.maxima.y.push_back(winner[1]);
       result.maxima.gradient_x.push_back(steep ? 1.0F : ratio);
       result.maxima.gradient_y.push_back(steep ? ratio : 1.0F);
-      result.maxima.cell_y.push_back(static_cast<std::int32_t>(row));
+      result.maxima.row.push_back(static_cast<std::int32_t>(row));
     }
   }
   return result;
@@ -91,16 +91,16 @@ std::size_t count_kept(const std::vector<std::uint8_t>& kept) {
   return static_cast<std::size_t>(std::count(kept.begin(), kept.end(), 1));
 }
 
-/// A curve of maxima half a pixel apart in their longer coordinate, at `angle` to the x axis.
+/// A curve of maxima a pixel apart in their longer coordinate, at `angle` to the x axis.
 reference::GradientMaxima straight_curve(double angle, double x, double y, double length) {
   reference::GradientMaxima maxima;
-  const double step = 0.5 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+  const double step = 1 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
   for (double s = 0; s < length; s += step) {
     maxima.x.push_back(static_cast<float>(x + s * std::cos(angle)));
     maxima.y.push_back(static_cast<float>(y + s * std::sin(angle)));
     maxima.gradient_x.push_back(static_cast<float>(-std::sin(angle)));
     maxima.gradient_y.push_back(static_cast<float>(std::cos(angle)));
-    maxima.cell_y.push_back(static_cast<std::int32_t>(std::lround(2 * maxima.y.back())));
+    maxima.row.push_back(static_cast<std::int32_t>(std::lround(maxima.y.back())));
   }
   return maxima;
 }
@@ -111,7 +111,7 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
   const int width = 61, height = 47;
   EdgesConfig config;
   config.margin = 2;
-  config.budget = 150;
+  config.budget = 75;
   for (const auto& rig : {rectified_rig(width, height), general_rig(width, height)}) {
     const SelectionArguments left = selection_arguments(rig, Side::left, {}),
                              right = selection_arguments(rig, Side::right, {});
@@ -191,10 +191,10 @@ TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly s
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (kept[i] != 0) at.push_back(std::hypot(curve.x[i] - curve.x[0], curve.y[i] - curve.y[0]));
     REQUIRE(at.size() > 2);
-    // Between 0.7 and 1.4 spacings apart, up to the grid's half pixel on either side.
+    // Between 0.7 and 1.4 spacings apart, up to a pixel on either side.
     for (std::size_t k = 1; k < at.size(); ++k) {
-      CHECK(at[k] - at[k - 1] > 0.7 * 3 - 0.75);
-      CHECK(at[k] - at[k - 1] < 1.42 * 3 + 0.75);
+      CHECK(at[k] - at[k - 1] > 0.7 * 3 - 1.42);
+      CHECK(at[k] - at[k - 1] < 1.42 * 3 + 1.42);
     }
   }
   // Edges along the epipolar lines cannot be matched, so none are kept.
@@ -218,13 +218,13 @@ TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]
       Eigen::Vector2d last = project(0, in_right);
       for (double s = 0; s < 1.2; s += 1e-4) {
         const Eigen::Vector2d here = project(s, in_right), tangent = project(s + 1e-4, in_right) - here;
-        if ((here - last).lpNorm<Eigen::Infinity>() < 0.5) continue;
+        if ((here - last).lpNorm<Eigen::Infinity>() < 1) continue;
         last = here;
         maxima.x.push_back(static_cast<float>(here.x()));
         maxima.y.push_back(static_cast<float>(here.y()));
         maxima.gradient_x.push_back(static_cast<float>(-tangent.y()));
         maxima.gradient_y.push_back(static_cast<float>(tangent.x()));
-        maxima.cell_y.push_back(0);
+        maxima.row.push_back(0);
       }
       return maxima;
     };
@@ -239,8 +239,9 @@ TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]
       if (kept[i] == 0) continue;
       ++chosen;
       const float row = number(left.rows, in_left.x[i], in_left.y[i]);
+      // Both lie within half a pixel of the same line.
       for (std::size_t k = 0; k < found.size(); ++k) {
-        if (found[k] == 0 || std::abs(number(right.rows, in_right.x[k], in_right.y[k]) - row) > 0.5F) continue;
+        if (found[k] == 0 || std::abs(number(right.rows, in_right.x[k], in_right.y[k]) - row) > 1.0F) continue;
         ++with_counterpart;
         break;
       }

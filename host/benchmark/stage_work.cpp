@@ -18,17 +18,16 @@ namespace {
 constexpr double kEdgeBytes = 4 * sizeof(float);   // x, y, direction, strength
 constexpr double kPlaceBytes = 3 * sizeof(float);  // x, y, direction
 
-/// doc/method.md section 1. The doubled grid has four cells per pixel, two phases per axis.
+/// doc/method.md section 1.
 StageWork edges_work(const FrameSize& frame, const EdgesConfig& config) {
   const double pairs = std::ceil(4 * config.sigma) + 1;  // taps of a kernel, mirrored ones taken together
   const double tap = 3;                                  // add or subtract the mirrored samples, multiply, add up
-  const double down = 2 * 2 * tap * pairs;               // per pixel: two phases of the Gaussian and its slope along y
-  const double along = 4 * 2 * tap * pairs;              // per pixel: four cells, both gradients along x
-  const double maximum = 4 * 15;                         // per pixel: four cells, magnitude, two probes, the test
+  const double filters = 2 * 2 * tap * pairs;            // per pixel: the Gaussian and its slope, along both axes
+  const double maximum = 15;                             // per pixel: magnitude, two probes, the test
   const double window = 2 * pairs;                       // samples per axis around an edge
   const double third_order =
       window * window * 5 * 2 + window * 14 * 2;  // five orders along x, then fourteen derivatives along y
-  return {frame.pixels + frame.edges * kEdgeBytes, frame.pixels * (down + along + maximum) + frame.edges * third_order};
+  return {frame.pixels + frame.edges * kEdgeBytes, frame.pixels * (filters + maximum) + frame.edges * third_order};
 }
 
 /// doc/method.md section 2: bilinear samples, mean-free, scaled to 8 bits, with their norm.

@@ -37,7 +37,7 @@ class BenchCommand : public Command {
     declare_view(options, scene_, size_);
     options.number("--scene-seed", scene_.seed, "seed of the built-in sequence");
     options.number("--edges", edges_,
-                   "choose edges.threshold for this number of edges per image; 0: as configured; -1: 50000 for the "
+                   "choose edges.threshold for this number of edges per image; 0: as configured; -1: 25000 for the "
                    "built-in sequence, as configured for a recorded one");
     options.number("--frames", frames_, "number of measured frames");
     options.number("--warm-up", warm_up_, "number of frames between the first and the measured ones");

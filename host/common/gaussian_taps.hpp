@@ -20,8 +20,8 @@ inline std::array<double, 5> gaussian_derivatives(double u, double sigma) {
           (u2 * u2 - 6.0 * u2 * s2 + 3.0 * s2 * s2) / (s2 * s2 * s2 * s2) * g};
 }
 
-/// Radius of a filter [px], at least 4 sigma. Filters centred on a pixel have 2 R + 1 taps, filters centred half-way
-/// between two pixels 2 R + 2. Both are symmetric, so that a constant image has zero gradient.
+/// Radius R of a filter [px], at least 4 sigma. Filters centred on a pixel have 2 R + 1 taps; they are symmetric, so
+/// that a constant image has zero gradient.
 inline int kernel_radius(double sigma) { return static_cast<int>(std::ceil(4.0 * sigma)); }
 
 }  // namespace quadedge

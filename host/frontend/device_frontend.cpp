@@ -1,5 +1,6 @@
 #include "frontend/device_frontend.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -79,7 +80,7 @@ void DeviceFrontend::detect(DeviceRig& current) {
   context_.finish();
   counts_ = {};
   counts_.edge_threshold = threshold_.host_threshold();
-  current.edges_spacing = selection_.host_spacing();
+  current.edges_spacing = std::max(selection_.host_spacing(), static_cast<double>(kClosestSelection));
   counts_.edges_left = left_.edges.host_count;
   counts_.edges_right = right_.edges.host_count;
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;

@@ -73,18 +73,17 @@ void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
   reference::ReferenceEdges right =
       reference::outside_mask(reference::detect_edges(now.right.view(), config_.edges, threshold),
                               calibration_.right_mask, config_.edges.margin);
-  now.edges_spacing = 0;
+  float spacing = 0;
   if (config_.edges.budget > 0) {
     const SelectionArguments in_left = selection_arguments(calibration_, Side::left, config_.stereo),
                              in_right =
                                  selection_arguments(calibration_, Side::right, config_.stereo, rectification_.error());
     const reference::GradientMaxima left_maxima = maxima_of(left), right_maxima = maxima_of(right);
-    const float spacing =
-        reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges.budget);
+    spacing = reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges.budget);
     left = select_edges(left, kept_by_selection(in_left, left_maxima, spacing));
     right = select_edges(right, kept_by_selection(in_right, right_maxima, spacing));
-    now.edges_spacing = static_cast<double>(spacing);
   }
+  now.edges_spacing = static_cast<double>(std::max(spacing, kClosestSelection));
   left_edges_ = limited(left, config_.edges, counts_.dropped_edges);
   right_edges_ = limited(right, config_.edges, counts_.dropped_edges);
 }

@@ -20,8 +20,9 @@ class Rig {
 
   int frame = -1;     ///< frame number, counted from 0 by the front end
   StereoEdges edges;  ///< on the host
-  /// Spacing of the epipolar lines on which edges were selected [px]; 0: all edges. See kernels/edge_selection.cl.
-  double edges_spacing = 0;
+  /// Spacing of the epipolar lines on which edges were selected, at least that of the maxima of a curve [px]. See
+  /// kernels/edge_selection.cl.
+  double edges_spacing = 1;
   /// The cameras that the edges refer to, if these are not the front end's; offset included.
   std::shared_ptr<const StereoRig> own_calibration;
 

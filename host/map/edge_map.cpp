@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMaxDepthError = 0.1;  ///< relative; points with larger errors carry little more than their direction
 constexpr double kAcross = 1.0;         ///< maximum distance of a projected point from an edge, across the edge [px]
-constexpr double kAlong = 1.0;          ///< the same along the edge; edges are half a pixel apart [px]
+constexpr double kAlong = 1.0;          ///< the same along the edge; edges are at least a pixel apart [px]
 constexpr double kMaxSlide = 2;         ///< maximum displacement along the tangent, whose depth may be wrong [px]
 constexpr double kTurn = 15 * kPi / 180;  ///< maximum angle between a projected tangent and an edge [rad]
 constexpr double kDeviations = 3;         ///< maximum deviation of the disparity, in standard deviations

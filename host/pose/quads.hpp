@@ -87,7 +87,7 @@ class QuadBuilder {
   /// \param current_measured measurements of `current`
   void build(const MeasuredEdges& previous, const StereoEdges& current, const MeasuredEdges& current_measured,
              const TemporalMatches& matches, const QuadLimits& limits, QuadObservations& quads);
-  /// \param spacing the larger of the two rigs' edge spacings; 0: all edges [px]
+  /// \param spacing the larger of the two rigs' edge spacings [px]
   static float half_length(double spacing);
 
  private:

@@ -11,80 +11,64 @@
 namespace quadedge::reference {
 namespace {
 
-/// One derivative order at one phase: taps for the pixels i + first .. i + first + size - 1 around pixel i.
-struct Kernel {
-  int first = 0;
-  std::vector<double> taps;
-};
-
-/// `half`: centred at i + 1/2 instead of i.
-Kernel make_kernel(double sigma, bool half, std::size_t order) {
+/// Taps of one derivative order, for the pixels i - radius .. i + radius around pixel i.
+std::vector<double> taps_of(double sigma, std::size_t order) {
   const int radius = kernel_radius(sigma);
-  Kernel kernel;
-  kernel.first = -radius;
-  for (int k = -radius; k <= radius + (half ? 1 : 0); ++k) {
-    kernel.taps.push_back(gaussian_derivatives((half ? 0.5 : 0.0) - k, sigma)[order]);
-  }
-  return kernel;
+  std::vector<double> taps;
+  for (int k = -radius; k <= radius; ++k) taps.push_back(gaussian_derivatives(-k, sigma)[order]);
+  return taps;
 }
 
 int clamp_index(int i, int size) { return std::clamp(i, 0, size - 1); }
 
 }  // namespace
 
-double GradientField::magnitude(int cell_x, int cell_y) const {
-  const std::size_t i = index(cell_x, cell_y);
+double GradientField::magnitude(int column, int row) const {
+  const std::size_t i = index(column, row);
   return std::sqrt(ix[i] * ix[i] + iy[i] * iy[i]);
 }
 
 GradientField gradient_field(ImageView image, const EdgesConfig& config) {
   if (image.empty()) throw UsageError("edge detection needs an image of at least 1 x 1 pixels");
   GradientField field;
-  field.columns = 2 * image.width - 1;
-  field.rows = 2 * image.height - 1;
-  field.ix.resize(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows));
+  field.width = image.width;
+  field.height = image.height;
+  field.ix.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   field.iy.resize(field.ix.size());
 
-  Kernel smooth[2], slope[2];
-  for (int phase = 0; phase < 2; ++phase) {
-    smooth[phase] = make_kernel(config.sigma, phase == 1, 0);
-    slope[phase] = make_kernel(config.sigma, phase == 1, 1);
-  }
-  // Along y first: one line of column sums per row of the doubled grid, then along x.
+  const int radius = kernel_radius(config.sigma);
+  const std::vector<double> g = taps_of(config.sigma, 0), dg = taps_of(config.sigma, 1);
+  // Along y first: one line of column sums per row, then along x.
   std::vector<double> smoothed(static_cast<std::size_t>(image.width)), sloped(smoothed.size());
-  for (int cell_y = 0; cell_y < field.rows; ++cell_y) {
-    const Kernel& g = smooth[cell_y % 2];
-    const Kernel& dg = slope[cell_y % 2];
+  for (int row = 0; row < image.height; ++row) {
     for (int x = 0; x < image.width; ++x) {
       double sum = 0, sum_slope = 0;
-      for (std::size_t k = 0; k < g.taps.size(); ++k) {
-        const double grey = image.at(x, clamp_index(cell_y / 2 + g.first + static_cast<int>(k), image.height));
-        sum += g.taps[k] * grey;
-        sum_slope += dg.taps[k] * grey;
+      for (std::size_t k = 0; k < g.size(); ++k) {
+        const double grey = image.at(x, clamp_index(row - radius + static_cast<int>(k), image.height));
+        sum += g[k] * grey;
+        sum_slope += dg[k] * grey;
       }
       smoothed[static_cast<std::size_t>(x)] = sum;
       sloped[static_cast<std::size_t>(x)] = sum_slope;
     }
-    for (int cell_x = 0; cell_x < field.columns; ++cell_x) {
-      const Kernel& h = smooth[cell_x % 2];
-      const Kernel& dh = slope[cell_x % 2];
+    for (int column = 0; column < image.width; ++column) {
       double ix = 0, iy = 0;
-      for (std::size_t k = 0; k < h.taps.size(); ++k) {
-        const auto x = static_cast<std::size_t>(clamp_index(cell_x / 2 + h.first + static_cast<int>(k), image.width));
-        ix += dh.taps[k] * smoothed[x];
-        iy += h.taps[k] * sloped[x];
+      for (std::size_t k = 0; k < g.size(); ++k) {
+        const auto x = static_cast<std::size_t>(clamp_index(column - radius + static_cast<int>(k), image.width));
+        ix += dg[k] * smoothed[x];
+        iy += g[k] * sloped[x];
       }
-      field.ix[field.index(cell_x, cell_y)] = ix;
-      field.iy[field.index(cell_x, cell_y)] = iy;
+      field.ix[field.index(column, row)] = ix;
+      field.iy[field.index(column, row)] = iy;
     }
   }
   return field;
 }
 
-Probe probe_maximum(const GradientField& field, int cell_x, int cell_y) {
-  const std::size_t i = field.index(cell_x, cell_y);
+Probe probe_maximum(const GradientField& field, int column, int row) {
+  const std::size_t i = field.index(column, row);
   Probe probe;
-  probe.magnitude = field.magnitude(cell_x, cell_y);
+  probe.magnitude = field.magnitude(column, row);
   probe.gx = field.ix[i] / probe.magnitude;
   probe.gy = field.iy[i] / probe.magnitude;
   const double ax = std::abs(field.ix[i]), ay = std::abs(field.iy[i]);
@@ -92,8 +76,8 @@ Probe probe_maximum(const GradientField& field, int cell_x, int cell_y) {
   const int axis_x = ax >= ay ? sx : 0, axis_y = ax >= ay ? 0 : sy;
   const double q = std::min(ax, ay) / std::max(ax, ay);
   const auto interpolate = [&](int sign) {
-    return (1.0 - q) * field.magnitude(cell_x + sign * axis_x, cell_y + sign * axis_y) +
-           q * field.magnitude(cell_x + sign * sx, cell_y + sign * sy);
+    return (1.0 - q) * field.magnitude(column + sign * axis_x, row + sign * axis_y) +
+           q * field.magnitude(column + sign * sx, row + sign * sy);
   };
   probe.ahead = interpolate(1);
   probe.behind = interpolate(-1);
@@ -180,37 +164,38 @@ double scale_drift(const Derivatives& d, const std::array<double, 2>& gradient_f
 ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold) {
   const GradientField field = gradient_field(image, config);
   ReferenceEdges edges;
-  for (int cell_y = 0; cell_y < 2 * image.height; ++cell_y) {
+  for (int row = 0; row < image.height; ++row) {
     edges.row_first.push_back(static_cast<std::int32_t>(edges.size()));
-    // Strictly inside the margin: the parabola shifts by at most 0.354 px, the Newton step by newton_max.
-    if (cell_y <= 2 * config.margin || cell_y >= 2 * (image.height - 1 - config.margin)) continue;
-    for (int cell_x = 2 * config.margin + 1; cell_x < 2 * (image.width - 1 - config.margin); ++cell_x) {
-      if (!(field.magnitude(cell_x, cell_y) > threshold)) continue;
-      const Probe probe = probe_maximum(field, cell_x, cell_y);
+    // Strictly inside the margin: the parabola shifts by at most half a pixel along both axes, the Newton step by
+    // newton_max.
+    if (row <= config.margin || row >= image.height - 1 - config.margin) continue;
+    for (int column = config.margin + 1; column < image.width - 1 - config.margin; ++column) {
+      if (!(field.magnitude(column, row) > threshold)) continue;
+      const Probe probe = probe_maximum(field, column, row);
       if (!probe.is_maximum()) continue;
       // Parabola through (-step, behind), (0, magnitude), (step, ahead).
       const double a = (probe.ahead + probe.behind - 2.0 * probe.magnitude) / (2.0 * probe.step * probe.step);
       const double b = (probe.ahead - probe.behind) / (2.0 * probe.step);
       const double shift = -b / (2.0 * a);
-      const double x = 0.5 * (cell_x + shift * probe.gx), y = 0.5 * (cell_y + shift * probe.gy);
-      const bool at_cell = config.direction_at == "cell";
-      const Derivatives d = at_cell ? derivatives_at(image, 0.5 * cell_x, 0.5 * cell_y, config.sigma)
-                                    : derivatives_at(image, x, y, config.sigma);
+      const double x = column + shift * probe.gx, y = row + shift * probe.gy;
+      const bool at_pixel = config.direction_at == "pixel";
+      const Derivatives d =
+          at_pixel ? derivatives_at(image, column, row, config.sigma) : derivatives_at(image, x, y, config.sigma);
       const std::array<double, 2> f = gradient_of_f(d);
       const double direction = std::atan2(f[0], -f[1]);
-      const double step = at_cell ? 0.0 : newton_step(d, f, config.newton_max);
+      const double step = at_pixel ? 0.0 : newton_step(d, f, config.newton_max);
       const double m = std::hypot(d.ix, d.iy);
       edges.x.push_back(x + step * d.ix / m);
       edges.y.push_back(y + step * d.iy / m);
       edges.direction.push_back(direction > -kPi ? direction : kPi);
-      edges.strength.push_back(probe.magnitude + 0.5 * b * shift);
+      edges.strength.push_back(m);
       edges.scale_drift.push_back(scale_drift(d, f, config.sigma));
       edges.gradient_x.push_back(probe.gx);
       edges.gradient_y.push_back(probe.gy);
       edges.peak_x.push_back(x);
       edges.peak_y.push_back(y);
-      edges.cell_x.push_back(cell_x);
-      edges.cell_y.push_back(cell_y);
+      edges.column.push_back(column);
+      edges.row.push_back(row);
     }
   }
   edges.row_first.push_back(static_cast<std::int32_t>(edges.size()));

@@ -10,7 +10,7 @@ ReferenceEdges outside_mask(const ReferenceEdges& edges, const PixelMask& mask, 
   const PixelMask wide = with_border(mask, margin);
   std::vector<std::uint8_t> kept;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const int x = edges.cell_x[i] / 2, y = edges.cell_y[i] / 2;
+    const int x = edges.column[i], y = edges.row[i];
     kept.push_back(
         wide.hidden[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide.width) + static_cast<std::size_t>(x)] ==
                 0

@@ -30,7 +30,7 @@ Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& max
   const float by_x = (rows.across_x - result.row * rows.forward_x) / depth,
               by_y = (rows.across_y - result.row * rows.forward_y) / depth;
   const float rise = std::abs(tangent_x * by_x + tangent_y * by_y);
-  result.step = 0.5F * rise;
+  result.step = rise;
   result.sine = rise / std::sqrt((1.0F + ratio * ratio) * (by_x * by_x + by_y * by_y));
   return result;
 }
@@ -50,7 +50,7 @@ bool meets(const Crossing& at, float spacing, float width) {
 double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
   double sum = 0;
   for (std::size_t i = 0; i < maxima.x.size(); ++i) {
-    if (maxima.cell_y[i] / 2 % kSelectionSample != 0) continue;
+    if (maxima.row[i] % kSelectionSample != 0) continue;
     const Crossing at = crossing(arguments, maxima, i);
     if (at.sine >= arguments.min_sine)
       sum += kSelectionSample *
@@ -63,7 +63,7 @@ double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& 
 
 GradientMaxima maxima_of(const ReferenceEdges& edges) {
   GradientMaxima maxima;
-  maxima.cell_y = edges.cell_y;
+  maxima.row = edges.row;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     maxima.x.push_back(static_cast<float>(edges.peak_x[i]));
     maxima.y.push_back(static_cast<float>(edges.peak_y[i]));
@@ -115,8 +115,8 @@ ReferenceEdges select_edges(const ReferenceEdges& edges, const std::vector<std::
   filter(edges.gradient_y, result.gradient_y);
   filter(edges.peak_x, result.peak_x);
   filter(edges.peak_y, result.peak_y);
-  filter(edges.cell_x, result.cell_x);
-  filter(edges.cell_y, result.cell_y);
+  filter(edges.column, result.column);
+  filter(edges.row, result.row);
   std::int32_t count = 0;
   std::size_t i = 0;
   for (const auto first : edges.row_first) {

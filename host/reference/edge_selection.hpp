@@ -13,7 +13,7 @@ namespace quadedge::reference {
 struct GradientMaxima {
   std::vector<float> x, y;                    ///< px
   std::vector<float> gradient_x, gradient_y;  ///< of any length
-  std::vector<std::int32_t> cell_y;           ///< row of the doubled grid
+  std::vector<std::int32_t> row;              ///< of the pixel
 };
 GradientMaxima maxima_of(const ReferenceEdges& edges);
 

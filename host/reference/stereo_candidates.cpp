@@ -20,10 +20,10 @@ Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const Ep
       const float s_max = is_probe ? std::max(line.s_max, probe.max_disparity) : line.s_max;
       const float s_low = -geometry.tolerance, s_high = s_max + geometry.tolerance;
       const float end_a = line.y + s_low * line.ey, end_b = line.y + s_high * line.ey;
-      // Rows of the doubled grid that the segment can touch; one row on either side for the sub-pixel shift.
+      // Rows that the segment can touch; one row on either side for the sub-pixel shift.
       const float reach = geometry.epipolar_distance + 1.0f;
       const auto row = [&](float y) {
-        return std::clamp(static_cast<int>(std::clamp(2.0f * y, -1e6f, 1e6f)), 0, std::max(last_row, 0));
+        return std::clamp(static_cast<int>(std::clamp(y, -1e6f, 1e6f)), 0, std::max(last_row, 0));
       };
       const auto begin =
           static_cast<std::size_t>(right.row_first[static_cast<std::size_t>(row(std::min(end_a, end_b) - reach))]);

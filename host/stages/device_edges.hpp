@@ -12,7 +12,7 @@ struct DeviceEdges {
   /// Five blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px], scale drift [px].
   opencl::Buffer<cl_float> packed;
   int stride = 0;
-  opencl::Buffer<cl_int> row_first;  ///< 2 * height + 1 starts of the rows of the doubled grid
+  opencl::Buffer<cl_int> row_first;  ///< height + 1 starts of the rows
   opencl::Buffer<cl_int> count;      ///< {number of edges, edges cut off because the capacity ran out}
   cl_int host_count = 0;             ///< count[0] after read_count()
   cl_int host_dropped = 0;           ///< count[1] after read_count(); if not 0, the frame reports an overflow
@@ -46,7 +46,7 @@ struct DeviceEdges {
       values->resize(static_cast<std::size_t>(host_count));
       packed.read_later(values->data(), values->size(), static_cast<std::size_t>(stride) * block++);
     }
-    edges.row_first = row_first.read(2 * static_cast<std::size_t>(height) + 1);
+    edges.row_first = row_first.read(static_cast<std::size_t>(height) + 1);
     return edges;
   }
 };

@@ -11,7 +11,7 @@ namespace quadedge::stages {
 namespace {
 
 constexpr std::size_t kItemsPerUnit = 1024;  // that a compute unit runs at once in edges_tile_directions
-constexpr int kStripRows = 64;  // rows of the doubled grid that one work-item filters: two more are computed twice
+constexpr int kStripRows = 32;               // that one work-item filters: two more are computed twice
 
 }  // namespace
 
@@ -19,18 +19,18 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
                              const std::map<std::string, std::string>& variants)
     : context_(context), width_(width), height_(height), config_(config), scan_(context, variants) {
   build(variants);
-  const auto cells = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto capacity = static_cast<std::size_t>(config.max_edges);
-  maxima_.in_cells = !strips_;
-  maxima_.winners.ensure(context, 4 * cells);
-  maxima_.counts.ensure(context, 2 * static_cast<std::size_t>(height));
+  maxima_.at_pixels = !strips_;
+  maxima_.winners.ensure(context, 4 * (pixels + kMaximaAtOnce));
+  maxima_.counts.ensure(context, static_cast<std::size_t>(height));
   if (strips_) {
-    line_ = kStripLineFront + round_up(width + 2 * kernel_radius(config.sigma) + 2 + 32, 16);
-    const int strips = (2 * height + kStripRows - 1) / kStripRows;
+    line_ = kStripLineFront + round_up(width + 2 * kernel_radius(config.sigma) + 32, 16);
+    const int strips = (height + kStripRows - 1) / kStripRows;
     scratch_.ensure(context,
                     static_cast<std::size_t>(strips) * kStripLines * static_cast<std::size_t>(line_) + kStripLineFront);
   } else {
-    maxima_.flags.ensure(context, cells);
+    maxima_.flags.ensure(context, pixels);
     compact_.ensure(context, 4 * capacity);
     rows_.ensure(context, capacity);
   }
@@ -58,7 +58,7 @@ void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
 }
 
 DetectionArguments EdgeDetection::arguments(const PaddedPlane& plane) const {
-  const double newton_max = config_.direction_at == "cell" ? 0.0 : config_.newton_max;
+  const double newton_max = config_.direction_at == "pixel" ? 0.0 : config_.newton_max;
   return {width_, height_, plane.stride(), config_.margin, static_cast<float>(newton_max), config_.max_edges};
 }
 
@@ -80,14 +80,14 @@ void EdgeDetection::take_directions(const PaddedPlane& plane, DeviceEdges& edges
   context_.begin_stage("edge_detection");
   edges.reserve(context_, config_.max_edges);
   const DetectionArguments arguments = this->arguments(plane);
-  const auto rows = static_cast<std::size_t>(2 * height_);
-  if (!strips_) tile_count_({rows * local_size_, local_size_}, maxima_.flags, 2 * width_, maxima_.counts);
-  scan_.run(maxima_.counts, 2 * height_, config_.max_edges, edges.row_first, edges.count);
+  const auto rows = static_cast<std::size_t>(height_);
+  if (!strips_) tile_count_({rows * local_size_, local_size_}, maxima_.flags, width_, maxima_.counts);
+  scan_.run(maxima_.counts, height_, config_.max_edges, edges.row_first, edges.count);
   if (strips_) {
     strip_directions_({rows, local_size_}, arguments, plane.pixels(), maxima_.winners, maxima_.counts, edges.row_first,
                       edges.packed);
   } else {
-    tile_compact_({rows * local_size_, local_size_}, maxima_.flags, 2 * width_, maxima_.winners, edges.row_first,
+    tile_compact_({rows * local_size_, local_size_}, maxima_.flags, width_, maxima_.winners, edges.row_first,
                   config_.max_edges, compact_, rows_);
     const std::size_t at_most = 8 * static_cast<std::size_t>(config_.max_edges);
     tile_directions_({std::min(at_most, context_.limits().compute_units * kItemsPerUnit), local_size_}, arguments,
@@ -96,7 +96,7 @@ void EdgeDetection::take_directions(const PaddedPlane& plane, DeviceEdges& edges
 }
 
 void EdgeDetection::find_maxima_in_strips(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
-  const auto strips = static_cast<std::size_t>((2 * height_ + kStripRows - 1) / kStripRows);
+  const auto strips = static_cast<std::size_t>((height_ + kStripRows - 1) / kStripRows);
   strip_maxima_({strips, local_size_}, arguments(plane), threshold, kStripRows, plane.pixels(), plane.taps(), scratch_,
                 line_, maxima_.winners, maxima_.counts);
 }

@@ -9,8 +9,8 @@ EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, 
   if (mask.empty()) return;
   hidden_.write(context, with_border(mask, margin).hidden);
   const cl::Program program = context.program({"edge_mask.cl"}, maxima.defines());
-  if (maxima.in_cells) {
-    cells_ = {context, program, "edge_mask_cells"};
+  if (maxima.at_pixels) {
+    pixels_ = {context, program, "edge_mask_pixels"};
   } else {
     rows_ = {context, program, "edge_mask_rows"};
   }
@@ -19,9 +19,9 @@ EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, 
 void EdgeMask::run(EdgeMaxima& maxima) {
   if (width_ == 0) return;
   context_.begin_stage("edge_mask");
-  const auto rows = 2 * static_cast<std::size_t>(height_), columns = 2 * static_cast<std::size_t>(width_);
-  if (maxima.in_cells) {
-    cells_({rows * columns, local_size_}, width_, height_, hidden_, maxima.flags);
+  const auto rows = static_cast<std::size_t>(height_), columns = static_cast<std::size_t>(width_);
+  if (maxima.at_pixels) {
+    pixels_({rows * columns, local_size_}, width_ * height_, hidden_, maxima.flags);
   } else {
     rows_({rows, local_size_}, width_, height_, hidden_, maxima.winners, maxima.counts);
   }

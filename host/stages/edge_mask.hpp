@@ -24,7 +24,7 @@ class EdgeMask {
   std::size_t local_size_;
   opencl::Buffer<cl_uchar> hidden_;  ///< empty: no mask
   opencl::Kernel<cl_int, cl_int, opencl::In<cl_uchar>, opencl::Out<cl_float>, opencl::Out<cl_int>> rows_;
-  opencl::Kernel<cl_int, cl_int, opencl::In<cl_uchar>, opencl::Out<cl_uchar>> cells_;
+  opencl::Kernel<cl_int, opencl::In<cl_uchar>, opencl::Out<cl_uchar>> pixels_;
 };
 
 }  // namespace quadedge::stages

@@ -16,12 +16,12 @@ EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config
   tally_.write(context, {0, 0});
   opencl::Defines defines = gradient_defines(config);
   defines.merge(maxima.defines());
-  if (maxima.in_cells) defines["GROUP"] = std::to_string(weighing_group_);
+  if (maxima.at_pixels) defines["GROUP"] = std::to_string(weighing_group_);
   const cl::Program program = context.program({"edge_detection.cl", "edge_selection.cl"}, defines);
   space_ = {context, program, "edge_selection_spacing"};
-  if (maxima.in_cells) {
-    weigh_cells_ = {context, program, "edge_selection_weigh_cells"};
-    choose_cells_ = {context, program, "edge_selection_cells"};
+  if (maxima.at_pixels) {
+    weigh_pixels_ = {context, program, "edge_selection_weigh_pixels"};
+    choose_pixels_ = {context, program, "edge_selection_pixels"};
   } else {
     weigh_rows_ = {context, program, "edge_selection_weigh_rows"};
     choose_rows_ = {context, program, "edge_selection_rows"};
@@ -30,18 +30,17 @@ EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config
 
 void EdgeSelection::weigh(const SelectionArguments& arguments, const EdgeMaxima& maxima, cl_int image) {
   const std::size_t samples = (static_cast<std::size_t>(arguments.height) + kSelectionSample - 1) / kSelectionSample;
-  if (maxima.in_cells) {
-    weigh_cells_({samples * weighing_group_, weighing_group_}, arguments, maxima.winners, maxima.flags, image, tally_);
+  if (maxima.at_pixels) {
+    weigh_pixels_({samples * weighing_group_, weighing_group_}, arguments, maxima.winners, maxima.flags, image, tally_);
   } else {
     weigh_rows_({samples, local_size_}, arguments, maxima.winners, maxima.counts, image, tally_);
   }
 }
 
 void EdgeSelection::choose(const SelectionArguments& arguments, EdgeMaxima& maxima) {
-  const auto rows = 2 * static_cast<std::size_t>(arguments.height),
-             columns = 2 * static_cast<std::size_t>(arguments.width);
-  if (maxima.in_cells) {
-    choose_cells_({rows * columns, local_size_}, arguments, spacing_, maxima.winners, maxima.flags);
+  const auto rows = static_cast<std::size_t>(arguments.height), columns = static_cast<std::size_t>(arguments.width);
+  if (maxima.at_pixels) {
+    choose_pixels_({rows * columns, local_size_}, arguments, spacing_, maxima.winners, maxima.flags);
   } else {
     choose_rows_({rows, local_size_}, arguments, spacing_, maxima.winners, maxima.counts);
   }

@@ -39,10 +39,10 @@ class EdgeSelection {
   opencl::Buffer<cl_float> spacing_;
   cl_float host_spacing_ = 0;
   opencl::Kernel<SelectionArguments, In, InInt, cl_int, OutInt> weigh_rows_;
-  opencl::Kernel<SelectionArguments, In, opencl::In<cl_uchar>, cl_int, OutInt> weigh_cells_;
+  opencl::Kernel<SelectionArguments, In, opencl::In<cl_uchar>, cl_int, OutInt> weigh_pixels_;
   opencl::Kernel<cl_int, OutInt, Out> space_;
   opencl::Kernel<SelectionArguments, In, Out, OutInt> choose_rows_;
-  opencl::Kernel<SelectionArguments, In, In, opencl::Out<cl_uchar>> choose_cells_;
+  opencl::Kernel<SelectionArguments, In, In, opencl::Out<cl_uchar>> choose_pixels_;
 };
 
 }  // namespace quadedge::stages

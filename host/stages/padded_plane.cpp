@@ -20,19 +20,13 @@ std::string float_literal(double value) {
   return text.str();
 }
 
-/// Weights of the pairs at k + phase and -k: for phase 0 those of G, then of G', then the same for phase 1.
+/// Weights of the pairs at k and -k: those of G, then of G'.
 std::vector<cl_float> pair_taps(double sigma) {
   const int radius = kernel_radius(sigma);
   std::vector<cl_float> taps;
-  for (int phase = 0; phase < 2; ++phase) {
-    for (std::size_t order = 0; order < 2; ++order) {
-      for (int k = 0; k <= radius; ++k) {
-        // The pixel at k + phase seen from the centre at phase / 2. The middle pixel of phase 0 counts twice in its
-        // pair.
-        const double weight = gaussian_derivatives(0.5 * phase - (k + phase), sigma)[order];
-        taps.push_back(static_cast<cl_float>(phase == 0 && k == 0 ? 0.5 * weight : weight));
-      }
-    }
+  for (std::size_t order = 0; order < 2; ++order) {
+    for (int k = 0; k <= radius; ++k)
+      taps.push_back(static_cast<cl_float>(gaussian_derivatives(-k, sigma)[order]));  // the pixel at k, from the centre
   }
   return taps;
 }
@@ -42,7 +36,7 @@ std::vector<cl_float> pair_taps(double sigma) {
 opencl::Defines gradient_defines(const EdgesConfig& config) {
   return {{"RADIUS", std::to_string(kernel_radius(config.sigma))},
           {"SIGMA", float_literal(config.sigma)},
-          {"AT_CELL", config.direction_at == "cell" ? "1" : "0"}};
+          {"AT_PIXEL", config.direction_at == "pixel" ? "1" : "0"}};
 }
 
 PaddedPlane::PaddedPlane(opencl::Context& context, int width, int height, double sigma, int max_value)

@@ -31,12 +31,11 @@ struct EdgePositionsView {
   std::size_t size() const { return x.size(); }
 };
 
-/// Largest vertical distance between an edge and the grid row that contains it [px]: 0.354 from the parabola plus the
-/// largest permitted Newton step.
-constexpr float kEdgeRowReach = 0.5F;
+/// Largest distance between an edge and the pixel whose gradient is the maximum, along x and along y [px]: 0.5 from the
+/// parabola plus the largest permitted Newton step.
+constexpr float kEdgeRowReach = 0.75F;
 
-/// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). doc/method.md section
-/// 1.
+/// Third-order edges of one image in scan order of their pixels (row by row, left to right). doc/method.md section 1.
 struct EdgeSet {
   std::vector<float> x, y;  ///< [px], the centre of the top-left pixel is (0, 0)
   /// Tangent [rad], in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on the
@@ -46,8 +45,8 @@ struct EdgeSet {
   /// Displacement of the edge towards its bright side per unit of log(edges.sigma) [px]. A change of image scale by the
   /// same factor displaces it equally; see doc/method.md section 6.
   std::vector<float> scale_drift;
-  /// First edge of each row of the doubled grid: row r contains the edges row_first[r] .. row_first[r + 1] - 1. Size 2
-  /// * height + 1. The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
+  /// First edge of each row of pixels: row r contains the edges row_first[r] .. row_first[r + 1] - 1. Size height + 1.
+  /// The row is that of the pixel that won the maximum test; y lies within kEdgeRowReach of r.
   std::vector<std::int32_t> row_first;
 
   EdgePositionsView positions() const { return {x, y, direction}; }
