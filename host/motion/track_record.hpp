@@ -16,8 +16,7 @@ class TrackRecord {
 
   /// Records the motion that was chosen; a failure resets the support.
   void remember(const MotionStep& found) {
-    const double support = std::max(found.verdict.support, kSupportDecay * recent_support_);
-    recent_support_ = found.ok() ? support : kUnknownSupport;
+    recent_support_ = found.ok() ? std::max(found.verdict.support, kSupportDecay * recent_support_) : 0;
     is_doubtful_ = found.doubt.exists();
     --frames_to_check_;
     if (!found.ok()) {
@@ -31,9 +30,10 @@ class TrackRecord {
   }
 
   /// Support from which a motion near the prediction is accepted without further tests: temporal.confident_support, or
-  /// less if recent motions had low support; 0 if there is no global search to ask.
+  /// less if recent motions had low support and no other motion was found; 0 if there is no global search to ask.
   double confident_support() const {
     if (limits_.wide_edges == 0) return 0;
+    if (!is_settled()) return limits_.confident_support;
     return std::min(limits_.confident_support, std::max(kChanceSupport, kRecentSupportRatio * recent_support_));
   }
   /// Whether the parts of the image that do not follow a motion have to be searched for another one.
@@ -48,10 +48,8 @@ class TrackRecord {
   bool is_doubtful() const { return is_doubtful_; }
 
  private:
-  static constexpr double kUnknownSupport = 1;
-
   TemporalConfig limits_;
-  double recent_support_ = kUnknownSupport;
+  double recent_support_ = 0;  // since the last failure
   bool is_doubtful_ = false;
   int frames_to_check_ = 0, rechecks_ = kRechecks;
   double checked_moving_ratio_ = 0;

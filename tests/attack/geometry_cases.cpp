@@ -271,6 +271,7 @@ std::vector<GeometryCase> make_cases() {
       {"still camera, board over 20 %, 4 px, mosaic", 0},
       {"still camera, board over 40 %, 2 px", 0},
       {"still camera, board over 40 %, 2 px, mosaic", 0},
+      {"still camera, board over 40 %, 4 px, mosaic", 0},
       {"still camera, board over 60 %, 2 px", 2},
       {"still camera, board over 60 %, 2 px, mosaic", 4},
   };
