@@ -34,10 +34,12 @@ TEST_CASE("presets: --preset applies its file; --config and the command line ove
   CHECK(effective({"--preset", "fast"}).edges.budget == 7000);
   CHECK(effective({"--preset", "dense", "--edges.budget", "9000"}).edges.budget == 9000);
   const TemporaryFolder folder;
-  dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 7000\n");
-  const Config both = effective({"--preset", "dense", "--config", folder / "mine.toml"});
+  dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 9000\n");
+  dataset_files::write_text(folder / "other.toml", "[stereo]\nncc_min = 0.5\n");
+  CHECK(effective({"--preset", "fast", "--config", folder / "mine.toml"}).edges.budget == 9000);
+  const Config both = effective({"--preset", "fast", "--config", folder / "other.toml"});
   CHECK(both.edges.budget == 7000);
-  CHECK(both.temporal.ncc_min == 0.6);
+  CHECK(both.stereo.ncc_min == 0.5);
   const auto wrong = run_program({"run", small_sequence(), "-o", folder / "out", "--preset", "fastest"});
   CHECK(wrong.code == 2);
   CHECK_THAT(wrong.err, Catch::Contains("--preset") && Catch::Contains("fastest"));
