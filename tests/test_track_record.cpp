@@ -6,10 +6,12 @@ using namespace quadedge;
 
 namespace {
 
-motion::MotionStep with(double support) {
+/// \param is_checked that the rest of the image was searched for another motion
+motion::MotionStep with(double support, bool is_checked = false) {
   motion::MotionStep step;
   step.motion.status = pose::MotionStatus::ok;
   step.verdict.support = support;
+  step.is_checked = is_checked;
   return step;
 }
 
@@ -19,7 +21,12 @@ TEST_CASE("track record: the support required follows the support of recent moti
   Config config;
   config.temporal.confident_support = 0.35;
   motion::TrackRecord record(config);
-  CHECK(record.confident_support() == 0.35);  // before the first motion
+  // The configured support, until three searches found no other motion.
+  for (int frame = 0; frame < 3; ++frame) {
+    CHECK(record.confident_support() == 0.35);
+    record.remember(with(0.5, true));
+  }
+  CHECK(record.confident_support() == Approx(0.25));
   for (int frame = 0; frame < 100; ++frame) record.remember(with(0.5));
   CHECK(record.confident_support() == Approx(0.25));
   record.remember(with(0.9));  // never requires more
@@ -28,6 +35,10 @@ TEST_CASE("track record: the support required follows the support of recent moti
   CHECK(record.confident_support() == Approx(0.2));  // nor less than chance may reach
   record.remember(motion::MotionStep());             // lost
   CHECK(record.confident_support() == 0.35);
+  for (int frame = 0; frame < 100; ++frame) record.remember(with(0.1));  // no search yet
+  CHECK(record.confident_support() == 0.35);
+  for (int frame = 0; frame < 3; ++frame) record.remember(with(0.1, true));
+  CHECK(record.confident_support() == Approx(0.2));
 }
 
 TEST_CASE("track record: without a global search to ask, any support will do", "[odometry]") {
