@@ -14,7 +14,7 @@
 // maxima are a pixel apart along it.
 // density: where a curve meets the lines at a small angle, the lines are closer, so that edges keep their distance: 1,
 // 1/2, 1/4, 1/8 or 1/16 of the spacing.
-// meets: true for the maximum of a curve that is nearest to a line of the lattice. width: 1; with 1.5 every other line
+// meets: true for the maximum of a curve that is nearest to a line of the lattice. width: 1; with 1.5, every other line
 // has two of them.
 // chosen: positions and directions of the two images differ slightly, so the searched image also keeps the neighbours,
 // and the maxima of neighbouring densities.

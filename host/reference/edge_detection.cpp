@@ -166,7 +166,7 @@ ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double t
   ReferenceEdges edges;
   for (int row = 0; row < image.height; ++row) {
     edges.row_first.push_back(static_cast<std::int32_t>(edges.size()));
-    // Strictly inside the margin: the parabola shifts by at most half a pixel along both axes, the Newton step by
+    // Strictly inside the margin: the parabola shifts by at most half a pixel along either axis, the Newton step by
     // newton_max.
     if (row <= config.margin || row >= image.height - 1 - config.margin) continue;
     for (int column = config.margin + 1; column < image.width - 1 - config.margin; ++column) {

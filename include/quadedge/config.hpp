@@ -58,7 +58,7 @@ struct Constant {
   std::string key() const { return section.empty() ? name : section + "." + name; }
   /// Value in `config` as text: the shortest decimal number that reads back as the same value.
   std::string text(const Config& config) const;
-  /// Allowed values: "0.01 to 1", "at least 0", "subpixel, cell", "true, false".
+  /// Allowed values: "0.01 to 1", "at least 0", "subpixel, pixel", "true, false".
   std::string allowed() const;
   /// \throws UsageError that names the constant, its value in `config` and the allowed values, if the value is not
   /// allowed.

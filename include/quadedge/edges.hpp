@@ -41,7 +41,7 @@ struct EdgeSet {
   /// Tangent [rad], in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on the
   /// right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
   std::vector<float> direction;
-  std::vector<float> strength;  ///< peak gradient magnitude, grey levels per pixel
+  std::vector<float> strength;  ///< gradient magnitude before the Newton step, grey levels per pixel
   /// Displacement of the edge towards its bright side per unit of log(edges.sigma) [px]. A change of image scale by the
   /// same factor displaces it equally; see doc/method.md section 6.
   std::vector<float> scale_drift;
