@@ -155,6 +155,28 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
     }
     CHECK(matches.size() > 200);
     CHECK(right > matches.size() * 7 / 10);
+    // Among certain edges only: all of them, every third, none.
+    const auto among = [&](std::size_t step) {
+      GlobalSearch some;
+      for (std::size_t i = 0; i < before.size(); i += step) some.of_base.push_back(static_cast<std::int32_t>(i));
+      for (std::size_t i = 0; i < second->edges.size(); i += step)
+        some.of_current.push_back(static_cast<std::int32_t>(i));
+      return some;
+    };
+    TemporalMatches of_some;
+    frontend->match_globally(*first, among(1), of_some);
+    CHECK(same_bytes(of_some, frontend->match_globally(*first, 1000000)));
+    frontend->match_globally(*first, among(3), of_some);
+    CHECK(of_some.size() > 30);
+    for (std::size_t m = 0; m < of_some.size(); ++m) {
+      CHECK(of_some.previous[m] % 3 == 0);
+      CHECK(of_some.current[m] % 3 == 0);
+      CHECK(of_some.left_x[m] == second->edges.left_x[static_cast<std::size_t>(of_some.current[m])]);
+    }
+    frontend->match_globally(*first, {among(1).of_base, {}}, of_some);
+    CHECK(of_some.size() == 0);
+    frontend->match_globally(*first, {{}, among(1).of_current}, of_some);
+    CHECK(of_some.size() == 0);
     return matches;
   };
   const auto expected = find("reference");

@@ -2,6 +2,8 @@
 /// \file temporal_search.hpp  Search areas of the temporal matching.
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "quadedge/edges.hpp"
 
@@ -13,6 +15,11 @@ struct TemporalSearch {
   float radius = 0;     ///< [px], around the predicted position
   int step = 1;         ///< only every step-th previous edge is matched
   bool coarse = false;  ///< whether the limits TemporalConfig::coarse_* apply
+};
+
+/// The stereo edges of the base and of the current rig that take part in a global search, by their numbers.
+struct GlobalSearch {
+  std::vector<std::int32_t> of_base, of_current;
 };
 
 /// Step of the edges used in a global search, so that about `wanted` of `count` take part.

@@ -7,6 +7,7 @@
 #include "common/coarse_search.hpp"
 #include "common/epipolar_rows.hpp"
 #include "common/layouts.hpp"
+#include "frontend/global_search.hpp"
 #include "frontend/memory_fit.hpp"
 
 namespace quadedge::frontend {
@@ -252,6 +253,34 @@ void DeviceFrontend::match_globally(const Rig& base, int edges, TemporalMatches&
   wide_description_.prepare(before.left_image.pixels, small_);
   const int rows = wide_description_.describe(small_, before, step, wide_before_);
   matches = wide_matching_.run({before, step, rows, wide_before_}, describe_current(2 * edges), current);
+}
+
+void DeviceFrontend::match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) {
+  matches.clear();
+  const DeviceRig &own = rigs_.own(base), &current = rigs_.current();
+  const StereoEdges before = edges_of(own.edges, among.of_base), now = edges_of(current.edges, among.of_current);
+  if ((!own.is_restored && before.size() == 0) || now.size() == 0) return;
+  std::vector<cl_float> packed[2];
+  const opencl::CopyGuard guard(context_);  // of both
+  const auto describe = [&](const StereoEdges& edges, const stages::DeviceImage& image, std::vector<cl_float>& values,
+                            stages::DeviceStereoEdges& some, opencl::Buffer<cl_uchar>& descriptors) {
+    for (const auto* column : {&edges.left_x, &edges.left_y, &edges.left_direction})
+      values.insert(values.end(), column->begin(), column->end());
+    some.reserve(context_, edges.size());
+    some.count = some.stride = static_cast<cl_int>(edges.size());
+    some.packed.write(values.data(), values.size());
+    wide_description_.prepare(image.pixels, small_);
+    return stages::DeviceWideEdges{some, 1, wide_description_.describe(small_, some, 1, descriptors), descriptors};
+  };
+  const auto described = describe(now, current.on_device.left_image, packed[0], some_now_, wide_some_);
+  if (own.is_restored) {
+    matches = wide_matching_.run({own.on_device, 1, own.on_device.count, own.wide}, described, now);
+  } else {
+    matches = wide_matching_.run(describe(before, own.on_device.left_image, packed[1], some_before_, wide_before_),
+                                 described, now);
+    renumber(among.of_base, matches.previous);
+  }
+  renumber(among.of_current, matches.current);
 }
 
 KeptRig DeviceFrontend::keep() {

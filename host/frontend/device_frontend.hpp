@@ -42,6 +42,7 @@ class DeviceFrontend : public Frontend {
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
   void match_globally(const Rig& base, int edges, TemporalMatches& matches) override;
+  void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) override;
   KeptRig keep() override;
   RigHandle restore(const KeptRig& kept) override;
   EdgeSet edges(Side side) override;
@@ -112,7 +113,8 @@ class DeviceFrontend : public Frontend {
 
   stages::DeviceCandidates candidates_, temporal_left_, temporal_right_;
   opencl::Buffer<cl_float> small_;  ///< reduced image for match_globally(), as are these descriptors
-  opencl::Buffer<cl_uchar> wide_before_, wide_now_;
+  opencl::Buffer<cl_uchar> wide_before_, wide_now_, wide_some_;
+  stages::DeviceStereoEdges some_before_, some_now_;  ///< of a search among certain edges: left positions, directions
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;
   stages::DeviceRelaxation relaxed_;

@@ -46,6 +46,8 @@ class Frontend {
   /// \param edges approximate number of the base's edges and, twice as many, of the current rig's that take part;
   /// ignored for a restored rig, which has its own
   virtual void match_globally(const Rig& base, int edges, TemporalMatches& matches) = 0;
+  /// The same among certain edges only. A restored rig takes part with all edges that it has.
+  virtual void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) = 0;
   TemporalMatches match(const Rig& base, const TemporalSearch& search) {
     TemporalMatches matches;
     match(base, search, matches);

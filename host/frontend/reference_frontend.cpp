@@ -5,6 +5,7 @@
 
 #include "common/coarse_search.hpp"
 #include "common/epipolar_rows.hpp"
+#include "frontend/global_search.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/edge_mask.hpp"
 #include "reference/edge_selection.hpp"
@@ -173,6 +174,19 @@ reference::WideEdges describe_some(const ReferenceRig& rig, int wanted) {
 void ReferenceFrontend::match_globally(const Rig& base, int edges, TemporalMatches& matches) {
   matches = reference::wide_matches(describe_some(rigs_.own(base), edges), describe_some(rigs_.current(), 2 * edges),
                                     config_.temporal);
+}
+
+void ReferenceFrontend::match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) {
+  const ReferenceRig &own = rigs_.own(base), &current = rigs_.current();
+  const StereoEdges before = edges_of(own.edges, among.of_base), now = edges_of(current.edges, among.of_current);
+  const auto describe = [](const ReferenceRig& rig, const StereoEdges& edges) {
+    return reference::WideEdges{edges, 1, reference::wide_descriptions(reference::shrink(rig.left.view()), edges, 1)};
+  };
+  const bool is_restored = !own.wide.empty();
+  matches = reference::wide_matches(is_restored ? describe_some(own, 1) : describe(own, before), describe(current, now),
+                                    config_.temporal);
+  if (!is_restored) renumber(among.of_base, matches.previous);
+  renumber(among.of_current, matches.current);
 }
 
 KeptRig ReferenceFrontend::keep() {

@@ -28,6 +28,7 @@ class ReferenceFrontend : public Frontend {
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
   void match_globally(const Rig& base, int edges, TemporalMatches& matches) override;
+  void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) override;
   KeptRig keep() override;
   RigHandle restore(const KeptRig& kept) override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }

@@ -1,11 +1,31 @@
 #include "motion/motion_elsewhere.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
+#include "frontend/prediction.hpp"
 #include "motion/motion_constants.hpp"
 #include "motion/relocalisation.hpp"
 
 namespace quadedge::motion {
+namespace {
+
+/// Up to twice `most` of the edges at these positions that lie in free cells, evenly from the list.
+void take_free(const ExplainedCells& cells, const std::vector<float>& x, const std::vector<float>& y, int most,
+               std::vector<std::int32_t>& numbers) {
+  numbers.clear();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const ExplainedCell* cell = cells.at(x[i], y[i]);
+    if (cell != nullptr && cell->is_free()) numbers.push_back(static_cast<std::int32_t>(i));
+  }
+  const auto step = static_cast<std::size_t>(wide_step(numbers.size(), most));
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < numbers.size(); k += step) numbers[kept++] = numbers[k];
+  numbers.resize(kept);
+}
+
+}  // namespace
 
 MotionElsewhere::MotionElsewhere(const Config& config, frontend::Frontend& frontend, StepBuilder& steps,
                                  Confirmation& confirmation, const Acceptance& acceptance)
@@ -16,24 +36,21 @@ MotionElsewhere::MotionElsewhere(const Config& config, frontend::Frontend& front
       confirmation_(confirmation),
       acceptance_(acceptance) {}
 
-Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches,
-                                bool thorough) {
-  const int edges = config_.temporal.wide_edges / (thorough ? 1 : kElsewhereThinning);
-  if (global_matches == nullptr) frontend_.match_globally(*query.base, std::max(1, edges), matches_);
-  const TemporalMatches& all = global_matches != nullptr ? global_matches->matches : matches_;
+Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chosen) {
+  const Eigen::Isometry3d by_chosen = motion_since(query.base, query, chosen);
+  frontend::predict_positions(steps_.calibration(), query.base->edges, steps_.measured(*query.base), by_chosen,
+                              config_.temporal.radius, 1, predicted_);
+  const StereoEdges& current = query.current->edges;
+  const int most = std::max(1, config_.temporal.wide_edges / kElsewhereThinning);
+  take_free(chosen.cells, predicted_.left.x, predicted_.left.y, most, among_.of_base);
+  take_free(chosen.cells, current.left_x, current.left_y, 2 * most, among_.of_current);
   const StepHandle proposed = steps_.take(query.base);
-  for (std::size_t m = 0; m < all.size(); ++m) {
-    const ExplainedCell* cell = chosen.cells.at(all.left_x[m], all.left_y[m]);
-    if (cell == nullptr || !cell->is_free()) continue;
-    proposed->matches.append(all.previous[m], all.current[m], query.current->edges, all.ncc[m],
-                             all.competing_clusters[m]);
-  }
+  frontend_.match_globally(*query.base, among_, proposed->matches);
   steps_.propose(query, limits_, std::nullopt, *proposed);
   if (!proposed->ok()) return {};
   const StepHandle other = confirmation_.confirm_beside(query, proposed->motion.current_from_previous, chosen.cells);
   if (!other->ok()) return {};
-  const ExplainedCells cells =
-      acceptance_.explained_beside(*other, motion_since(query.base, query, chosen), config_.pose.inlier_distance);
+  const ExplainedCells cells = acceptance_.explained_beside(*other, by_chosen, config_.pose.inlier_distance);
   const int searched = chosen.cells.count(false), following = cells.count(true);
   const double count = following;
   Elsewhere found;

@@ -10,17 +10,15 @@
 namespace quadedge::motion {
 
 /// An object that fills much of the image may hold most of the edges, so that its motion is chosen with confidence. The
-/// scene beside it moves too far to be found near that motion; it is searched for among the global matches.
+/// scene beside it moves too far to be found near that motion. It is searched for by global matches between the edges
+/// of the cells that the chosen motion does not explain: those of the base by where it predicts them.
 class MotionElsewhere {
  public:
   /// Refers to all arguments except the configuration; they must outlive the object.
   MotionElsewhere(const Config& config, frontend::Frontend& frontend, StepBuilder& steps, Confirmation& confirmation,
                   const Acceptance& acceptance);
 
-  /// \param global_matches of the query's base; null if none were computed
-  /// \param thorough whether all of temporal.wide_edges take part if they have to be computed, which takes as long as
-  /// the rest of the frame
-  Elsewhere find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches, bool thorough);
+  Elsewhere find(const MotionQuery& query, const MotionStep& chosen);
 
  private:
   Config config_;
@@ -29,7 +27,8 @@ class MotionElsewhere {
   StepBuilder& steps_;
   Confirmation& confirmation_;
   const Acceptance& acceptance_;
-  TemporalMatches matches_;  ///< kept between calls
+  TemporalSearch predicted_;  ///< kept between calls, as is the next
+  GlobalSearch among_;
 };
 
 }  // namespace quadedge::motion

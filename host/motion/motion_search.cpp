@@ -44,9 +44,7 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   MotionStep& chosen = *trials.at(selection.trial).outcome();
   chosen.is_checked = selection.accepted && query.most == Effort::everything && record_.is_check_due(chosen.verdict);
   if (chosen.is_checked) {
-    const Doubt beside =
-        doubt_about(elsewhere_.find(query, chosen, evidence_of(trials).global_matches, !record_.is_settled()),
-                    record_.is_doubtful());
+    const Doubt beside = doubt_about(elsewhere_.find(query, chosen), record_.is_doubtful());
     if (!selection.doubt.exists()) selection.doubt = beside;
   }
   StepHandle found = std::move(trials.at(selection.trial).outcome());
