@@ -7,8 +7,8 @@ tests="$1" kernels="$2"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 status=0
-# In one thread: with several, oclgrind 21.10's counter of instructions, which tells which kernels ran, corrupts the
-# heap now and then.
+# Single-threaded: with several threads, the instruction counter of oclgrind 21.10, which is needed below to see which
+# kernels ran, occasionally corrupts the heap.
 oclgrind --check-api --data-races --inst-counts --num-threads 1 --log "$folder/log" "$tests" "[oclgrind]" \
   >"$folder/out" || status=$?
 grep -avE "^Instructions executed|^ +[0-9,]+ - |^$" "$folder/out" || true

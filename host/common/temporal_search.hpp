@@ -17,7 +17,7 @@ struct TemporalSearch {
   bool coarse = false;  ///< whether the limits TemporalConfig::coarse_* apply
 };
 
-/// The stereo edges of the base and of the current rig that take part in a global search, by their numbers.
+/// Indices of the stereo edges of the base and of the current rig that take part in a global search.
 struct GlobalSearch {
   std::vector<std::int32_t> of_base, of_current;
 };

@@ -261,7 +261,7 @@ void DeviceFrontend::match_globally(const Rig& base, const GlobalSearch& among, 
   const StereoEdges before = edges_of(own.edges, among.of_base), now = edges_of(current.edges, among.of_current);
   if ((!own.is_restored && before.size() == 0) || now.size() == 0) return;
   std::vector<cl_float> packed[2];
-  const opencl::CopyGuard guard(context_);  // of both
+  const opencl::CopyGuard guard(context_);  // until both lists have been copied
   const auto describe = [&](const StereoEdges& edges, const stages::DeviceImage& image, std::vector<cl_float>& values,
                             stages::DeviceStereoEdges& some, opencl::Buffer<cl_uchar>& descriptors) {
     for (const auto* column : {&edges.left_x, &edges.left_y, &edges.left_direction})

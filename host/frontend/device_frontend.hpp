@@ -114,7 +114,7 @@ class DeviceFrontend : public Frontend {
   stages::DeviceCandidates candidates_, temporal_left_, temporal_right_;
   opencl::Buffer<cl_float> small_;  ///< reduced image for match_globally(), as are these descriptors
   opencl::Buffer<cl_uchar> wide_before_, wide_now_, wide_some_;
-  stages::DeviceStereoEdges some_before_, some_now_;  ///< of a search among certain edges: left positions, directions
+  stages::DeviceStereoEdges some_before_, some_now_;  ///< edges given to match_globally(): left positions, directions
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;
   stages::DeviceRelaxation relaxed_;

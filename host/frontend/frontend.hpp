@@ -46,7 +46,7 @@ class Frontend {
   /// \param edges approximate number of the base's edges and, twice as many, of the current rig's that take part;
   /// ignored for a restored rig, which has its own
   virtual void match_globally(const Rig& base, int edges, TemporalMatches& matches) = 0;
-  /// The same among certain edges only. A restored rig takes part with all edges that it has.
+  /// The same among the given edges only. For a restored base, of_base is ignored: all its edges take part.
   virtual void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) = 0;
   TemporalMatches match(const Rig& base, const TemporalSearch& search) {
     TemporalMatches matches;

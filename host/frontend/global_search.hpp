@@ -1,5 +1,5 @@
 #pragma once
-/// \file global_search.hpp  The stereo edges that take part in a global search, as lists of their own.
+/// \file global_search.hpp  Extracts the stereo edges that take part in a global search.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace quadedge::frontend {
 
-/// Positions and directions of the edges with these numbers.
+/// The edges with these indices: positions and directions only; left_index holds the indices themselves.
 inline StereoEdges edges_of(const StereoEdges& edges, const std::vector<std::int32_t>& numbers) {
   StereoEdges some;
   some.left_index = numbers;
@@ -26,7 +26,7 @@ inline StereoEdges edges_of(const StereoEdges& edges, const std::vector<std::int
   return some;
 }
 
-/// Turns indices into such a list back into numbers of edges.
+/// Replaces indices into the result of edges_of() by the indices of the same edges in the full list.
 inline void renumber(const std::vector<std::int32_t>& numbers, std::vector<std::int32_t>& indices) {
   for (auto& index : indices) index = numbers[static_cast<std::size_t>(index)];
 }

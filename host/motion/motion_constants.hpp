@@ -38,8 +38,9 @@ constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurrounding
 /// is found in one frame is seldom gone in the next.
 constexpr double kDoubtfulElsewhere = 0.25;
 
-/// A search in the cells that the chosen motion does not explain is thinned from temporal.wide_edges on to no less than
-/// a half of them. It finds as many boards over a street as a search with twice as many.
+/// Lists of edges in cells that the chosen motion does not explain are thinned once they reach temporal.wide_edges (of
+/// the current rig: twice that), but to no fewer than it divided by this. This finds as many boards in front of a
+/// street as a search with twice as many edges.
 constexpr int kElsewhereThinning = 2;
 
 /// The rest of the image is searched for another motion after this number of frames, or earlier if the moving ratio has

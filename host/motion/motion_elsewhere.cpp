@@ -11,15 +11,16 @@
 namespace quadedge::motion {
 namespace {
 
-/// Up to twice `most` of the edges at these positions that lie in free cells, evenly from the list.
-void take_free(const ExplainedCells& cells, const std::vector<float>& x, const std::vector<float>& y, int most,
+/// Collects the indices of the positions that lie in free cells; if there are at least twice `wanted`, only every n-th,
+/// so that at least `wanted` and fewer than twice `wanted` remain.
+void take_free(const ExplainedCells& cells, const std::vector<float>& x, const std::vector<float>& y, int wanted,
                std::vector<std::int32_t>& numbers) {
   numbers.clear();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const ExplainedCell* cell = cells.at(x[i], y[i]);
     if (cell != nullptr && cell->is_free()) numbers.push_back(static_cast<std::int32_t>(i));
   }
-  const auto step = static_cast<std::size_t>(wide_step(numbers.size(), most));
+  const auto step = static_cast<std::size_t>(wide_step(numbers.size(), wanted));
   std::size_t kept = 0;
   for (std::size_t k = 0; k < numbers.size(); k += step) numbers[kept++] = numbers[k];
   numbers.resize(kept);
@@ -41,9 +42,9 @@ Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chos
   frontend::predict_positions(steps_.calibration(), query.base->edges, steps_.measured(*query.base), by_chosen,
                               config_.temporal.radius, 1, predicted_);
   const StereoEdges& current = query.current->edges;
-  const int most = std::max(1, config_.temporal.wide_edges / kElsewhereThinning);
-  take_free(chosen.cells, predicted_.left.x, predicted_.left.y, most, among_.of_base);
-  take_free(chosen.cells, current.left_x, current.left_y, 2 * most, among_.of_current);
+  const int wanted = std::max(1, config_.temporal.wide_edges / kElsewhereThinning);
+  take_free(chosen.cells, predicted_.left.x, predicted_.left.y, wanted, among_.of_base);
+  take_free(chosen.cells, current.left_x, current.left_y, 2 * wanted, among_.of_current);
   const StepHandle proposed = steps_.take(query.base);
   frontend_.match_globally(*query.base, among_, proposed->matches);
   steps_.propose(query, limits_, std::nullopt, *proposed);

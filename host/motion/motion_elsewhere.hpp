@@ -10,8 +10,8 @@
 namespace quadedge::motion {
 
 /// An object that fills much of the image may hold most of the edges, so that its motion is chosen with confidence. The
-/// scene beside it moves too far to be found near that motion. It is searched for by global matches between the edges
-/// of the cells that the chosen motion does not explain: those of the base by where it predicts them.
+/// scene beside it moves too far to be found near that motion. It is searched for by matching globally the edges in the
+/// cells that the chosen motion does not explain; the base's edges count where the chosen motion predicts them.
 class MotionElsewhere {
  public:
   /// Refers to all arguments except the configuration; they must outlive the object.
