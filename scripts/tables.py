@@ -161,7 +161,8 @@ def beside(results):
                if row["title"].startswith(title) and row.get("preset", "default") == "default"]
         rows.append([f"frames/s, {title.removesuffix(', flight')}", *own[:1],
                      *(timed.get(system, "-") for system in ("libviso2", "OpenCV"))])
-    commits = f"Commits {results['accuracy']['commit']} and {results['speed']['commit']} (speed)"
+    accuracy, speed = results["accuracy"]["commit"], results["speed"]["commit"]
+    commits = f"Commit {accuracy}" if accuracy.split()[0] == speed else f"Commits {accuracy} and {speed} (speed)"
     return table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
                  f"{commits}, {results['accuracy']['date']}. {others['timed']}\n")
 

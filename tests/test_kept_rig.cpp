@@ -72,6 +72,14 @@ TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives
     CHECK(error.translation().norm() < 0.01);
     CHECK(Eigen::AngleAxisd(error.linear()).angle() < 0.003);
     CHECK(restored->motion.inliers > static_cast<int>(kept.edges.size()) / 2);
+    // A global search among given edges takes all of the restored rig's, whichever are named.
+    GlobalSearch among;
+    for (std::size_t i = 0; i < query.current->edges.size(); ++i)
+      among.of_current.push_back(static_cast<std::int32_t>(i));
+    TemporalMatches found;
+    frontend->match_globally(*query.base, among, found);
+    CHECK(found.size() > 100);
+    CHECK(same_bytes(found, frontend->match_globally(*query.base, 1000000)));
   }
 }
 
