@@ -1,7 +1,9 @@
 #include "frontends.hpp"
 #include "motion/confirmation.hpp"
+#include "motion/motion_constants.hpp"
 #include "motion/motion_search.hpp"
 #include "motion/step_builder.hpp"
+#include "pose/scoring.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -126,6 +128,42 @@ TEST_CASE("motion search: a proposal that leads to a confirmed motion is given u
   const auto wrong = confirm(turned(frames.truth()), known.get());
   REQUIRE(wrong);
   CHECK_FALSE(wrong->ok());
+}
+
+TEST_CASE("motion search: verdict, inliers and covariance are those of the motion returned", "[odometry]") {
+  TwoFrames frames(3000);
+  for (const bool is_predicted : {true, false}) {
+    frames.query.prediction = is_predicted ? std::optional(frames.truth()) : std::nullopt;
+    const auto step = frames.search->find(frames.query);
+    REQUIRE(step->ok());
+    CHECK(step->verdict.found);
+    CHECK(step->verdict.has_all_inliers);
+    CHECK((step->verdict.global_ratio > 0.3) == !is_predicted);  // there are global matches without a prediction
+    const PoseConfig& limits = frames.scene.config.pose;
+    const auto select = [&](double distance) {
+      std::vector<std::uint8_t> inlier;
+      pose::select_inliers(step->quads.scoring,
+                           pose::LaterCameras(frames.offset->rig(), step->motion.current_from_previous), distance,
+                           limits.inlier_orientation_rad(), inlier);
+      return inlier;
+    };
+    CHECK(select(limits.inlier_distance) == step->motion.inlier);
+    CHECK(select(motion::kCloseAgreement * limits.inlier_distance) == step->agrees);
+    // The motion to take over follows the disparity offset only as far as it was learned.
+    REQUIRE(step->motion.learned);
+    CHECK(step->motion.adopted().transform.matrix() == step->motion.learned->current_from_previous.matrix());
+    CHECK(step->motion.adopted().transform.matrix() != step->motion.current_from_previous.matrix());
+  }
+}
+
+TEST_CASE("motion search: a query that allows the prediction only and has none is answered", "[odometry]") {
+  TwoFrames frames(3000);
+  frames.query.most = motion::Effort::prediction;
+  const auto step = frames.search->find(frames.query);  // nothing is predicted and nothing else allowed
+  CHECK_FALSE(step->ok());
+  CHECK(step->base == frames.query.base);
+  CHECK_FALSE(step->verdict.found);
+  CHECK(frames.frontend->coarse + frames.frontend->guided + frames.frontend->global + frames.frontend->beside == 0);
 }
 
 TEST_CASE("motion search: without the global search the coarse search widens", "[odometry]") {

@@ -277,9 +277,10 @@ std::optional<Match> Localiser::Implementation::compare(const map::Place& place,
   const motion::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
+  const pose::RelativePose current_from_key = motion.adopted();
   return Match{&place,
-               {motion.current_from_previous, motion.covariance},
-               map_from_key * motion.current_from_previous.inverse(),
+               current_from_key,
+               map_from_key * current_from_key.transform.inverse(),
                motion.inliers,
                step->verdict.support,
                step->mean_inverse_depth(),

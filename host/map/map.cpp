@@ -296,16 +296,17 @@ std::optional<GraphEdge> Map::Implementation::search(const map::Place& place, in
   const motion::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
-  closure.frame_from_other = motion.current_from_previous;
+  const pose::RelativePose frame_from_other = motion.adopted();
+  closure.frame_from_other = frame_from_other.transform;
   closure.inliers = motion.inliers;
   closure.support = step->verdict.support;
   closure.verdict = step->doubt.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
   GraphEdge edge =
-      GraphEdge::of(place.node, node, {motion.current_from_previous, motion.covariance},
-                    pose::rig_sensitivity(motion.current_from_previous.inverse(), step->mean_inverse_depth()), true);
+      GraphEdge::of(place.node, node, frame_from_other,
+                    pose::rig_sensitivity(frame_from_other.transform.inverse(), step->mean_inverse_depth()), true);
   if (is_joined(place.node, node)) {
     const Eigen::Isometry3d before = graph_.pose(node).inverse() * graph_.pose(place.node);
-    const Eigen::Isometry3d error = motion.current_from_previous * before.inverse();
+    const Eigen::Isometry3d error = frame_from_other.transform * before.inverse();
     closure.deviation = std::sqrt(graph_.deviation(graph_.motion(edge.from, edge.to), edge));
     closure.distance_m = error.translation().norm();
     closure.angle_deg = Eigen::AngleAxisd(error.linear()).angle() / kDegree;

@@ -41,6 +41,7 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
     selection = choose(query, trials);
     if (std::min(selection.needed, query.most) <= effort) break;
   }
+  if (trials.empty()) return nothing_tried(query);
   MotionStep& chosen = *trials.at(selection.trial).outcome();
   chosen.is_checked = selection.accepted && query.most == Effort::everything && record_.is_check_due(chosen.verdict);
   if (chosen.is_checked) {
@@ -48,20 +49,25 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
     if (!selection.doubt.exists()) selection.doubt = beside;
   }
   StepHandle found = std::move(trials.at(selection.trial).outcome());
+  found->verdict = trials.at(selection.trial).verdict;
   found->doubt = selection.doubt;
-  if (const auto& learned = found->motion.learned) {
-    found->motion.current_from_previous = learned->current_from_previous;
-    found->motion.covariance = learned->covariance;
-  }
   if (found->ok() && !selection.accepted) found->motion.status = pose::MotionStatus::no_consensus;
   return found;
+}
+
+/// The answer to a query that allows only the prediction and has none.
+StepHandle MotionSearch::nothing_tried(const MotionQuery& query) {
+  StepHandle step = steps_.take(query.base);
+  step->motion = {};
+  step->motion.status = pose::MotionStatus::no_consensus;
+  return step;
 }
 
 void MotionSearch::try_out(Effort effort, const MotionQuery& query, Trials& trials) {
   for (const auto& hypothesis : hypotheses_) {
     const auto is_its = [&](const Trial& trial) { return trial.hypothesis == hypothesis.get(); };
     if (hypothesis->effort() > effort || std::any_of(trials.begin(), trials.end(), is_its)) continue;
-    Trial trial{hypothesis.get(), hypothesis->propose(query, evidence_of(trials)), nullptr};
+    Trial trial{hypothesis.get(), hypothesis->propose(query, evidence_of(trials)), nullptr, {}};
     if (!trial.proposed) continue;
     if (trial.proposed->ok())
       trial.confirmed = confirmation_.confirm(query, trial.proposed->motion.current_from_previous,
@@ -86,22 +92,23 @@ Evidence MotionSearch::evidence_of(const Trials& trials) {
   return evidence;
 }
 
-Selection MotionSearch::choose(const MotionQuery& query, const Trials& trials) const {
+Selection MotionSearch::choose(const MotionQuery& query, Trials& trials) const {
   const Evidence evidence = evidence_of(trials);
   const double confident_support = query.most == Effort::prediction ? kChanceSupport : record_.confident_support();
   Expectation expectation{std::nullopt, record_.is_doubtful(), confident_support};
   std::vector<Verdict> verdicts;
-  for (const Trial& trial : trials) {
+  for (Trial& trial : trials) {
     if (trial.hypothesis->effort() == Effort::prediction) expectation.trial = verdicts.size();
-    verdicts.push_back(verdict_of(trial, evidence, query));
+    trial.verdict = verdict_of(trial, evidence, query);
+    verdicts.push_back(trial.verdict);
   }
   Comparison comparison;
   comparison.is_same = [&](std::size_t one, std::size_t other) {
-    const MotionStep &found = trials[one].outcome(), &its = trials[other].outcome();
+    const MotionStep &found = *trials[one].outcome(), &its = *trials[other].outcome();
     return acceptance_.is_same_motion(found, motion_since(found.base, query, its));
   };
   comparison.area_beside = [&](std::size_t one, std::size_t other) {
-    const MotionStep &found = trials[one].outcome(), &its = trials[other].outcome();
+    const MotionStep &found = *trials[one].outcome(), &its = *trials[other].outcome();
     return acceptance_.area_beside(found, its, motion_since(found.base, query, its));
   };
   return select(verdicts, expectation, comparison);

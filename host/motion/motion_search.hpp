@@ -40,6 +40,7 @@ class MotionSearch {
     MotionHypothesis* hypothesis = nullptr;
     /// `confirmed` is null if the status of the proposal is not ok, or if it led to the known motion.
     StepHandle proposed, confirmed;
+    Verdict verdict;  ///< on the outcome
 
     bool is_confirmed() const { return confirmed && confirmed->ok(); }
     StepHandle& outcome() { return confirmed ? confirmed : proposed; }
@@ -52,7 +53,8 @@ class MotionSearch {
   static Evidence evidence_of(const Trials& trials);
   /// The first confirmed motion with all of its inliers; null if there is none.
   static const MotionStep* known_motion(const Trials& trials);
-  Selection choose(const MotionQuery& query, const Trials& trials) const;
+  StepHandle nothing_tried(const MotionQuery& query);
+  Selection choose(const MotionQuery& query, Trials& trials) const;
   Verdict verdict_of(const Trial& trial, const Evidence& evidence, const MotionQuery& query) const;
 
   StepBuilder steps_;

@@ -283,7 +283,7 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
 /// becomes the key rig.
 void StereoOdometry::Implementation::locate(const motion::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == state_.key.rig();
-  pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
+  pose::RelativePose current_from_key = step.motion.adopted();
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
   const Eigen::Isometry3d current_from_base = current_from_key.transform * state_.base.from_key.transform.inverse();
   const int frames = current_->frame - state_.base.rig->frame;

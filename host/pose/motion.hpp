@@ -10,6 +10,7 @@
 #include "pose/quads.hpp"
 #include "pose/ransac.hpp"
 #include "pose/refinement.hpp"
+#include "pose/relative_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
@@ -27,7 +28,8 @@ const char* to_string(MotionStatus status);
 /// Motion between two rigs, estimated from their quads.
 struct MotionEstimate {
   MotionStatus status = MotionStatus::too_few_quads;
-  /// Gamma_current = current_from_previous * Gamma_previous, left cameras, metres. Identity unless status is ok.
+  /// Gamma_current = current_from_previous * Gamma_previous, left cameras, metres. Identity unless status is ok. The
+  /// inliers are those at this pose, which fits them best with a free disparity offset.
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
   /// Covariance (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame; zero unless
   /// status is ok and config.refine is on.
@@ -38,6 +40,11 @@ struct MotionEstimate {
   double offset = 0;                     ///< free correction of all disparities, see OffsetFit [px]
   std::optional<PoseAndOffset> learned;  ///< what to take over if the motion is adopted, see OffsetFit
   int hypotheses = 0, draws = 0;         ///< numbers of the consensus search, see Consensus
+
+  /// The motion to take over: with the offset as far as it was learned, if there was a fit with an offset.
+  RelativePose adopted() const {
+    return {learned ? learned->current_from_previous : current_from_previous, covariance};
+  }
 };
 
 /// Estimates the motion: consensus of two-quad samples, followed by least squares over all inliers.
