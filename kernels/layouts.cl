@@ -334,9 +334,6 @@ enum {
   kRightAlive = 2,  // flag: so did the right one
   kRowOverflow = 4  // flag: more candidates than there is room for; the row has no result
 };
-// A candidate that the tap form of temporal_match.cl shows, ints: current edge, state, NCC as bits, SIFT distance as
-// bits.
-enum { kTappedInts = 4 };
 
 // temporal_match.cl.
 typedef struct {

@@ -1,7 +1,7 @@
 // temporal_match_groups.cl: temporal_match.cl with one work-group of GROUP work-items per row, for GPUs. Candidates are
 // kept in local memory, GROUP points of the index are tested at a time, and eight work-items share a pair of patches.
 //
-// Needs similarity.cl (for taps), similarity_lanes.cl, edge_groups.cl and indexed_points.cl. In and out as in
+// Needs similarity_lanes.cl, edge_groups.cl and indexed_points.cl. In and out as in
 // temporal_match.cl, and the same bits: what work-items add up are whole numbers.
 // GROUP is at most 32, so that one word holds a bit per work-item.
 // Reference: host/reference/temporal_match.cpp.
@@ -34,9 +34,6 @@ static inline int voters_before(const uint word) { return (int)popcount(word & (
 typedef struct {
   int target[MOST];
   float ncc[MOST];
-#ifdef TAP
-  int at[MOST];  // where in `seen` a candidate stands
-#endif
 } Candidates;
 
 // One side of a row: what is searched, and where.
@@ -46,33 +43,11 @@ typedef struct {
   global const char* patch;    // of the base's stereo edge
   global const char* patches;  // of the current edges
   global const int* numbers;   // of the current stereo edges' patches; 0: those of the stereo edges
-#ifdef TAP
-  global int* seen;                // of this row: kTappedInts ints per candidate
-  int room;                        // candidates that fit there
-  int count;                       // candidates so far
-  global const uchar* descriptor;  // of the base's stereo edge
-  global const uchar* descriptors;
-#endif
 } RowSide;
 
 static inline global const char* patch_of(global const char* patches, global const int* numbers, const int edge) {
   return patches + kEdgePatchBytes * (size_t)(numbers ? numbers[edge] : edge);
 }
-
-#ifdef TAP
-static inline void tap_state(const RowSide* side, const int at, const int state) {
-  if (at < side->room) side->seen[kTappedInts * at + 1] = state;
-}
-static inline void tap_scores(const RowSide* side, const int at, const int edge, const float ncc) {
-  if (at >= side->room) return;
-  const int distance2 = sift_distance2(side->descriptor, side->descriptors + kEdgeSiftBytes * (size_t)edge);
-  side->seen[kTappedInts * at + 2] = as_int(ncc);
-  side->seen[kTappedInts * at + 3] = as_int(sqrt((float)distance2));
-}
-#define TAPPED(statement) statement
-#else
-#define TAPPED(statement)
-#endif
 
 // Points of the index within the radius and the turn. Returns their number; beyond MOST there is no room.
 static inline int find_near(const float radius, const float orientation, RowSide* side, local Candidates* found,
@@ -94,29 +69,18 @@ static inline int find_near(const float radius, const float orientation, RowSide
     }
     if (begin >= end) break;
     const int k = begin + (int)get_local_id(0);
-    int close = 0, passes = 0;
+    int passes = 0;
     if (k < end) {
       const float dx = index->x[k] - x, dy = index->y[k] - y;
-      close = dx * dx + dy * dy <= radius * radius;
-      passes = close && angle_between(index->direction[k], predicted.z) <= orientation;
+      passes = dx * dx + dy * dy <= radius * radius && angle_between(index->direction[k], predicted.z) <= orientation;
     }
-#ifdef TAP
-    const uint all_close = vote(votes, close);
-    const int at = side->count + voters_before(all_close);
-    if (close && at < side->room)
-      ((global int4*)side->seen)[at] = (int4)(index->number[k], passes ? kCandidateAlive : ORIENTATION_ORDER, 0, 0);
-    side->count += (int)popcount(all_close);
-#endif
     const uint passing = vote(votes, passes);
     const int slot = near + voters_before(passing);
-    if (passes && slot < MOST) {
-      found->target[slot] = index->number[k];
-      TAPPED(found->at[slot] = at;)
-    }
+    if (passes && slot < MOST) found->target[slot] = index->number[k];
     near += (int)popcount(passing);
     begin += GROUP;
   }
-  barrier(CLK_LOCAL_MEM_FENCE TAPPED(| CLK_GLOBAL_MEM_FENCE));
+  barrier(CLK_LOCAL_MEM_FENCE);
   return near;
 }
 
@@ -142,9 +106,7 @@ static inline void compare_patches(const RowSide* side, const int count, local C
 
 // Rejects the candidates that are not similar enough, or not nearly as similar as the best. Returns whether the
 // work-item has found one that is.
-static inline int keep_similar(const TemporalMatchArguments* args, const RowSide* side, const int count,
-                               local Candidates* found) {
-  (void)side;  // only a tap asks
+static inline int keep_similar(const TemporalMatchArguments* args, const int count, local Candidates* found) {
   float best = 0.0f;
   for (int c = 0; c < count; ++c) best = fmax(best, found->ncc[c]);
   const float least = args->ncc_nearly_best * best;
@@ -152,8 +114,6 @@ static inline int keep_similar(const TemporalMatchArguments* args, const RowSide
   for (int c = (int)get_local_id(0); c < count; c += GROUP) {
     const float ncc = found->ncc[c];
     const int passes = !(ncc < args->ncc_min) && !(ncc < least);
-    TAPPED(tap_scores(side, found->at[c], found->target[c], ncc);)
-    TAPPED(if (!passes) tap_state(side, found->at[c], ncc < args->ncc_min ? NCC_ORDER : NEARLY_BEST_NCC_ORDER);)
     if (!passes) found->target[c] = NOBODY;
     alive |= passes;
   }
@@ -161,9 +121,8 @@ static inline int keep_similar(const TemporalMatchArguments* args, const RowSide
 }
 
 // Rejects the left candidates that are no right candidates; the others take the mean of both similarities.
-static inline void keep_agreeing(const RowSide* side, const int left_count, const int right_count,
-                                 local Candidates* left, local const Candidates* right) {
-  (void)side;  // only a tap asks
+static inline void keep_agreeing(const int left_count, const int right_count, local Candidates* left,
+                                 local const Candidates* right) {
   for (int c = (int)get_local_id(0); c < left_count; c += GROUP) {
     const int target = left->target[c];
     if (target == NOBODY) continue;
@@ -172,7 +131,6 @@ static inline void keep_agreeing(const RowSide* side, const int left_count, cons
     if (d < right_count) {
       left->ncc[c] = 0.5f * (left->ncc[c] + right->ncc[d]);
     } else {
-      TAPPED(tap_state(side, left->at[c], AGREEMENT_ORDER);)
       left->target[c] = NOBODY;
     }
   }
@@ -211,16 +169,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void temporal_match(
     global const int* left_cells, global const float* right_points, global const int* right_cells,
     global const char* base_left_patches, global const int* base_left_index, global const char* base_right_patches,
     global const char* left_patches, global const int* left_index, global const char* right_patches,
-    global const float* current,
-    global int* result
-#ifdef TAP
-    // As in temporal_match.cl.
-    ,
-    global const int* seen_first, const int seen_capacity, global int* seen_counts, global int* seen,
-    global const uchar* base_left_sift, global const uchar* base_right_sift, global const uchar* left_sift,
-    global const uchar* right_sift
-#endif
-) {
+    global const float* current, global int* result) {
   local Candidates candidates[2];
   local int4 products[GROUP];
   local uint words[3];
@@ -239,25 +188,16 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void temporal_match(
     side.patch = right ? patch_of(base_right_patches, 0, i) : patch_of(base_left_patches, base_left_index, i);
     side.patches = right ? right_patches : left_patches;
     side.numbers = right ? 0 : left_index;
-#ifdef TAP
-    const int begin = seen_capacity > 0 ? seen_first[2 * row + right] : 0;
-    side.seen = seen + kTappedInts * (size_t)begin;
-    side.room = seen_capacity > 0 ? min(seen_first[2 * row + right + 1], seen_capacity) - begin : 0;
-    side.count = 0;
-    side.descriptor = (right ? base_right_sift : base_left_sift) + kEdgeSiftBytes * (size_t)i;
-    side.descriptors = right ? right_sift : left_sift;
-#endif
     local Candidates* found = candidates + right;
     const int near = find_near(args.radius, args.orientation, &side, found, &votes);
     if (near > MOST) flags |= kRowOverflow;
     count = near > MOST ? 0 : near;
     compare_patches(&side, count, found, products);
-    if (vote(&votes, keep_similar(&args, &side, count, found)) != 0) flags |= right ? kRightAlive : kLeftAlive;
-    TAPPED(if (item == 0) seen_counts[2 * row + right] = side.count;)
+    if (vote(&votes, keep_similar(&args, count, found)) != 0) flags |= right ? kRightAlive : kLeftAlive;
     if (right) right_count = count;
   }
   local Candidates *left = candidates, *right = candidates + 1;
-  keep_agreeing(&side, count, right_count, left, right);
+  keep_agreeing(count, right_count, left, right);
   barrier(CLK_LOCAL_MEM_FENCE);
 
   const float3 wanted = edge_at(args.left_predicted, predicted, i);

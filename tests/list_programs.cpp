@@ -1,6 +1,6 @@
 /// \file list_programs.cpp  Prints every program that the stages build, for lint_kernels.sh: options and kernel files,
 /// one program per line. The list comes from the stages themselves, with every variant, so it is complete.
-///   list_programs KERNEL_FOLDER [gpu]    gpu: only those that GPUs run by default, without the taps
+///   list_programs KERNEL_FOLDER [gpu]    gpu: only those that GPUs run by default
 
 #include <cstdio>
 #include <map>
@@ -64,8 +64,6 @@ int main(int count, char** arguments) {
     if (of_gpus) options.limits.type = "gpu";
     Device device("auto", options);
     const auto frontend = frontend::make_frontend(rig, device, of_gpus ? every_stage() : config_with(number));
-    Tap tap;  // a kernel's tap form is a separate program
-    if (!of_gpus) frontend->set_tap(&tap);
     if (!of_gpus) {
       bench::measure_ceilings(*device.context(), 1, 0);
       stages::long_loop_difference(*device.context());

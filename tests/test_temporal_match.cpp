@@ -1,8 +1,6 @@
 #include "common/filter_limits.hpp"
 #include "matching.hpp"
 #include "reference/patches.hpp"
-#include "reference/sift.hpp"
-#include "reference/temporal_candidates.hpp"
 #include "reference/temporal_match.hpp"
 #include "stages/temporal_match.hpp"
 
@@ -15,7 +13,6 @@ namespace {
 struct MatchedRows {
   TemporalMatches quads;
   int left_alive = 0, right_alive = 0;
-  stages::TappedMatch tapped;  ///< of the tap form
 };
 
 constexpr int kImageWidth = 97, kImageHeight = 61;
@@ -39,7 +36,6 @@ struct TemporalScene {
   StereoEdges base, current;
   std::vector<std::int8_t> base_left, base_right, left,
       right;  ///< patches: left ones by left edge, right ones by stereo edge
-  std::vector<std::uint8_t> base_left_sift, base_right_sift, left_sift, right_sift;  ///< by stereo edge
   TemporalSearch search;
   TemporalConfig config;
 
@@ -50,11 +46,6 @@ struct TemporalScene {
     search.step = step;
     fill(random, base_edges, base, base_left, base_right);
     fill(random, current_edges, current, left, right);
-    for (auto* sift : {&base_left_sift, &base_right_sift})
-      sift->resize(kEdgeSiftBytes * static_cast<std::size_t>(base_edges));
-    for (auto* sift : {&left_sift, &right_sift}) sift->resize(kEdgeSiftBytes * static_cast<std::size_t>(current_edges));
-    for (auto* sift : {&base_left_sift, &base_right_sift, &left_sift, &right_sift})
-      for (auto& value : *sift) value = static_cast<std::uint8_t>(random(0, 255.99));
     for (std::size_t i = 0; i < base.size(); ++i) {
       const bool known = random(0, 1) < 0.9;
       const float nan = std::nanf("");
@@ -89,35 +80,24 @@ struct TemporalScene {
 
   /// Descriptions by stereo edge, as the reference expects them.
   static reference::EdgeDescriptions described(const std::vector<std::int8_t>& patches,
-                                               const std::vector<std::int32_t>& numbers,
-                                               const std::vector<std::uint8_t>& sift) {
+                                               const std::vector<std::int32_t>& numbers) {
     reference::EdgeDescriptions set;
     for (const auto number : numbers) {
       const auto begin = patches.begin() + static_cast<std::ptrdiff_t>(number) * kEdgePatchBytes;
       set.patches.insert(set.patches.end(), begin, begin + kEdgePatchBytes);
     }
-    set.sift = sift;
+    set.sift.resize(numbers.size() * kEdgeSiftBytes);  // no filter asks
     return set;
   }
   reference::TemporalMatchResult expected() const {
-    const auto of_base_left = described(base_left, base.left_index, base_left_sift),
-               of_left = described(left, current.left_index, left_sift),
-               of_base_right = described(base_right, base.right_index, base_right_sift),
-               of_right = described(right, current.right_index, right_sift);
+    const auto of_base_left = described(base_left, base.left_index), of_left = described(left, current.left_index),
+               of_base_right = described(base_right, base.right_index),
+               of_right = described(right, current.right_index);
     return reference::temporal_match(search, current, {of_base_left, of_left, kImageWidth, kImageHeight},
                                      {of_base_right, of_right, kImageWidth, kImageHeight}, config);
   }
-  /// Edges within the radius, as the reference finds them.
-  reference::Candidates displaced(Side side) const {
-    const EdgePositionsView edges = current.positions(side);
-    reference::PointIndex index;
-    reference::make_point_index(edges.x, edges.y, kImageWidth, kImageHeight, index);
-    return reference::temporal_candidates(side == Side::left ? search.left : search.right, edges, index, search.radius,
-                                          4, search.step);
-  }
   static void upload_rig(opencl::Context& context, const StereoEdges& edges, const std::vector<std::int8_t>& of_left,
-                         const std::vector<std::int8_t>& of_right, const std::vector<std::uint8_t>& sift_left,
-                         const std::vector<std::uint8_t>& sift_right, stages::DeviceStereoEdges& rig) {
+                         const std::vector<std::int8_t>& of_right, stages::DeviceStereoEdges& rig) {
     rig.count = rig.stride = static_cast<int>(edges.size());
     std::vector<float> packed;
     for (const auto* block : {&edges.left_x, &edges.left_y, &edges.left_direction})
@@ -126,65 +106,37 @@ struct TemporalScene {
     rig.left_index.write(context, edges.left_index);
     rig.left_patches.write(context, of_left);
     rig.right_patches.write(context, of_right);
-    rig.left_sift.write(context, sift_left);
-    rig.right_sift.write(context, sift_right);
   }
-  /// Runs both forms, production and tap, of every variant except the lists on every device.
-  void on_devices(const std::function<void(const std::optional<MatchedRows>&, bool tapped)>& check) const {
+  /// Runs every variant except the lists on every device.
+  void on_devices(const std::function<void(const std::optional<MatchedRows>&)>& check) const {
     for_each_variant(
         "temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
           stages::TemporalMatch stage(context, config, variants);
           if (!stage.serves(search)) return;
           INFO(name);
           stages::DeviceStereoEdges device_base, device_current;
-          upload_rig(context, base, base_left, base_right, base_left_sift, base_right_sift, device_base);
-          upload_rig(context, current, left, right, left_sift, right_sift, device_current);
+          upload_rig(context, base, base_left, base_right, device_base);
+          upload_rig(context, current, left, right, device_current);
           stages::DevicePositions edges;
           edges.write(context, {current.positions(Side::left), current.positions(Side::right)});
           stages::DevicePointIndex left_index(kImageWidth, kImageHeight), right_index(kImageWidth, kImageHeight);
           stages::PointIndex(context, variants).run(edges.list(0), edges.list(1), left_index, right_index);
           stages::DevicePositions predicted;
           predicted.write(context, {search.left, search.right});
-          for (const bool tapped : {false, true}) {
-            INFO((tapped ? "tap form" : "production form"));
-            MatchedRows matched;
-            const auto alive = stage.run(predicted, search, device_base, device_current, left_index, right_index,
-                                         current, matched.quads, tapped ? &matched.tapped : nullptr);
-            if (alive) {
-              matched.left_alive = alive->left;
-              matched.right_alive = alive->right;
-            }
-            check(alive ? std::optional(matched) : std::nullopt, tapped);
+          MatchedRows matched;
+          const auto alive = stage.run(predicted, search, device_base, device_current, left_index, right_index, current,
+                                       matched.quads);
+          if (alive) {
+            matched.left_alive = alive->left;
+            matched.right_alive = alive->right;
           }
+          check(alive ? std::optional(matched) : std::nullopt);
         });
-  }
-  /// Checks that a tap receives the candidates within the radius, each with the reference's filter decisions.
-  void check_tapped(const stages::JudgedCandidates& seen, Side side, const reference::TemporalMatchLists& lists) const {
-    const auto all = displaced(side);
-    CHECK(seen.first == all.first);
-    CHECK(seen.target == all.target);
-    stages::JudgedCandidates near;  // without those rejected by orientation
-    near.first.assign(1, 0);
-    for (std::size_t row = 0; row + 1 < seen.first.size(); ++row) {
-      for (auto c = static_cast<std::size_t>(seen.first[row]); c < static_cast<std::size_t>(seen.first[row + 1]); ++c) {
-        if (seen.state[c] == order_of(TemporalFilter::orientation)) continue;
-        near.target.push_back(seen.target[c]);
-        near.state.push_back(seen.state[c]);
-        near.ncc.push_back(seen.ncc[c]);
-        near.sift.push_back(seen.sift[c]);
-      }
-      near.first.push_back(static_cast<std::int32_t>(near.target.size()));
-    }
-    CHECK(near.first == lists.candidates.first);
-    CHECK(near.target == lists.candidates.target);
-    CHECK(near.state == lists.scores.state);
-    CHECK(near.ncc == lists.scores.ncc);
-    CHECK(near.sift == lists.scores.sift);
   }
   std::size_t compare_devices() const {
     const auto truth = expected();
     int forms = 0;
-    on_devices([&](const auto& found, bool tapped) {
+    on_devices([&](const auto& found) {
       ++forms;
       REQUIRE(found);
       CHECK(found->left_alive == truth.left.alive_rows);
@@ -194,47 +146,27 @@ struct TemporalScene {
       CHECK(found->quads.competing_clusters == truth.matches.competing_clusters);
       CHECK(found->quads.ncc == truth.matches.ncc);
       CHECK(found->quads.right_x == truth.matches.right_x);
-      if (!tapped) return;
-      check_tapped(found->tapped.left, Side::left, truth.left);
-      check_tapped(found->tapped.right, Side::right, truth.right);
     });
-    CHECK(forms >= 4);
+    CHECK(forms >= 2);
     return truth.matches.size();
   }
 };
 
 }  // namespace
 
-TEST_CASE("temporal match: the single kernel and its tap equal the reference's cascade bit for bit",
+TEST_CASE("temporal match: the single kernel equals the reference's cascade bit for bit",
           "[temporal][matching][device]") {
   for (const std::uint64_t seed : {3, 13, 23}) CHECK(TemporalScene(600, 2400, seed).compare_devices() > 100);
   CHECK(TemporalScene(601, 2399, 4, 3).compare_devices() > 30);
 }
 
-TEST_CASE("temporal match: every filter of the tap form rejects something in these scenes", "[temporal][matching]") {
+TEST_CASE("temporal match: every filter rejects something in these scenes", "[temporal][matching]") {
   // Otherwise the comparison above would not test the filter.
-  const TemporalScene scene(600, 2400, 3);
-  const auto truth = scene.expected();
-  CHECK(scene.displaced(Side::left).target.size() > truth.left.candidates.target.size() + 100);
+  const auto& state = TemporalScene(600, 2400, 3).expected().left.scores.state;
   for (const auto filter : {TemporalFilter::ncc, TemporalFilter::nearly_best_ncc, TemporalFilter::agreement}) {
-    const auto& state = truth.left.scores.state;
     INFO(to_string(filter));
     CHECK(std::count(state.begin(), state.end(), order_of(filter)) > 20);
   }
-}
-
-TEST_CASE("temporal match: a tap's SIFT distances affect no decision", "[temporal][matching][device]") {
-  TemporalScene scene(101, 500, 9);
-  const auto before = scene.expected().matches;
-  for (auto& value : scene.base_left_sift) value = static_cast<std::uint8_t>(255 - value);
-  int forms = 0;
-  scene.on_devices([&](const auto& found, bool) {
-    ++forms;
-    REQUIRE(found);
-    CHECK(found->quads.current == before.current);
-    CHECK(found->quads.ncc == before.ncc);
-  });
-  CHECK(forms >= 4);
 }
 
 TEST_CASE("temporal match: few edges, and none", "[temporal][matching][device][oclgrind]") {
@@ -252,5 +184,5 @@ TEST_CASE("temporal match: a row with too many candidates is reported", "[tempor
   }
   scene.search.left.x[2] = scene.base.left_x[2] + 6;
   scene.search.left.y[2] = scene.base.left_y[2];
-  scene.on_devices([](const auto& found, bool) { CHECK_FALSE(found); });
+  scene.on_devices([](const auto& found) { CHECK_FALSE(found); });
 }

@@ -199,19 +199,16 @@ void DeviceFrontend::match_by_lists(DeviceRig& base, const TemporalSearch& searc
   matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_.list(index_of(Side::left)),
                                     temporal_left_);
   if (tap_ == nullptr) return;
-  tap_displaced(search);
-  tap_temporal(TemporalFilter::orientation, temporal_left_.read_judged(), temporal_right_.read_judged());
+  tap_temporal(search);
 }
 
 bool DeviceFrontend::match_fused(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
   DeviceRig& current = rigs_.current();
-  stages::TappedMatch tapped;
   const auto alive = temporal_match_.run(predicted_, search, base.on_device, current.on_device, left_index_,
-                                         right_index_, current.edges, matches, tap_ != nullptr ? &tapped : nullptr);
+                                         right_index_, current.edges, matches);
   if (!alive) return false;
   counts_.temporal_left = alive->left;
   counts_.temporal_right = alive->right;
-  if (tap_ != nullptr) tap_temporal(TemporalFilter::displacement, tapped.left, tapped.right);
   return true;
 }
 
@@ -225,7 +222,9 @@ void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, Te
     describe_by_sift(base);
     describe_by_sift(rigs_.current());
   }
-  if (!temporal_match_.serves(search) || !match_fused(base, search, matches)) match_by_lists(base, search, matches);
+  const bool fused =
+      tap_ == nullptr && temporal_match_.serves(search);  // a tap sees the lists, which a fused one lacks
+  if (!fused || !match_fused(base, search, matches)) match_by_lists(base, search, matches);
   matches.search = counts_.searches++;
   if (tap_ != nullptr) tap_->quads(matches);
 }

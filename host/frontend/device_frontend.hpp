@@ -46,7 +46,6 @@ class DeviceFrontend : public Frontend {
   KeptRig keep() override;
   RigHandle restore(const KeptRig& kept) override;
   EdgeSet edges(Side side) override;
-  void set_tap(Tap* tap) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
  private:
@@ -87,8 +86,7 @@ class DeviceFrontend : public Frontend {
   void tap_stereo();
   void tap_candidates_without_limits();
   void tap_search(const Rig& base, const TemporalSearch& search);
-  void tap_displaced(const TemporalSearch& search);
-  void tap_temporal(TemporalFilter first, const stages::JudgedCandidates& left, const stages::JudgedCandidates& right);
+  void tap_temporal(const TemporalSearch& search);
 
   opencl::Context& context_;
   Config config_;

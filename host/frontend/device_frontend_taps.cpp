@@ -24,11 +24,6 @@ CandidateLists passing(const stages::JudgedCandidates& lists, Filter filter) {
 
 }  // namespace
 
-void DeviceFrontend::set_tap(Tap* tap) {
-  Frontend::set_tap(tap);
-  if (tap != nullptr) temporal_match_.prepare_tap();
-}
-
 /// Filters 1 and 2, which the kernel combines with filter 3: runs the same kernel with the limits of the later filters
 /// removed. The frame continues with the lists of filter 3.
 void DeviceFrontend::tap_candidates_without_limits() {
@@ -91,21 +86,17 @@ void DeviceFrontend::tap_search(const Rig& base, const TemporalSearch& search) {
   tap_->temporal_search({counts_.searches, base.frame, search.left, search.right, search.radius, search.step});
 }
 
-/// Filter 1 of a search with lists, which the kernel combines with filter 2: runs the same kernel with the limit of
-/// filter 2 removed.
-void DeviceFrontend::tap_displaced(const TemporalSearch& search) {
+/// Both sides, up to the agreement. The kernel combines filter 1 with filter 2: for filter 1 it runs again with the
+/// limit of filter 2 removed.
+void DeviceFrontend::tap_temporal(const TemporalSearch& search) {
   stages::DeviceCandidates lists;
   for (const Side side : kSides) {
     temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius, kAllDirections,
                              lists);
     tap_->temporal_filter(TemporalFilter::displacement, side, lists.read());
   }
-}
-
-/// Both sides, from filter `first` to the agreement.
-void DeviceFrontend::tap_temporal(TemporalFilter first, const stages::JudgedCandidates& left,
-                                  const stages::JudgedCandidates& right) {
-  for (auto filter = first; filter < TemporalFilter::agreement; filter = next(filter)) {
+  const auto left = temporal_left_.read_judged(), right = temporal_right_.read_judged();
+  for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::agreement; filter = next(filter)) {
     tap_->temporal_filter(filter, Side::left, passing(left, filter));
     tap_->temporal_filter(filter, Side::right, passing(right, filter));
   }

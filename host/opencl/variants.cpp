@@ -92,14 +92,11 @@ const std::vector<Variant>& all_variants() {
        Form::items, {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"temporal_match", "lanes16", {"described_edges.cl", "similarity.cl", "edge_positions.cl", "edge_groups.cl",
         "indexed_points.cl", "temporal_match.cl"},
-       Form::items, {{"LANES", "16"}}, 1, true, false,
+       Form::items, {}, 1, true, false,
        "candidates, filters and choice of a row in one work-item, which tests 16 points of the index at once; "
        "groups of one"},
-      {"temporal_match", "fused", {"described_edges.cl", "similarity.cl", "edge_positions.cl", "edge_groups.cl",
-        "indexed_points.cl", "temporal_match.cl"},
-       Form::items, {}, 1, false, false, "the same, point by point"},
-      {"temporal_match", "rows32", {"described_edges.cl", "similarity.cl", "similarity_lanes.cl",
-        "edge_positions.cl", "edge_groups.cl", "indexed_points.cl", "temporal_match_groups.cl"},
+      {"temporal_match", "rows32", {"described_edges.cl", "similarity_lanes.cl", "edge_positions.cl",
+        "edge_groups.cl", "indexed_points.cl", "temporal_match_groups.cl"},
        Form::groups, {{"GROUP", "32"}}, 32, false, true,
        "one work-group of 32 per row tests 32 points of the index at once, eight work-items compare a pair of "
        "patches; candidates in local memory", 5888},
