@@ -11,6 +11,8 @@ import csv
 import json
 import statistics
 
+from stamped import save_svg
+
 SCENES = ("room", "cables", "facade")
 # Option of `quadedge demo` -> (label, values, further options)
 KINDS = {
@@ -92,4 +94,4 @@ def plot(rows, folder):
     axes[0][0].set_ylabel("mean error of a step [mm]")
     axes[1][0].set_ylabel("mean error of a step [deg]")
     axes[0][0].legend()
-    figure.savefig(folder / "disturbances.svg", metadata={"Date": None})
+    save_svg(figure, folder / "disturbances.svg")

@@ -4,6 +4,7 @@ import json
 
 import tables
 from measurements import SYSTEMS
+from stamped import save_svg
 
 
 def plot(scene, rows, options):
@@ -36,5 +37,5 @@ def plot(scene, rows, options):
     for axis in (above, away):
         axis.grid(alpha=0.3)
     above.legend()
-    figure.savefig(options.out / f"{scene}.svg", metadata={"Date": None})
+    save_svg(figure, options.out / f"{scene}.svg")
     pyplot.close(figure)

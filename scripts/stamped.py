@@ -1,7 +1,8 @@
-"""The origin of a measurement: commit of the sources and date (doc/results/*.json)."""
+"""Files of doc/results: measurements with their origin (commit of the sources and date), and plots."""
 
 import datetime
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -30,3 +31,9 @@ def stamped(result, measured=None):
 def write(result, file):
     """Writes `result` as JSON to the path `file`."""
     file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+
+
+def save_svg(figure, file):
+    """Writes a matplotlib figure to the path `file`, as one line: line breaks carry no meaning in a plot."""
+    figure.savefig(file, metadata={"Date": None})
+    file.write_text(re.sub(r"\s+", " ", file.read_text(encoding="utf-8")).strip() + "\n", encoding="utf-8")
