@@ -3,8 +3,8 @@
 
 #include <cstdio>
 #include <quadedge/dataset.hpp>
-#include <quadedge/detect_edges.hpp>
 #include <quadedge/error.hpp>
+#include <quadedge/match_stereo.hpp>
 
 int main(int count, char** arguments) try {
   if (count != 2) {

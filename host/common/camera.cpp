@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "common/camera_bounds.hpp"
+#include "common/calibration.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {

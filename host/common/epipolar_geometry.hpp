@@ -1,13 +1,34 @@
 #pragma once
 /// \file epipolar_geometry.hpp  Epipolar geometry of a general rig: where the counterpart of a left pixel can lie in
-/// the right image. doc/method.md section 3.
+/// the right image, and the common numbering of the epipolar lines of both. doc/method.md sections 1 and 3.
+
+#include <cmath>
 
 #include "common/layouts.hpp"
-#include "common/rectification_error.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge {
+
+/// Distance of a right point from its epipolar line as a linear function of the left pixel,
+/// offset + slope_x u + slope_y v, where u and v range from -1/2 to 1/2 over the left image [px of the right image].
+/// Positive towards (ey, -ex) for a line of direction (ex, ey): downwards on a rectified rig.
+struct RectificationError {
+  double offset = 0, slope_x = 0, slope_y = 0;
+
+  /// Its largest absolute value over the image [px].
+  double largest() const { return std::abs(offset) + 0.5 * (std::abs(slope_x) + std::abs(slope_y)); }
+  RectificationError operator-(const RectificationError& other) const {
+    return {offset - other.offset, slope_x - other.slope_x, slope_y - other.slope_y};
+  }
+  /// The linear function of (x, y, 1) for an image of this size [px].
+  struct Plane {
+    double x, y, one;
+  };
+  Plane plane(int width, int height) const {
+    return {slope_x / width, slope_y / height, offset - 0.5 * (slope_x + slope_y)};
+  }
+};
 
 /// The search is limited by `max_disparity` if positive, otherwise by `min_depth`.
 /// \throws UsageError if neither is given
@@ -32,5 +53,13 @@ EpipolarLine epipolar_line(const EpipolarGeometry& geometry, float x, float y);
 
 /// Sine of the angle between an edge and the left epipolar line through it.
 float left_epipolar_sine(const EpipolarGeometry& geometry, float x, float y, float direction);
+
+/// Numbering of an image's epipolar lines: angles of the epipolar planes, as tangents times the left focal length. The
+/// plane half-way between the two optical axes has number 0.
+EpipolarRows epipolar_rows(const StereoRig& rig, Side side);
+
+/// Arguments of kernels/edge_selection.cl for an image. The right image, which is searched, keeps slightly more edges.
+/// \param error of the right image's rows, which are numbered as they lie in it
+SelectionArguments selection_arguments(const StereoRig& rig, Side side, const RectificationError& error = {});
 
 }  // namespace quadedge

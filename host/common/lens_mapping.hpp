@@ -2,12 +2,36 @@
 /// \file lens_mapping.hpp  Mapping between viewing rays and pixels of a lens.
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
-#include "common/brown_distortion.hpp"
-#include "quadedge/lens.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge {
+
+/// One set of coefficients.
+class BrownDistortion {
+ public:
+  /// `coefficients`: the first `count` of the fourteen; the others are zero.
+  BrownDistortion(const double* coefficients, std::size_t count);
+
+  /// Distorted position of a point, regardless of radius_limit().
+  Eigen::Vector2d distort(const Eigen::Vector2d& position) const;
+  /// The point within radius_limit() whose distorted position is `position`, or nothing if there is none.
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& position) const;
+  /// Largest radius up to which the distorted radius increases; beyond it, the polynomial folds the image.
+  double radius_limit() const { return limit_; }
+
+ private:
+  double radial(double square) const;
+  bool grows(double square) const;
+  double find_limit() const;
+  Eigen::Vector2d start_of_search(const Eigen::Vector2d& position) const;
+
+  std::array<double, 14> k_{};
+  Eigen::Matrix3d tilt_, untilt_;
+  double limit_;
+};
 
 /// Evaluates a lens model. Rays are directions of any length in the camera frame (x right, y down, z forward).
 class LensMapping {

@@ -3,8 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "quadedge/lens.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge {
 
@@ -16,13 +17,14 @@ struct StereoCalibration {
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   /// Pose of the left camera in the body (IMU) frame of the ground truth, if the file contains one.
   std::optional<Eigen::Isometry3d> body_from_left;
-  std::string format;  ///< euroc | kalibr | opencv | ros | native
+  std::string format;  ///< the form of the files, as doc/your-own-data.md names it: euroc, kalibr, opencv, ros ...
   std::string files;   ///< files that it was read from, for messages
+  std::vector<StereoCalibration> other_sizes;  ///< the same cameras at other image sizes, if the file has several
 };
 
-/// Reads a calibration in one of the formats above; the format is recognised from the content. `files`: one path, or
-/// two separated by a comma (left, right). \throws DataError that names file and entry, the value found and the value
-/// expected.
+/// Reads a calibration in one of the forms that doc/your-own-data.md lists; the form is recognised from the content.
+/// `files`: one path, or two separated by a comma (left, right). \throws DataError that names file and entry, the value
+/// found and the value expected.
 StereoCalibration read_calibration(const std::string& files);
 
 /// Writes the native format: ten entries, see doc/your-own-data.md. \throws DataError if the file cannot be written.

@@ -1,12 +1,23 @@
 #pragma once
-/// \file camera.hpp  Pinhole cameras, the stereo rig, and undistortion tables.
+/// \file camera.hpp  Pinhole cameras, lenses, the stereo rig, and undistortion tables.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace quadedge {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kDegree = kPi / 180.0;  ///< rad
+
+enum class Side { left, right };
+
+inline constexpr Side kSides[] = {Side::left, Side::right};
+
+/// Index of a side in arrays of two: left 0, right 1.
+constexpr int index_of(Side side) { return side == Side::left ? 0 : 1; }
 
 /// An ideal pinhole camera. All values in pixels; pixel centres lie at integers, x to the right, y down.
 struct PinholeCamera {
@@ -72,5 +83,31 @@ struct StereoRig {
 /// positive, the rotation orthonormal, and max_disparity finite and not negative. \throws DataError that names `source`
 /// (the calibration file) and the offending value.
 void check_rig(const StereoRig& rig, const char* source);
+
+/// Lens models, which map viewing rays to the image. doc/your-own-data.md gives the sources of the equations.
+enum class LensModel {
+  radial_tangential,  ///< OpenCV: k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tau_x tau_y]]]]; no parameters: a pinhole
+                      ///< camera
+  equidistant,        ///< Kannala-Brandt, OpenCV's fisheye model: k1 k2 k3 k4 of the angle from the optical axis
+  field_of_view,      ///< Devernay and Faugeras: w [rad]
+  double_sphere,      ///< Usenko et al.: xi alpha
+  extended_unified,   ///< Khomutenko et al., EUCM: alpha beta
+  omnidirectional,    ///< Mei and Rives: xi, then the parameters of radial_tangential, on the plane behind the unit
+                      ///< sphere
+};
+
+/// Name of a model in files and on the command line: radtan, equidistant, fov, double-sphere, eucm, omni.
+const char* to_string(LensModel model);
+
+/// A lens and the size of the images recorded with it.
+struct Lens {
+  LensModel model = LensModel::radial_tangential;
+  /// Focal lengths and principal point of the model [px]; size of the recorded images, 0 x 0 if unknown.
+  PinholeCamera camera;
+  std::vector<double> parameters;  ///< of the model, in the order given there; angles in radians
+
+  /// Whether the recorded images are pinhole images of `camera`.
+  bool is_pinhole() const;
+};
 
 }  // namespace quadedge

@@ -3,8 +3,8 @@
 /// returns radians.
 ///
 /// constants.inc declares them. Command-line options (`--stereo.ncc_min 0.5`) and keys of `--config FILE.toml` have the
-/// same names; doc/configuration.md lists all constants with unit, range and meaning. quadedge/config_file.hpp reads
-/// and writes configuration files.
+/// same names; doc/configuration.md lists all constants with unit, range and meaning. The functions for
+/// files are part of quadedge::quadedge; quadedge::quadedge_core does not read files.
 
 #include <cstdint>
 #include <map>
@@ -12,11 +12,11 @@
 #include <variant>
 #include <vector>
 
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge {
 
-// Defines EdgesConfig, PatchesConfig, SiftConfig, StereoConfig, TemporalConfig, PoseConfig,
+// Defines EdgesConfig, PatchesConfig, StereoConfig, TemporalConfig, PoseConfig,
 // OdometryConfig and MapConfig.
 #define QUADEDGE_SECTION(Type, section, title, page) struct Type {
 #define QUADEDGE_CONSTANT(type, name, value, low, high, unit, level, help, paper) type name = value;
@@ -80,5 +80,24 @@ const std::vector<ConstantSection>& constant_sections();
 
 /// \throws UsageError that names the first constant that is out of range, its value and its range.
 void check_config(const Config& config);
+
+/// Reads `file` and overrides the values of `base`: `seed`, `variant = ["STAGE=NAME"]` and the constants of
+/// doc/configuration.md. The key `device` is skipped; only the program uses it. \throws UsageError that names file,
+/// line, key and the expected value: for a file that cannot be read or is not TOML, an unknown key, a wrong type, or a
+/// value out of range.
+Config read_config(const std::string& file, const Config& base = {});
+
+/// As read_config(), from TOML text; messages refer to it as `name`.
+Config read_config_text(const std::string& text, const std::string& name, const Config& base = {});
+
+/// The values of `--preset`, by the number of edges.
+std::vector<std::string> preset_names();
+
+/// The defaults, modified by a preset. \throws UsageError for an unknown name.
+Config read_preset(const std::string& name);
+
+/// Writes every constant, with its description as a comment. \throws UsageError for a value out of range, DataError if
+/// the file cannot be written.
+void write_config(const std::string& file, const Config& config);
 
 }  // namespace quadedge

@@ -1,9 +1,7 @@
 #pragma once
 /// \file device.hpp  Lists and opens OpenCL devices.
 
-#include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,30 +36,20 @@ std::vector<DeviceInfo> list_devices();
 /// `devices` in the order in which the choice "auto" prefers them: GPUs, then CPUs, then all others.
 std::vector<DeviceInfo> by_preference(std::vector<DeviceInfo> devices);
 
-/// Restricts a device, to test the behaviour on smaller ones and on one that fails. Unset members keep the value of the
-/// device.
-struct DeviceLimits {
-  std::optional<std::string> type;         ///< cpu | gpu | accelerator
-  std::optional<std::size_t> group_items;  ///< maximum number of work-items of a work-group
-  std::optional<std::size_t>
-      local_bytes;  ///< local memory of a work-group; 0: local memory is emulated in global memory
-  std::optional<std::size_t> memory_bytes;
-  std::optional<bool> stores_bytes;       ///< cl_khr_byte_addressable_store
-  std::optional<bool> exact_divide_sqrt;  ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
-  std::optional<std::size_t> launches;    ///< kernel launches that succeed before the device is lost
-};
-
 /// Options for opening a device.
 struct DeviceOptions {
   std::string kernel_folder;   ///< folder that kernels are read from; empty: the embedded kernels
   std::string program_folder;  ///< folder that caches built programs between processes; empty: no cache
   bool profiling = false;
-  DeviceLimits limits;
 };
+
+class Device;
 
 namespace opencl {
 class Context;
-}
+struct DeviceLimits;
+Device open_limited(const std::string& choice, const DeviceOptions& options, const DeviceLimits& limits);
+}  // namespace opencl
 
 /// An open device: an OpenCL context with its queue and built kernels, or the C++ reference implementation.
 class Device {
@@ -80,6 +68,9 @@ class Device {
   opencl::Context* context() const { return context_.get(); }
 
  private:
+  friend Device opencl::open_limited(const std::string&, const DeviceOptions&, const opencl::DeviceLimits&);
+  Device(const std::string& choice, const DeviceOptions& options, const opencl::DeviceLimits& limits);
+
   DeviceInfo info_;
   std::unique_ptr<opencl::Context> context_;
 };

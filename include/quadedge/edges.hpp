@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "quadedge/side.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge {
 
@@ -81,6 +81,8 @@ struct TemporalMatches {
   std::vector<std::int32_t>
       competing_clusters;  ///< further clusters of the previous edge's candidates (0: unambiguous)
   int search = -1;         ///< number of the temporal search that found them, see Tap; -1: none
+  /// Previous stereo edges with at least one candidate in the left / right image in that search, before the agreement.
+  int alive_left = 0, alive_right = 0;
 
   std::size_t size() const { return previous.size(); }
   /// Removes all matches and keeps the memory.
@@ -88,6 +90,7 @@ struct TemporalMatches {
     for (auto* values : {&previous, &current, &competing_clusters}) values->clear();
     for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
     search = -1;
+    alive_left = alive_right = 0;
   }
   /// Adds a match with stereo edge `current_edge` of `edges`, at that edge's positions.
   void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity,

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace quadedge {
@@ -88,5 +90,9 @@ struct StereoFrame {
   std::int64_t stamp_ns = 0;
   ImageView left, right;
 };
+
+/// Decodes a PNG, JPEG, PGM or PPM at its full bit depth, as read_grey_image() does; colour images are converted to
+/// luminance. `name` identifies the image in error messages. \throws DataError for a truncated or undecodable image.
+Image decode_grey_image(std::string_view bytes, const std::string& name);
 
 }  // namespace quadedge

@@ -11,10 +11,10 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/image.hpp"
-#include "quadedge/pose_covariance.hpp"
-#include "quadedge/saved_map.hpp"
-#include "quadedge/warning.hpp"
+#include "quadedge/map.hpp"
+#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 

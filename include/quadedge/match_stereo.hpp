@@ -1,6 +1,7 @@
 #pragma once
-/// \file match_stereo.hpp  Stereo edges of a single image pair.
+/// \file match_stereo.hpp  Edges of a single image or pair, and stereo edges as points with tangents in space.
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -9,10 +10,27 @@
 #include "quadedge/device.hpp"
 #include "quadedge/edge_map.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/image.hpp"
-#include "quadedge/warning.hpp"
 
 namespace quadedge {
+
+/// Third-order edges of one pinhole image, computed on `device`; none within edges.margin of the pixels hidden by
+/// `mask`.
+/// \throws DeviceError; UsageError if there are more than edges.max_edges edges; DataError if the stride is smaller
+/// than a row.
+EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config = {}, const PixelMask& mask = {});
+
+/// One column per stereo edge, in the left camera frame at the time of the edges. NaN for edges without depth: those
+/// parallel to their epipolar line (within 4 degrees) or behind a camera.
+struct EdgePoints {
+  Eigen::Matrix3Xd position;  ///< metres
+  Eigen::Matrix3Xd tangent;   ///< unit length; its projection has the direction of the left edge, including the sign
+};
+
+/// Triangulates stereo edges (doc/method.md section 5). `rig`: the cameras in which the edges were found,
+/// StereoOdometry::rig(). `disparity_offset`: estimated rectification error, FrameResult::disparity_offset [px].
+EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, double disparity_offset = 0);
 
 /// Result of match_stereo().
 struct StereoMatches {

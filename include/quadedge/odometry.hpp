@@ -12,10 +12,10 @@
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/image.hpp"
-#include "quadedge/pose_covariance.hpp"
 #include "quadedge/rig_evidence.hpp"
-#include "quadedge/warning.hpp"
+#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 
@@ -94,9 +94,9 @@ struct FrameResult {
   /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key stereo rig. Empty for a lost
   /// frame.
   std::optional<Eigen::Isometry3d> current_from_reference;
-  /// Covariance of current_from_reference due to edge errors alone, ROTATION first: rotation about x, y, z [rad], then
-  /// x, y, z [m], as a left perturbation in the current left camera frame. Empty for a lost frame.
-  std::optional<Eigen::Matrix<double, 6, 6>> relative_covariance;
+  /// Covariance of current_from_reference due to edge errors alone, in the order of PoseCovariance, as a left
+  /// perturbation in the current left camera frame. Empty for a lost frame.
+  std::optional<PoseCovariance> relative_covariance;
   int reference_frame = 0;            ///< number of the frame that was the key stereo rig; -1 before the first
   bool new_key_rig = false;           ///< whether this frame becomes the key stereo rig of the following frames
   double disparity_offset = 0;        ///< estimated so far, added to every disparity [px]

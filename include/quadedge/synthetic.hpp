@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "quadedge/calibration.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/pair_stream.hpp"
-#include "quadedge/side.hpp"
 #include "quadedge/trajectory.hpp"
 
 namespace quadedge {

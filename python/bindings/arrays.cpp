@@ -1,6 +1,8 @@
 #include "arrays.hpp"
 
 #include <cmath>
+#include <cstring>
+#include <nanobind/stl/string.h>
 
 #include "quadedge/error.hpp"
 
@@ -41,6 +43,68 @@ Eigen::Isometry3d transform_from(const nb::object& object, const std::string& na
   transform.linear() = rotation;
   transform.translation() = matrix.topRightCorner<3, 1>();
   return transform;
+}
+
+namespace {
+
+constexpr const char* kExpected = "expected a numpy array of uint8 or uint16, height x width";
+
+[[noreturn]] void refuse_type(const std::string& name, const std::string& found) {
+  throw nb::type_error((name + " is " + found + ", " + kExpected).c_str());
+}
+
+std::string type_of(nb::handle object) {
+  return object.is_none() ? "None" : nb::cast<std::string>(nb::str(object.type().attr("__name__")));
+}
+
+[[noreturn]] void refuse_shape(const std::string& name, const nb::ndarray<nb::ro, nb::device::cpu>& array) {
+  std::string message = name + " has ";
+  for (std::size_t i = 0; i < array.ndim(); ++i) message += (i > 0 ? " x " : "") + std::to_string(array.shape(i));
+  message += " values, expected height x width: one grey channel";
+  const bool is_colour = array.ndim() == 3 && (array.shape(2) == 3 || array.shape(2) == 4);
+  if (is_colour) message += ". Convert colour first, for example with cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)";
+  throw DataError(message);
+}
+
+}  // namespace
+
+ImageArgument::ImageArgument(nb::handle object, const std::string& name, int max_value) {
+  if (!nb::ndarray_check(object)) refuse_type(name, type_of(object));
+  const bool is_array = nb::try_cast(object, array_);
+  const bool words = is_array && array_.dtype() == nb::dtype<std::uint16_t>();
+  if (!is_array || (!words && array_.dtype() != nb::dtype<std::uint8_t>())) {
+    const nb::object pixels = object.attr("dtype");
+    refuse_type(name, "an array of " + nb::cast<std::string>(nb::str(nb::handle(pixels))));
+  }
+  if (array_.ndim() != 2 && !(array_.ndim() == 3 && array_.shape(2) == 1)) refuse_shape(name, array_);
+  const auto height = static_cast<int>(array_.shape(0)), width = static_cast<int>(array_.shape(1));
+  const std::ptrdiff_t bytes = words ? 2 : 1;
+  const auto* pixels = static_cast<const std::uint8_t*>(array_.data());
+  std::ptrdiff_t row = bytes * array_.stride(0);
+  const std::ptrdiff_t step = bytes * array_.stride(1);
+  if (height == 1) row = bytes * width;  // numpy leaves the stride of a dimension of length 1 undefined
+  if (width > 1 && height > 0 && step < bytes) {
+    throw DataError(name + " has a stride of " + std::to_string(step) +
+                    " bytes from pixel to pixel, expected at least the " + std::to_string(bytes) + " of a pixel");
+  }
+  if (width > 1 && step != bytes && row >= 0) {
+    copy_.resize(static_cast<std::size_t>(bytes * width * height));
+    std::uint8_t* copied = copy_.data();
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x, copied += bytes) std::memcpy(copied, pixels + y * row + x * step, bytes);
+    }
+    pixels = copy_.data();
+    row = bytes * width;
+  }
+  view_ = {pixels, width, height, row, words ? max_value : kMaxValue8};
+}
+
+nb::object pixels_of(const Image& image, nb::handle owner) {
+  const std::size_t shape[] = {static_cast<std::size_t>(image.height), static_cast<std::size_t>(image.width)};
+  if (image.max_value > kMaxValue8) {
+    return nb::cast(nb::ndarray<nb::numpy, const std::uint16_t>(image.pixels.data(), 2, shape, owner));
+  }
+  return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(image.pixels.data(), 2, shape, owner));
 }
 
 }  // namespace quadedge::python

@@ -11,7 +11,6 @@ using namespace nb::literals;
 /// For functions that neither take nor return Python objects.
 constexpr auto kReleasesGil = nb::call_guard<nb::gil_scoped_release>();
 
-void bind_errors(nb::module_& module);
 void bind_devices(nb::module_& module);
 void bind_configuration(nb::module_& module);
 void bind_cameras(nb::module_& module);

@@ -1,15 +1,13 @@
-#include "cameras.hpp"
-
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "pickling.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "synthetic.hpp"
 
 namespace quadedge::python {
 namespace {
@@ -45,6 +43,10 @@ void bind_camera(nb::module_& module) {
 StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std::optional<std::pair<int, int>>& size,
                         int max_value) {
   StereoCalibration calibration = read_calibration(files_of(files));
+  for (const StereoCalibration& other : std::exchange(calibration.other_sizes, {})) {
+    const PinholeCamera& camera = other.left.camera;
+    if (size && camera.width == size->first && camera.height == size->second) calibration = other;
+  }
   for (PinholeCamera* camera : {&calibration.left.camera, &calibration.right.camera}) {
     if (!size || camera->width > 0) continue;
     camera->width = size->first;

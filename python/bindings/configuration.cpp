@@ -1,9 +1,8 @@
-#include "configuration.hpp"
-
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "quadedge/config_file.hpp"
+#include "arguments.hpp"
+#include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::python {

@@ -5,13 +5,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
-#include "cameras.hpp"
-#include "images.hpp"
 #include "quadedge/dataset.hpp"
-#include "quadedge/decode_image.hpp"
+#include "quadedge/image.hpp"
 #include "quadedge/stereo_source.hpp"
-#include "trajectories.hpp"
 
 namespace quadedge::python {
 namespace {

@@ -3,7 +3,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "device_argument.hpp"
+#include "arguments.hpp"
 
 namespace quadedge::python {
 

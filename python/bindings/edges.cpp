@@ -2,12 +2,9 @@
 
 #include <nanobind/stl/string.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
-#include "cameras.hpp"
-#include "configuration.hpp"
-#include "device_argument.hpp"
-#include "images.hpp"
-#include "quadedge/detect_edges.hpp"
+#include "quadedge/match_stereo.hpp"
 #include "quadedge/odometry.hpp"
 
 namespace quadedge::python {
@@ -94,7 +91,7 @@ StereoEdgesInSpace match(nb::handle left, nb::handle right, nb::handle source, n
     StereoOdometry odometry(rig, chosen, constants);
     odometry.track({0, left_image.view(), right_image.view()});
     StereoEdgesInSpace found{odometry.details().stereo, {}};
-    found.points = edge_points(found.edges, odometry.rig(), constants);
+    found.points = edge_points(found.edges, odometry.rig());
     return found;
   });
 }

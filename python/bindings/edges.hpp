@@ -2,8 +2,8 @@
 /// \file edges.hpp  Stereo edges with their 3-D points, and quads, for Python.
 
 #include "bindings.hpp"
-#include "quadedge/edge_points.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/match_stereo.hpp"
 
 namespace quadedge::python {
 

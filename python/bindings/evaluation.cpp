@@ -5,13 +5,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
-#include "configuration.hpp"
-#include "device_argument.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluate_matching.hpp"
-#include "synthetic.hpp"
-#include "trajectories.hpp"
 
 namespace quadedge::python {
 namespace {

@@ -7,11 +7,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "cameras.hpp"
-#include "configuration.hpp"
-#include "device_argument.hpp"
-#include "images.hpp"
-#include "optional_matrix.hpp"
+#include "arguments.hpp"
+#include "arrays.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/localiser.hpp"
 

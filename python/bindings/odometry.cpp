@@ -10,17 +10,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
-#include "cameras.hpp"
-#include "configuration.hpp"
-#include "device_argument.hpp"
 #include "edges.hpp"
-#include "images.hpp"
-#include "optional_matrix.hpp"
 #include "pickling.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
-#include "trajectories.hpp"
 
 namespace quadedge::python {
 namespace {
@@ -112,7 +107,7 @@ class Odometry {
     return *running().map;
   }
   StereoEdgesInSpace in_space(StereoEdges edges) const {
-    EdgePoints points = edge_points(edges, rig_, config_, disparity_offset_);
+    EdgePoints points = edge_points(edges, rig_, disparity_offset_);
     return {std::move(edges), std::move(points)};
   }
 
@@ -225,9 +220,8 @@ void bind_poses(nb::class_<MappedResult>& result) {
       "the segment starts from, which counts as exact. None for a lost frame.");
   def_optional(
       result, "relative_covariance", &Self::relative_covariance,
-      "(6, 6) float64: covariance of ``current_from_reference`` due to edge errors alone, ROTATION first:\n"
-      "rotation about x, y, z [rad], then x, y, z [m], as a left perturbation in the frame of this left camera.\n"
-      "None for a lost frame.");
+      "(6, 6) float64: covariance of ``current_from_reference`` due to edge errors alone: x, y, z [m], then rotation\n"
+      "about x, y, z [rad], as a left perturbation in the frame of this left camera. None for a lost frame.");
   def_optional(
       result, "world_from_left", &Self::world_from_left,
       "(4, 4) float64: pose of the left camera in the world frame [m], which is the left camera frame of the first\n"

@@ -1,13 +1,11 @@
 /// \file synthetic.cpp  The built-in rendered sequences (include/quadedge/synthetic.hpp).
 
-#include "synthetic.hpp"
-
 #include <nanobind/stl/string.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "trajectories.hpp"
 
 namespace quadedge::python {
 namespace {

@@ -1,9 +1,8 @@
-#include "trajectories.hpp"
-
 #include <filesystem>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "quadedge/error.hpp"
 

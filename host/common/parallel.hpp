@@ -1,10 +1,21 @@
 #pragma once
-/// \file row_blocks.hpp  Parallel loops over many rows, with results that do not depend on the number of processors.
+/// \file parallel.hpp  Parallel loops over many rows and clones of functions for several vector widths, with results
+/// that do not depend on the processor.
 
 #include <algorithm>
 #include <cstddef>
 #include <tbb/parallel_for.h>
 #include <vector>
+
+/// To be placed before functions with plain loops over a fixed number of lanes. Without contraction into fused
+/// operations (-ffp-contract=off), all clones give identical bits. Sanitizers run before the clone is chosen; with
+/// them, there is only one.
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && \
+    !defined(__SANITIZE_ADDRESS__)
+#define QUADEDGE_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define QUADEDGE_VECTOR_CLONES
+#endif
 
 namespace quadedge {
 

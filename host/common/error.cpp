@@ -1,4 +1,4 @@
-#include "quadedge/warning.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge {
 

@@ -1,10 +1,18 @@
 #pragma once
-/// \file run_cost.hpp  Time and memory used by this process.
+/// \file timing.hpp  Time and memory used by this process, and the stages of a frame that the host times.
 
+#include <array>
 #include <chrono>
 #include <sys/resource.h>
 
 namespace quadedge {
+
+constexpr const char* kStereoStage = "stereo";
+constexpr const char* kTemporalStage = "temporal";
+constexpr const char* kPoseStage = "pose";
+
+/// In their order. A frame that is lost early does not reach all of them.
+constexpr std::array<const char*, 3> kHostStages = {kStereoStage, kTemporalStage, kPoseStage};
 
 using Clock = std::chrono::steady_clock;
 
