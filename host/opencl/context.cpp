@@ -11,7 +11,7 @@
 
 namespace quadedge::opencl {
 
-Context::Context(cl::Device device, const DeviceOptions& options)
+Context::Context(cl::Device device, const DeviceOptions& options, const DeviceLimits& limits)
     : device_(std::move(device)),
       kernel_folder_(options.kernel_folder),
       cache_(options.program_folder),
@@ -21,7 +21,7 @@ Context::Context(cl::Device device, const DeviceOptions& options)
     const cl::Platform platform(device_.getInfo<CL_DEVICE_PLATFORM>());
     driver_ = platform.getInfo<CL_PLATFORM_NAME>() + "\n" + platform.getInfo<CL_PLATFORM_VERSION>() + "\n" + name_ +
               "\n" + device_.getInfo<CL_DEVICE_VERSION>() + "\n" + device_.getInfo<CL_DRIVER_VERSION>() + "\n";
-    take_limits(options.limits);
+    take_limits(limits);
     context_ = cl::Context(device_);
     queue_ =
         cl::CommandQueue(context_, device_, profiling_ ? CL_QUEUE_PROFILING_ENABLE : cl_command_queue_properties{0});
@@ -49,7 +49,8 @@ void Context::take_limits(const DeviceLimits& wished) {
   limits_.launches = wished.launches;
   const auto single = device_.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
   limits_.exact_divide_sqrt = wished.exact_divide_sqrt.value_or((single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0);
-  build_options_ = "-cl-std=CL1.2 -cl-kernel-arg-info";
+  build_options_ =
+      "-cl-std=CL1.2 -cl-kernel-arg-info -w";  // a compiler's warnings are for developers: the lint shows them
   if (limits_.exact_divide_sqrt) build_options_ += " -cl-fp32-correctly-rounded-divide-sqrt";
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "opencl/device_limits.hpp"
 #include "opencl/fork_guard.hpp"
 #include "opencl/program_cache.hpp"
 #include "quadedge/device.hpp"
@@ -41,7 +42,7 @@ struct Limits {
 class Context {
  public:
   /// \throws DeviceError if the device cannot store single bytes
-  Context(cl::Device device, const DeviceOptions& options);
+  Context(cl::Device device, const DeviceOptions& options, const DeviceLimits& limits);
   ~Context() { finish_copies(); }
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <filesystem>
 #include <mutex>
 #include <optional>
-#include <unistd.h>
 
 #include "opencl/context.hpp"
+#include "opencl/device_limits.hpp"
 #include "opencl/fork_guard.hpp"
 #include "opencl/status.hpp"
 
@@ -113,38 +111,12 @@ std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const
   return std::nullopt;
 }
 
-/// The folder in which PoCL keeps kernels; empty if it is unknown.
-std::string pocl_cache_folder() {
-  const auto variable = [](const char* name) -> std::string {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-  };
-  if (const std::string chosen = variable("POCL_CACHE_DIR"); !chosen.empty()) return chosen;
-  if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache + "/pocl/kcache";
-  const std::string home = variable("HOME");
-  return home.empty() ? home : home + "/.cache/pocl/kcache";
-}
-
-/// PoCL has no devices without a writable cache; empty if the folder, or the one to create it in, is writable.
-std::string hint_at_cache() {
-  const std::string folder = pocl_cache_folder();
-  std::filesystem::path place = folder;
-  std::error_code ignored;
-  while (place.has_parent_path() && place != place.parent_path() && !std::filesystem::exists(place, ignored))
-    place = place.parent_path();
-  if (folder.empty() || (std::filesystem::is_directory(place, ignored) && access(place.c_str(), W_OK | X_OK) == 0))
-    return {};
-  return "; PoCL, if it is installed, cannot write to its cache " + folder +
-         ": set POCL_CACHE_DIR to a folder that is writable";
-}
-
 std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) {
-    return std::string(
-               "no OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
-               "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
-               "(device=\"reference\" in Python) runs without OpenCL, slowly") +
-           hint_at_cache();
+    return "no OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
+           "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
+           "(device=\"reference\" in Python) runs without OpenCL, slowly. PoCL has no devices where it cannot write to "
+           "its cache: set POCL_CACHE_DIR to a writable folder (default: $XDG_CACHE_HOME or ~/.cache, pocl/kcache)";
   }
   std::string message = "no OpenCL device matches '" + choice + "'; there are:";
   for (const auto& device : devices) {
@@ -169,7 +141,9 @@ std::vector<DeviceInfo> by_preference(std::vector<DeviceInfo> devices) {
   return devices;
 }
 
-Device::Device(const std::string& choice, const DeviceOptions& options) {
+Device::Device(const std::string& choice, const DeviceOptions& options) : Device(choice, options, {}) {}
+
+Device::Device(const std::string& choice, const DeviceOptions& options, const opencl::DeviceLimits& limits) {
   if (choice == "reference") {
     info_.index = -1;
     info_.platform = "none";
@@ -185,10 +159,14 @@ Device::Device(const std::string& choice, const DeviceOptions& options) {
   const auto chosen = choose(devices, choice);
   if (!chosen) throw DeviceError(no_match_message(devices, choice));
   info_ = devices[*chosen].info;
-  context_ = std::make_unique<opencl::Context>(devices[*chosen].device, options);
-  if (options.limits.type) info_.type = *options.limits.type;
+  context_ = std::make_unique<opencl::Context>(devices[*chosen].device, options, limits);
+  if (limits.type) info_.type = *limits.type;
   info_.memory_bytes = context_->limits().memory_bytes;
   info_.single_precision.exact_divide_sqrt = context_->limits().exact_divide_sqrt;
+}
+
+Device opencl::open_limited(const std::string& choice, const DeviceOptions& options, const DeviceLimits& limits) {
+  return Device(choice, options, limits);
 }
 
 Device::~Device() = default;

@@ -112,9 +112,26 @@ struct Range {
       : x(items_x), y(items_y), local_x(group_x), local_y(group_y) {}
 };
 
-/// A kernel with the C++ argument types `Args`, in order: In<T>, Out<T>, cl_int, cl_float, or a described structure.
-template <class... Args>
-class Kernel {
+/// How the host passes a parameter of a kernel: buffers for pointers, anything else by value.
+template <class T>
+struct Passed {
+  using Type = T;
+};
+template <class T>
+struct Passed<const T*> {
+  using Type = In<T>;
+};
+template <class T>
+struct Passed<T*> {
+  using Type = Out<T>;
+};
+
+/// A kernel with the C++ form of its declaration: Kernel<void(cl_int count, const cl_float* in, cl_float* out)>.
+/// Parameters are pointers to global memory, numbers, and structures that TypeName describes.
+template <class Signature>
+class Kernel;
+template <class... Parameters>
+class Kernel<void(Parameters...)> {
  public:
   Kernel() = default;
   Kernel(Context& context, const cl::Program& program, const std::string& name) : context_(&context), name_(name) {
@@ -126,12 +143,13 @@ class Kernel {
     check_local_memory(kernel_, name, context);
     group_ = group_limit(kernel_, name, context);
     if (context.checks_kernels())
-      context.add_kernel_faults(kernel_faults(kernel_, name, {Describe<Args>::get()...}, group_, context));
+      context.add_kernel_faults(
+          kernel_faults(kernel_, name, {Describe<typename Passed<Parameters>::Type>::get()...}, group_, context));
   }
 
   /// Enqueues the kernel; an empty range enqueues nothing. If the device cannot run groups of this size and the source
   /// requires none, the groups become smaller. \throws DeviceError with kernel, sizes and device
-  void operator()(Range range, Args... args) const {
+  void operator()(Range range, typename Passed<Parameters>::Type... args) const {
     if (range.x == 0 || range.y == 0) return;
     while (!group_.required && range.local_x > 1 && range.local_x * range.local_y > group_.items)
       range.local_x = (range.local_x + 1) / 2;

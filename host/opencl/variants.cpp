@@ -15,8 +15,6 @@ const std::vector<Variant>& all_variants() {
   static const std::vector<Variant> table = {
       {"undistortion", "item64", {"undistortion.cl"}, Form::items, {}, 64, true, true,
        "one work-item per pixel, groups of 64"},
-      {"undistortion", "item16", {"undistortion.cl"}, Form::items, {}, 16, false, false,
-       "one work-item per pixel, groups of 16"},
       {"scan", "serial", {"scan.cl"}, Form::items, {}, 1, true, false, "one work-item per part of the counts"},
       {"scan", "group256", {"scan.cl"}, Form::groups, {}, 256, false, true,
        "work-groups of 256 with their sums in local memory", 2048},
@@ -47,15 +45,11 @@ const std::vector<Variant>& all_variants() {
        "one work-item per left edge tests 16 right edges at once, groups of 16"},
       {"stereo_candidates", "group64", {"direction.cl", "epipolar.cl", "stereo_candidates.cl"},
        Form::items, {}, 64, false, true, "one work-item per left edge, groups of 64"},
-      {"stereo_candidates", "group16", {"direction.cl", "epipolar.cl", "stereo_candidates.cl"},
-       Form::items, {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"candidate_filters", "group64", {"described_edges.cl", "similarity.cl", "candidate_filters.cl"},
        Form::items, {}, 64, true, false, "one work-item per row of candidates, groups of 64"},
       {"candidate_filters", "rows32", {"described_edges.cl", "similarity_lanes.cl", "candidate_filters_groups.cl"},
        Form::groups, {{"GROUP", "32"}}, 32, false, true,
        "one work-group of 32 per row of candidates, eight work-items per pair of patches, local memory", 1536},
-      {"candidate_filters", "group16", {"described_edges.cl", "similarity.cl", "candidate_filters.cl"},
-       Form::items, {}, 16, false, false, "one work-item per row of candidates, groups of 16"},
       {"stereo_refinement", "group64", {"direction.cl", "epipolar.cl", "photometric.cl", "candidate_positions.cl",
         "stereo_refinement.cl"},
        Form::items, {}, 64, true, false, "one work-item per left edge, float8 across the edge, groups of 64"},
@@ -65,8 +59,6 @@ const std::vector<Variant>& all_variants() {
        "eight work-items per left edge, its patches in local memory, groups of 64", 3584},
       {"stereo_clusters", "group64", {"direction.cl", "stereo_clusters.cl"}, Form::items, {}, 64, true, true,
        "one work-item per left edge, groups of 64"},
-      {"stereo_clusters", "group16", {"direction.cl", "stereo_clusters.cl"}, Form::items, {}, 16, false, false,
-       "one work-item per left edge, groups of 16"},
       {"coarse_disparity", "rows", {"coarse_planes.cl", "coarse_disparity.cl"},
        Form::items, {{"COLUMNS", "8"}}, 1, true, false,
        "one work-item per row or eight columns, ushort16 of disparities"},
@@ -80,16 +72,12 @@ const std::vector<Variant>& all_variants() {
        Form::items, {}, 64, false, true, "one work-item per left edge, groups of 64"},
       {"stereo_mutual", "group64", {"direction.cl", "epipolar.cl", "stereo_mutual.cl"}, Form::items, {}, 64, true, true,
        "one work-item per left edge, groups of 64"},
-      {"stereo_mutual", "group16", {"direction.cl", "epipolar.cl", "stereo_mutual.cl"},
-       Form::items, {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"point_index", "serial", {"indexed_points.cl", "point_index.cl"}, Form::items, {}, 1, true, false,
        "one work-item per side"},
       {"point_index", "items64", {"indexed_points.cl", "point_index_groups.cl"},
        Form::groups, {{"GROUP", "64"}}, 64, false, true, "one work-item per edge, then one per cell, groups of 64"},
       {"temporal_candidates", "group64", {"edge_positions.cl", "indexed_points.cl", "temporal_candidates.cl"},
        Form::items, {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
-      {"temporal_candidates", "group16", {"edge_positions.cl", "indexed_points.cl", "temporal_candidates.cl"},
-       Form::items, {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"temporal_match", "lanes16", {"described_edges.cl", "similarity.cl", "edge_positions.cl", "edge_groups.cl",
         "indexed_points.cl", "temporal_match.cl"},
        Form::items, {}, 1, true, false,
@@ -104,17 +92,13 @@ const std::vector<Variant>& all_variants() {
        "lists of candidates that one kernel after the other shortens"},
       {"temporal_quads", "group64", {"edge_positions.cl", "edge_groups.cl", "temporal_quads.cl"},
        Form::items, {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
-      {"temporal_quads", "group16", {"edge_positions.cl", "edge_groups.cl", "temporal_quads.cl"},
-       Form::items, {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"wide_description", "group16", {"direction.cl", "wide_samples.cl", "wide_description.cl"},
        Form::items, {}, 16, true, false, "one work-item per stereo edge, groups of 16"},
       {"wide_description", "cells64", {"direction.cl", "wide_samples.cl", "wide_description_groups.cl"},
        Form::groups, {{"GROUP", "64"}}, 64, false, true,
        "sixteen work-items per stereo edge, one per cell, local memory, groups of 64", 7168},
-      {"wide_matching", "blocks", {"wide_matching_blocks.cl"}, Form::blocks, {{"ROWS", "8"}}, 1, true, false,
+      {"wide_matching", "blocks", {"wide_matching.cl"}, Form::items, {{"ROWS", "8"}}, 1, true, false,
        "one work-item per eight previous stereo edges, sixteen current ones as lanes"},
-      {"wide_matching", "group16", {"wide_matching.cl"}, Form::items, {}, 16, false, false,
-       "one work-item per previous stereo edge, groups of 16"},
       {"wide_matching", "tiles64", {"wide_matching_tiles.cl"},
        Form::groups, {{"GROUP", "64"}, {"ROWS", "8"}}, 64, false, true,
        "one work-group of 64 per eight previous stereo edges, tiles of 64 current ones in local memory", 11264},
@@ -146,9 +130,9 @@ const Variant& find_variant(const std::string& stage, const std::string& name) {
 
 }  // namespace
 
-const Variant& choose_variant(const std::string& stage, const Context& context,
-                              const std::map<std::string, std::string>& chosen) {
+const Variant& choose_variant(const std::string& stage, const Context& context, const VariantChoice& chosen) {
   const auto fits = [&](const Variant& variant) {
+    if (variant.form != Form::groups) return true;  // they can run in smaller groups
     return static_cast<std::size_t>(variant.local_size) <= context.limits().group_items &&
            static_cast<std::size_t>(variant.local_bytes) <= context.limits().local_bytes;
   };
@@ -168,7 +152,7 @@ const Variant& choose_variant(const std::string& stage, const Context& context,
   return *largest;
 }
 
-void check_variants(const std::map<std::string, std::string>& chosen) {
+void check_variants(const VariantChoice& chosen) {
   for (const auto& [stage, name] : chosen) find_variant(stage, name);
 }
 

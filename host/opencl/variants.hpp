@@ -13,9 +13,11 @@ namespace quadedge::opencl {
 enum class Form {
   items,   ///< every work-item on its own, for example one per edge
   groups,  ///< the work-items of a group share an edge, row or tile through local memory, or share out a scan
-  blocks,  ///< as `items`, after a rearrangement of the input into blocks
   lists    ///< no kernel of its own: the stages that pass lists on take its place
 };
+
+/// The variants that a configuration selects: stage -> name.
+using VariantChoice = std::map<std::string, std::string>;
 
 /// A variant of a stage. All variants of a stage give the same result.
 struct Variant {
@@ -40,10 +42,9 @@ const std::vector<Variant>& all_variants();
 /// The variant of `stage` selected in `chosen`, else the default for the type of the device. If the device cannot run
 /// that, because its groups or local memory are too small, the variant with the largest groups that it can run.
 /// \throws UsageError for an unknown name, with the known ones; DeviceError if the device cannot run the variant
-const Variant& choose_variant(const std::string& stage, const Context& context,
-                              const std::map<std::string, std::string>& chosen);
+const Variant& choose_variant(const std::string& stage, const Context& context, const VariantChoice& chosen);
 
 /// \throws UsageError if `chosen` contains an unknown stage or variant
-void check_variants(const std::map<std::string, std::string>& chosen);
+void check_variants(const VariantChoice& chosen);
 
 }  // namespace quadedge::opencl

@@ -1,4 +1,4 @@
-#include "stages/device_stereo_edges.hpp"
+#include "stages/device_edges.hpp"
 
 #include <algorithm>
 

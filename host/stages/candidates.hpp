@@ -1,13 +1,25 @@
 #pragma once
-/// \file device_candidates.hpp  Candidate lists and their scores on the device.
+/// \file candidates.hpp  Candidate lists and stage 4b, the filters over them, in stereo and in time.
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
-#include "opencl/kernel.hpp"
-#include "stages/judged_candidates.hpp"
-#include "stages/scan.hpp"
+#include "common/filter_limits.hpp"
+#include "quadedge/tap.hpp"
+#include "stages/stage.hpp"
 
 namespace quadedge::stages {
+
+/// Compressed rows: row r owns first[r] .. first[r + 1] of the other arrays.
+struct JudgedCandidates {
+  std::vector<std::int32_t> first, target;
+  std::vector<std::uint8_t> state;  ///< alive, rejected by or represented: kernels/layouts.cl
+  std::vector<float> ncc, sift;     ///< similarity and distance; undefined where no filter has computed them
+
+  /// Candidates that no filter of order <= `order` has rejected. `cue`: ncc, sift or null.
+  CandidateLists alive_after(int order, const std::vector<float>* cue) const;
+};
 
 /// Candidate lists in compressed rows, with the scores of every candidate. If the capacity is exceeded, the buffers
 /// grow and the sweep runs again, so no candidate is lost.
@@ -57,6 +69,32 @@ struct DeviceCandidates {
   /// All candidates without scores; with scores and the decisions of the filters, for a tap.
   CandidateLists read() const;
   JudgedCandidates read_judged() const;
+};
+
+/// Descriptions of a set of edges.
+struct DescribedEdges {
+  const opencl::Buffer<cl_char>& patches;  ///< see host/reference/patches.hpp
+  const opencl::Buffer<cl_int>& patch_of;  ///< number of the patches of each edge
+  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/sift.hpp
+};
+
+/// Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists.
+/// Variants of the stage "candidate_filters".
+class CandidateFilters : private Stage {
+ public:
+  CandidateFilters(opencl::Context& context, const opencl::VariantChoice& variants);
+
+  /// Fills ncc, sift and state of every candidate. Row r belongs to edge r * row_step of the first set.
+  /// `all_scores`: computes both scores of every candidate, even where one of them decides (for a tap).
+  void run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step, bool all_scores,
+           DeviceCandidates& candidates);
+
+ private:
+  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_char* patches_a,
+                      const cl_int* patch_of_a, const cl_uchar* sift_a, const cl_char* patches_b,
+                      const cl_int* patch_of_b, const cl_uchar* sift_b, cl_float* ncc, cl_float* sift, cl_uchar* state,
+                      cl_int* alive)>
+      kernel_;
 };
 
 }  // namespace quadedge::stages

@@ -1,0 +1,116 @@
+#include "stages/images.hpp"
+
+#include <sstream>
+#include <vector>
+
+#include "common/numeric.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr std::size_t kPadGroup = 32;  // work-items per group of the padding kernel
+
+std::string float_literal(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  text << std::showpoint << value << "f";
+  return text.str();
+}
+
+/// Weights of the pairs at k and -k: those of G, then of G'.
+std::vector<cl_float> pair_taps(double sigma) {
+  const int radius = kernel_radius(sigma);
+  std::vector<cl_float> taps;
+  for (std::size_t order = 0; order < 2; ++order) {
+    for (int k = 0; k <= radius; ++k)
+      taps.push_back(static_cast<cl_float>(gaussian_derivatives(-k, sigma)[order]));  // the pixel at k, from the centre
+  }
+  return taps;
+}
+
+}  // namespace
+
+PixelCorners::PixelCorners(opencl::Context& context, int max_value)
+    : context_(&context),
+      words_per_pixel_(bytes_per_pixel(max_value)),
+      kernel_(context, context.program({"pixel_corners.cl"}, image_defines(max_value)), "pixel_corners") {}
+
+void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int height) {
+  width_ = width;
+  height_ = height;
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  values_.ensure(*context_, columns * rows * words_per_pixel_);
+  kernel_({(columns + 15) / 16, rows, 16, 1}, image, width, height, values_);
+}
+
+opencl::Defines gradient_defines(const EdgesConfig& config) {
+  return {{"RADIUS", std::to_string(kernel_radius(config.sigma))},
+          {"SIGMA", float_literal(config.sigma)},
+          {"AT_PIXEL", config.direction_at == "pixel" ? "1" : "0"}};
+}
+
+PaddedPlane::PaddedPlane(opencl::Context& context, int width, int height, double sigma, int max_value)
+    : width_(width), height_(height), max_value_(max_value) {
+  if (width < 1 || height < 1) throw UsageError("edge detection needs an image of at least 1 x 1 pixels");
+  const int radius = kernel_radius(sigma);
+  const int pad_x = 16 * ((radius + 18) / 16), pad_y = radius + 2;  // as in kernels/edge_detection.cl
+  stride_ = pad_x + round_up(width + radius + 18, 16);
+  rows_ = height + 2 * pad_y;
+  pixels_.ensure(context, static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_));
+  taps_.write(context, pair_taps(sigma));
+  EdgesConfig config;
+  config.sigma = sigma;
+  pad_ = {context,
+          context.program({"edge_detection.cl", "padded_plane.cl"}, image_defines(max_value, gradient_defines(config))),
+          "edges_pad"};
+}
+
+void PaddedPlane::prepare(const opencl::Buffer<cl_uchar>& image) {
+  pad_({static_cast<std::size_t>(stride_ / 16), static_cast<std::size_t>(rows_), kPadGroup, 1}, image, width_, height_,
+       pixels_, stride_);
+}
+
+Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
+                           const opencl::VariantChoice& variants, int max_value)
+    : Stage(context, "undistortion", variants),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      bytes_per_pixel_(bytes_per_pixel(max_value)),
+      active_(!table.empty()) {
+  if (!active_) return;
+  kernel_ = {context, variant_.program(context, image_defines(max_value)), "undistort"};
+  corners_.emplace(context, max_value);
+  source_x_.write(context, table.source_x);
+  source_y_.write(context, table.source_y);
+}
+
+void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target) {
+  const auto width = static_cast<std::size_t>(recorded.width) * bytes_per_pixel_;
+  const auto height = static_cast<std::size_t>(recorded.height);
+  target.ensure(context_, width * height);
+  context_.count_to_device(width * height);
+  try {
+    context_.queue().enqueueWriteBufferRect(target.memory(), CL_FALSE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width,
+                                            0, static_cast<std::size_t>(recorded.stride), 0, recorded.pixels, nullptr,
+                                            context_.watch(opencl::Context::Command::transfer));
+    context_.copy_started();
+  } catch (const cl::Error& error) {
+    opencl::throw_device_error("uploading an image", error.err(), context_.name());
+  }
+}
+
+void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& image) {
+  begin();
+  if (!active_) {
+    upload(recorded, image);
+    return;
+  }
+  upload(recorded, recorded_);
+  image.ensure(context_, pixels_ * bytes_per_pixel_);
+  corners_->prepare(recorded_, recorded.width, recorded.height);
+  kernel_(over(pixels_), corners_->values(), recorded.width, recorded.height, source_x_, source_y_, image,
+          static_cast<cl_int>(pixels_));
+}
+
+}  // namespace quadedge::stages
