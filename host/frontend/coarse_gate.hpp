@@ -1,7 +1,7 @@
 #pragma once
 /// \file coarse_gate.hpp  Decides in which frames a coarse disparity is consulted. doc/method.md section 3.
 
-#include "common/coarse_search.hpp"
+#include "common/disparity_range.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::frontend {

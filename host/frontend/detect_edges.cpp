@@ -1,14 +1,11 @@
-#include "quadedge/detect_edges.hpp"
-
-#include "common/image_check.hpp"
+#include "common/images.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/edge_mask.hpp"
 #include "reference/edge_threshold.hpp"
 #include "stages/edge_detection.hpp"
-#include "stages/edge_mask.hpp"
-#include "stages/edge_threshold.hpp"
-#include "stages/undistortion.hpp"
+#include "stages/images.hpp"
 
 namespace quadedge {
 

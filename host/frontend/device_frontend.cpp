@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
-#include "common/coarse_search.hpp"
-#include "common/epipolar_rows.hpp"
+#include "common/disparity_range.hpp"
+#include "common/epipolar_geometry.hpp"
 #include "common/layouts.hpp"
+#include "common/matching_constants.hpp"
 #include "frontend/global_search.hpp"
 #include "frontend/memory_fit.hpp"
 
@@ -26,14 +26,11 @@ DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& ca
       detection(context, camera.width, camera.height, config.edges, config.variants),
       mask(context, hidden, config.edges.margin, detection.maxima()),
       patches(context, camera.width, camera.height, config.patches, config.variants, max_value),
-      sift(context, camera.width, camera.height, config.sift, config.variants, max_value) {}
+      sift(context, camera.width, camera.height, config.variants, max_value) {}
 
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
-    : Frontend(rig, config.stereo),
+    : StagedFrontend(rig, config),
       context_(context),
-      config_(config),
-      range_(rig, config),
-      gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()),
       left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),
       threshold_(context, config.edges, config.variants),
@@ -41,7 +38,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants, rig.max_value),
-      clustering_(context, config.stereo, config.variants),
+      clustering_(context, config.variants),
       coarse_(context, config.variants, rig.max_value),
       relaxation_(context, rig.left.width, rig.left.height, config.stereo, config.variants),
       mutual_(context, config.stereo, config.variants),
@@ -50,7 +47,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       temporal_quads_(context, config.temporal, config.variants),
       temporal_match_(context, config.temporal, config.variants),
       wide_description_(context, rig.left.width, rig.left.height, config.variants, rig.max_value),
-      wide_matching_(context, config.temporal, config.variants),
+      wide_matching_(context, config.variants),
       left_index_(rig.left.width, rig.left.height),
       right_index_(rig.right.width, rig.right.height) {
   std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
@@ -58,8 +55,8 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
   itself_.write(context, itself);
 }
 
-void DeviceFrontend::detect(DeviceRig& current) {
-  const stages::DeviceStereoEdges& rig = current.on_device;
+void DeviceFrontend::detect(Rig& current) {
+  const stages::DeviceStereoEdges& rig = own(current).on_device;
   context_.begin_stage("edge_detection");
   left_.plane.prepare(rig.left_image.pixels);
   right_.plane.prepare(rig.right_image.pixels);
@@ -69,9 +66,9 @@ void DeviceFrontend::detect(DeviceRig& current) {
   context_.flush();
   left_.mask.run(left_.detection.maxima());
   right_.mask.run(right_.detection.maxima());
-  selection_.run(selection_arguments(calibration_, Side::left, config_.stereo),
-                 selection_arguments(calibration_, Side::right, config_.stereo, rectification_.error()),
-                 left_.detection.maxima(), right_.detection.maxima());
+  selection_.run(selection_arguments(calibration_, Side::left),
+                 selection_arguments(calibration_, Side::right, rectification_.error()), left_.detection.maxima(),
+                 right_.detection.maxima());
   left_.detection.take_directions(left_.plane, left_.edges);
   right_.detection.take_directions(right_.plane, right_.edges);
   threshold_.request();
@@ -79,7 +76,6 @@ void DeviceFrontend::detect(DeviceRig& current) {
   left_.edges.request_count();
   right_.edges.request_count();
   context_.finish();
-  counts_ = {};
   counts_.edge_threshold = threshold_.host_threshold();
   current.edges_spacing = std::max(selection_.host_spacing(), static_cast<double>(kClosestSelection));
   counts_.edges_left = left_.edges.host_count;
@@ -89,43 +85,29 @@ void DeviceFrontend::detect(DeviceRig& current) {
 
 RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   const opencl::CopyGuard guard(context_);  // of the images, which belong to the caller
-  DeviceRig& current = rigs_.next(calibration_);
-  stages::DeviceStereoEdges& rig = current.on_device;
-  left_.undistortion.run(frame.left, rig.left_image.pixels);
-  right_.undistortion.run(frame.right, rig.right_image.pixels);
-  rectification_.start_frame();
-  do {
-    detect(current);
-    left_.patches.prepare(rig.left_image.pixels);
-    right_.patches.prepare(rig.right_image.pixels);
-    if (tap_ != nullptr || config_.stereo.sift_max > 0) {
-      left_.sift.prepare(rig.left_image.pixels);
-      right_.sift.prepare(rig.right_image.pixels);
-      left_.sift.describe(left_.edges.positions(), left_sift_);
-      right_.sift.describe(right_.edges.positions(), right_sift_);
-    }
-    range_.start_frame();
-    while (!find_stereo_edges(current)) {
-    }
-  } while (!rectification_.suffices(frame, current.edges));
-  counts_.disparity_range = range_.disparity();
-  counts_.epipolar_correction = rectification_.error().largest();
-  rig.has_sift = false;
-  current.is_restored = false;
-  indexed_ = false;
-  wide_rows_ = -1;
-  context_.flush();  // the right patches, while the host goes on
-  if (tap_ != nullptr) {
-    tap_->edges(edges(Side::left), edges(Side::right));
-    tap_candidates_without_limits();
-    tap_stereo();
-  }
-  return rigs_.current_handle();
+  return StagedFrontend::process(frame);
 }
 
-const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStereoEdges& rig) {
-  if (!gate_.is_open()) return nullptr;
-  const auto search = coarse_search(calibration_, range_.geometry());
+Rig& DeviceFrontend::start(const StereoFrame& frame) {
+  DeviceRig& current = rigs_.next(calibration_);
+  left_.undistortion.run(frame.left, current.on_device.left_image.pixels);
+  right_.undistortion.run(frame.right, current.on_device.right_image.pixels);
+  return current;
+}
+
+void DeviceFrontend::describe(const Rig& current, bool by_sift) {
+  const stages::DeviceStereoEdges& rig = own(current).on_device;
+  left_.patches.prepare(rig.left_image.pixels);
+  right_.patches.prepare(rig.right_image.pixels);
+  if (!by_sift) return;
+  left_.sift.prepare(rig.left_image.pixels);
+  right_.sift.prepare(rig.right_image.pixels);
+  left_.sift.describe(left_.edges.positions(), left_sift_);
+  right_.sift.describe(right_.edges.positions(), right_sift_);
+}
+
+const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStereoEdges& rig,
+                                                       const std::optional<CoarseDisparityArguments>& search) {
   if (!search ||
       !fits_beside(calibration_, config_, stages::CoarseDisparity::bytes(*search), context_.limits().memory_bytes))
     return nullptr;
@@ -133,11 +115,11 @@ const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStere
   return &coarse_;
 }
 
-bool DeviceFrontend::find_stereo_edges(DeviceRig& current) {
-  stages::DeviceStereoEdges& rig = current.on_device;
-  const EpipolarGeometry geometry = corrected(range_.geometry(), rectification_.error(), calibration_.left);
-  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
-                         range_.probe(left_.edges.host_count), candidates_);
+RelaxationTally DeviceFrontend::find_stereo_edges(Rig& current, const EpipolarGeometry& geometry,
+                                                  const DisparityProbe& probe,
+                                                  const std::optional<CoarseDisparityArguments>& coarse) {
+  stages::DeviceStereoEdges& rig = own(current).on_device;
+  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, probe, candidates_);
   left_.patches.cut(left_.edges.positions(), candidates_.counts, rig.left_patches);
   right_.patches.cut(right_.edges.positions(), stereo_candidates_.listed(), right_patches_);
   filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
@@ -146,11 +128,17 @@ bool DeviceFrontend::find_stereo_edges(DeviceRig& current) {
                   geometry, candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
   context_.flush();
-  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, witness(rig));
+  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, witness(rig, coarse));
   mutual_.run(left_.edges, right_.edges, right_.patches, range_.geometry(), clusters_, relaxed_, owners_, rig,
               current.edges);
-  const bool range_suffices = range_.suffices(current.edges, left_.edges.host_count);
-  return gate_.suffices(relaxed_.host_tally) && range_suffices;
+  return relaxed_.host_tally;
+}
+
+void DeviceFrontend::finish(Rig& current) {
+  own(current).on_device.has_sift = false;
+  indexed_ = false;
+  wide_step_ = 0;
+  context_.flush();  // the right patches, while the host goes on
 }
 
 void DeviceFrontend::index_current() {
@@ -165,9 +153,9 @@ stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges
   return {rig.left_patches, rig.left_index, rig.left_sift};
 }
 
-void DeviceFrontend::describe_by_sift(DeviceRig& rig) {
-  if (rig.on_device.has_sift) return;
-  stages::DeviceStereoEdges& edges = rig.on_device;
+void DeviceFrontend::describe_by_sift(Rig& rig) {
+  stages::DeviceStereoEdges& edges = own(rig).on_device;
+  if (edges.has_sift) return;
   left_.sift.prepare(edges.left_image.pixels);
   left_.sift.describe(edges.positions(Side::left), edges.left_sift);
   right_.sift.prepare(edges.right_image.pixels);
@@ -175,133 +163,85 @@ void DeviceFrontend::describe_by_sift(DeviceRig& rig) {
   edges.has_sift = true;
 }
 
-void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch& search,
+void DeviceFrontend::match_side(Side side, const DeviceRig& base, const TemporalSearch& search,
                                 stages::DeviceCandidates& candidates) {
-  DeviceRig& current = rigs_.current();
   temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius,
-                           static_cast<float>(config_.temporal.orientation_rad()), candidates);
-  const FilterLimits limits = temporal_limits(config_.temporal, search);
-  if (limits.sift_max > 0) {
-    describe_by_sift(base);
-    describe_by_sift(current);
-  }
-  filters_.run(described(base.on_device, side), described(current.on_device, side), limits, search.step,
-               tap_ != nullptr, candidates);
+                           static_cast<float>(kTemporalOrientation), candidates);
+  filters_.run(described(base.on_device, side), described(rigs_.current().on_device, side),
+               temporal_limits(config_.temporal, search), search.step, tap_ != nullptr, candidates);
 }
 
-void DeviceFrontend::match_by_lists(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
+void DeviceFrontend::match_by_lists(const DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
   match_side(Side::left, base, search, temporal_left_);
   match_side(Side::right, base, search, temporal_right_);
-  counts_.temporal_left = temporal_left_.living_rows();
-  counts_.temporal_right = temporal_right_.living_rows();
+  const int alive_left = temporal_left_.living_rows(), alive_right = temporal_right_.living_rows();
   temporal_quads_.agree(temporal_left_, temporal_right_);
   const DeviceRig& current = rigs_.current();
   matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_.list(index_of(Side::left)),
                                     temporal_left_);
-  if (tap_ == nullptr) return;
-  tap_temporal(search);
+  matches.alive_left = alive_left;
+  matches.alive_right = alive_right;
+  if (tap_ != nullptr) tap_temporal(search);
 }
 
-bool DeviceFrontend::match_fused(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
-  DeviceRig& current = rigs_.current();
-  const auto alive = temporal_match_.run(predicted_, search, base.on_device, current.on_device, left_index_,
-                                         right_index_, current.edges, matches);
-  if (!alive) return false;
-  counts_.temporal_left = alive->left;
-  counts_.temporal_right = alive->right;
-  return true;
-}
-
-void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
-  DeviceRig& base = rigs_.own(base_rig);
+void DeviceFrontend::search_in_time(Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
+  const DeviceRig &base = own(base_rig), &current = rigs_.current();
   const opencl::CopyGuard guard(context_);  // of the predictions
   index_current();
   predicted_.write(context_, {search.left, search.right});
-  if (tap_ != nullptr) {
-    tap_search(base, search);
-    describe_by_sift(base);
-    describe_by_sift(rigs_.current());
-  }
-  const bool fused =
-      tap_ == nullptr && temporal_match_.serves(search);  // a tap sees the lists, which a fused one lacks
-  if (!fused || !match_fused(base, search, matches)) match_by_lists(base, search, matches);
-  matches.search = counts_.searches++;
-  if (tap_ != nullptr) tap_->quads(matches);
+  // A tap sees the lists, which the fused kernel lacks.
+  const bool found = tap_ == nullptr && temporal_match_.serves(search) &&
+                     temporal_match_.run(predicted_, search, base.on_device, current.on_device, left_index_,
+                                         right_index_, current.edges, matches);
+  if (!found) match_by_lists(base, search, matches);
 }
 
-stages::DeviceWideEdges DeviceFrontend::describe_current(int wanted) {
-  const stages::DeviceStereoEdges& current = rigs_.current().on_device;
-  const int step = wide_step(static_cast<std::size_t>(current.count), wanted);
-  if (wide_rows_ < 0 || wide_step_ != step) {
-    wide_description_.prepare(current.left_image.pixels, small_);
-    wide_rows_ = wide_description_.describe(small_, current, step, wide_now_);
-    wide_step_ = step;
+stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceRig& rig, const WideSubset& subset,
+                                                        WideSide& side) {
+  if (rig.is_restored) return {rig.on_device, 1, rig.on_device.count, rig.wide};
+  const bool is_given = &subset.edges != &rig.edges;
+  if (is_given) {
+    side.packed.clear();
+    for (const auto* column : {&subset.edges.left_x, &subset.edges.left_y, &subset.edges.left_direction})
+      side.packed.insert(side.packed.end(), column->begin(), column->end());
+    side.given.reserve(context_, subset.edges.size());
+    side.given.count = side.given.stride = static_cast<cl_int>(subset.edges.size());
+    side.given.packed.write(side.packed.data(), side.packed.size());
   }
-  return {current, step, wide_rows_, wide_now_};
+  const bool is_known = &side == &wide_now_ && wide_step_ == subset.step;
+  const stages::DeviceStereoEdges& edges = is_given ? side.given : rig.on_device;
+  if (!is_known) {
+    wide_description_.prepare(rig.on_device.left_image.pixels, small_);
+    side.rows = wide_description_.describe(small_, edges, subset.step, side.descriptors);
+  }
+  if (&side == &wide_now_) wide_step_ = subset.step;
+  return {edges, subset.step, side.rows, side.descriptors};
 }
 
-void DeviceFrontend::match_globally(const Rig& base, int edges, TemporalMatches& matches) {
-  const DeviceRig& own = rigs_.own(base);
-  const stages::DeviceStereoEdges& before = own.on_device;
-  const StereoEdges& current = rigs_.current().edges;
-  if (own.is_restored) {
-    matches = wide_matching_.run({before, 1, before.count, own.wide}, describe_current(2 * edges), current);
-    return;
-  }
-  const int step = wide_step(static_cast<std::size_t>(before.count), edges);
-  wide_description_.prepare(before.left_image.pixels, small_);
-  const int rows = wide_description_.describe(small_, before, step, wide_before_);
-  matches = wide_matching_.run({before, step, rows, wide_before_}, describe_current(2 * edges), current);
-}
-
-void DeviceFrontend::match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) {
-  matches.clear();
-  const DeviceRig &own = rigs_.own(base), &current = rigs_.current();
-  const StereoEdges before = edges_of(own.edges, among.of_base), now = edges_of(current.edges, among.of_current);
-  if ((!own.is_restored && before.size() == 0) || now.size() == 0) return;
-  std::vector<cl_float> packed[2];
-  const opencl::CopyGuard guard(context_);  // until both lists have been copied
-  const auto describe = [&](const StereoEdges& edges, const stages::DeviceImage& image, std::vector<cl_float>& values,
-                            stages::DeviceStereoEdges& some, opencl::Buffer<cl_uchar>& descriptors) {
-    for (const auto* column : {&edges.left_x, &edges.left_y, &edges.left_direction})
-      values.insert(values.end(), column->begin(), column->end());
-    some.reserve(context_, edges.size());
-    some.count = some.stride = static_cast<cl_int>(edges.size());
-    some.packed.write(values.data(), values.size());
-    wide_description_.prepare(image.pixels, small_);
-    return stages::DeviceWideEdges{some, 1, wide_description_.describe(small_, some, 1, descriptors), descriptors};
-  };
-  const auto described = describe(now, current.on_device.left_image, packed[0], some_now_, wide_some_);
-  if (own.is_restored) {
-    matches = wide_matching_.run({own.on_device, 1, own.on_device.count, own.wide}, described, now);
-  } else {
-    matches = wide_matching_.run(describe(before, own.on_device.left_image, packed[1], some_before_, wide_before_),
-                                 described, now);
-    renumber(among.of_base, matches.previous);
-  }
-  renumber(among.of_current, matches.current);
+TemporalMatches DeviceFrontend::search_globally(const Rig& base, const WideSubset& of_base,
+                                                const WideSubset& of_current) {
+  const DeviceRig& current = rigs_.current();
+  const opencl::CopyGuard guard(context_);  // until the given edges have been copied
+  // Descriptions of every step-th edge of the current rig serve all searches of a frame.
+  WideSide& now = &of_current.edges == &current.edges ? wide_now_ : wide_some_;
+  const auto earlier = describe_widely(own(base), of_base, wide_before_);
+  return wide_matching_.run(earlier, describe_widely(current, of_current, now), of_current.edges);
 }
 
 KeptRig DeviceFrontend::keep() {
   const DeviceRig& current = rigs_.current();
   const stages::DeviceStereoEdges& rig = current.on_device;
-  const stages::DeviceWideEdges described = describe_current(2 * config_.temporal.wide_edges);
+  const stages::DeviceWideEdges described =
+      describe_widely(current, about(2 * config_.temporal.wide_edges, current), wide_now_);
   const auto wide = described.descriptors.read(static_cast<std::size_t>(described.rows) * kWideBytes);
   const auto left = rig.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
   const auto right = rig.right_patches.read(current.edges.size() * kEdgePatchBytes);
   return keep_edges(current, {described.step, wide}, left, current.edges.left_index, right);
 }
 
-RigHandle DeviceFrontend::restore(const KeptRig& kept) {
-  if (tap_ != nullptr) throw std::logic_error("a restored rig has no images, which a tap needs");
-  const std::shared_ptr<DeviceRig>& restored = rigs_.restored(calibration_);
-  restored->start(kept.frame);
-  restored->edges = kept.edges;
-  restored->edges_spacing = kept.edges_spacing;
-  restored->own_calibration = kept.own_calibration;
-  restored->is_restored = true;
+void DeviceFrontend::load(const KeptRig& kept, Rig& restored) {
   const std::size_t count = kept.edges.size();
-  stages::DeviceStereoEdges& rig = restored->on_device;
+  stages::DeviceStereoEdges& rig = own(restored).on_device;
   rig.reserve(context_, count);
   rig.count = rig.stride = static_cast<cl_int>(count);
   rig.has_sift = false;
@@ -314,8 +254,7 @@ RigHandle DeviceFrontend::restore(const KeptRig& kept) {
   const KeptPatches patches = unpack_patches(kept);
   rig.left_patches.write(context_, patches.left);
   rig.right_patches.write(context_, patches.right);
-  restored->wide.write(context_, unpack_wide(kept));
-  return restored;
+  own(restored).wide.write(context_, unpack_wide(kept));
 }
 
 EdgeSet DeviceFrontend::edges(Side side) {

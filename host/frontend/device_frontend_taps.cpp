@@ -24,21 +24,15 @@ CandidateLists passing(const stages::JudgedCandidates& lists, Filter filter) {
 
 }  // namespace
 
-/// Filters 1 and 2, which the kernel combines with filter 3: runs the same kernel with the limits of the later filters
-/// removed. The frame continues with the lists of filter 3.
-void DeviceFrontend::tap_candidates_without_limits() {
-  stages::DeviceCandidates lists;
+void DeviceFrontend::tap_stereo() {
+  // The kernel combines filters 1 and 2 with filter 3: it runs again without the limits of the later filters.
   for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
-    const EpipolarGeometry geometry =
-        without_limits(corrected(range_.geometry(), rectification_.error(), calibration_.left),
-                       filter < StereoFilter::disparity, true);
-    stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
+    stages::DeviceCandidates lists;
+    stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height,
+                           without_limits(corrected_geometry(), filter < StereoFilter::disparity, true),
                            range_.probe(left_.edges.host_count), lists);
     tap_->stereo_filter(filter, lists.read());
   }
-}
-
-void DeviceFrontend::tap_stereo() {
   const auto judged = candidates_.read_judged();
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
     tap_->stereo_filter(filter, passing(judged, filter));
@@ -79,11 +73,6 @@ void DeviceFrontend::tap_stereo() {
                         return is_chosen(i, k) &&
                                owner[static_cast<std::size_t>(anchor[k])] == static_cast<std::int32_t>(i);
                       }));
-  tap_->stereo(rigs_.current().edges);
-}
-
-void DeviceFrontend::tap_search(const Rig& base, const TemporalSearch& search) {
-  tap_->temporal_search({counts_.searches, base.frame, search.left, search.right, search.radius, search.step});
 }
 
 /// Both sides, up to the agreement. The kernel combines filter 1 with filter 2: for filter 1 it runs again with the

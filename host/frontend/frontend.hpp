@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/temporal_search.hpp"
+#include "common/filter_limits.hpp"
 #include "frontend/kept_rig.hpp"
 #include "frontend/rectification_follower.hpp"
 #include "frontend/rig.hpp"
@@ -12,9 +12,9 @@
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
-#include "quadedge/warning.hpp"
 
 namespace quadedge::frontend {
 
@@ -24,9 +24,7 @@ struct FrontendCounts {
   double disparity_range = 0;      ///< maximum disparity searched in the middle of the left image [px]
   double epipolar_correction = 0;  ///< see RigEvidence
   int edges_left = 0, edges_right = 0;
-  int dropped_edges = 0;                      ///< beyond edges.max_edges, in both images
-  int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() with a candidate before the agreement
-  int searches = 0;  ///< calls of match() and match_globally(); they number TemporalMatches::search
+  int dropped_edges = 0;  ///< beyond edges.max_edges, in both images
 };
 
 /// Interface with two implementations: the OpenCL stages and the C++ reference. Callers keep rigs by holding their
@@ -60,7 +58,7 @@ class Frontend {
   }
 
   /// Takes over the rectification error measured in the current frame, which the search of the next ones corrects.
-  void take(const rig_check::EpipolarFit& fit) { rectification_.take(fit); }
+  void take(const rig::EpipolarFit& fit) { rectification_.take(fit); }
 
   /// Keeps the current rig in a compact form.
   virtual KeptRig keep() = 0;
@@ -74,7 +72,7 @@ class Frontend {
   virtual std::size_t device_bytes() const = 0;
 
   /// Observes every filter from now on; null stops.
-  virtual void set_tap(Tap* tap) { tap_ = tap; }
+  void set_tap(Tap* tap) { tap_ = tap; }
 
  protected:
   Frontend(const StereoRig& rig, const StereoConfig& config)
@@ -83,6 +81,7 @@ class Frontend {
   StereoRig calibration_;
   RectificationFollower rectification_;
   FrontendCounts counts_;
+  int searches_ = 0;  ///< calls of match() for the current frame; they number TemporalMatches::search
   Tap* tap_ = nullptr;
 };
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/temporal_search.hpp"
+#include "common/filter_limits.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::frontend {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "common/temporal_search.hpp"
+#include "common/filter_limits.hpp"
 #include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"

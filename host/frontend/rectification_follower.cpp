@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rig_check/epipolar_probe.hpp"
+#include "rig/corner_matching.hpp"
 
 namespace quadedge::frontend {
 namespace {
@@ -34,13 +34,13 @@ void RectificationFollower::start_frame() {
 bool RectificationFollower::suffices(const StereoFrame& frame, const StereoEdges& edges) {
   if (is_settled_ || is_second_search_) return true;
   is_second_search_ = true;
-  std::vector<rig_check::CornerMatch> matches;
-  rig_check::EpipolarProbe(rig_).align(frame, edges, matches);
-  error_ = judge(rig_check::fit_across(matches, rig_.left.width, rig_.left.height));
+  std::vector<rig::CornerMatch> matches;
+  rig::CornerMatcher(rig_).align(frame, edges, matches);
+  error_ = judge(rig::fit_across(matches, rig_.left.width, rig_.left.height));
   return error_.largest() == 0;
 }
 
-void RectificationFollower::take(const rig_check::EpipolarFit& fit) {
+void RectificationFollower::take(const rig::EpipolarFit& fit) {
   if (!is_settled_) next_ = error_;
   is_settled_ = true;
   if (fit.samples < kLeastSamples) return;
@@ -57,7 +57,7 @@ void RectificationFollower::take(const rig_check::EpipolarFit& fit) {
   if ((wanted - next_).largest() > kChange) next_ = wanted;
 }
 
-RectificationError RectificationFollower::judge(const rig_check::EpipolarFit& measured) const {
+RectificationError RectificationFollower::judge(const rig::EpipolarFit& measured) const {
   const double largest = measured.largest(), released = next_.largest() > 0 ? kReleased : 1;
   if (measured.samples < kLeastSamples || released * largest < least_ ||
       measured.scatter > released * kScatterRatio * measured.residual || spread_ > released * kSpreadRatio * largest)

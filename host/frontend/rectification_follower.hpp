@@ -1,12 +1,12 @@
 #pragma once
 /// \file rectification_follower.hpp  The rectification error that the stereo search corrects. doc/method.md section 3.
 
-#include "common/rectification_error.hpp"
+#include "common/epipolar_geometry.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
-#include "rig_check/epipolar_fit.hpp"
+#include "rig/corner_matching.hpp"
 
 namespace quadedge::frontend {
 
@@ -24,19 +24,19 @@ class RectificationFollower {
   /// and the frame is to be searched again; the second answer is always true.
   bool suffices(const StereoFrame& frame, const StereoEdges& edges);
   /// Takes the error measured in the current frame into account. A frame that is not taken leaves no trace.
-  void take(const rig_check::EpipolarFit& fit);
+  void take(const rig::EpipolarFit& fit);
 
   /// Of the current frame; zero unless the images show clearly that it matters.
   const RectificationError& error() const { return error_; }
 
  private:
   /// The measured error, limited, or zero if it is small or uncertain.
-  RectificationError judge(const rig_check::EpipolarFit& measured) const;
+  RectificationError judge(const rig::EpipolarFit& measured) const;
 
   const StereoRig& rig_;
   double least_;                     ///< no smaller error is corrected [px]
   RectificationError error_, next_;  ///< of the current frame, and of the next one
-  rig_check::EpipolarFit mean_;      ///< of the frames taken, exponentially weighted
+  rig::EpipolarFit mean_;            ///< of the frames taken, exponentially weighted
   double spread_ = 0;                ///< mean difference of a frame from mean_ [px]
   int frames_ = 0;                   ///< taken with a fit, up to kMemory
   bool is_settled_ = false;          ///< whether a frame has been taken

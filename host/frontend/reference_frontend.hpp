@@ -2,14 +2,13 @@
 /// \file reference_frontend.hpp  The front end in C++, used as the reference for the whole pipeline (`--device
 /// reference`).
 
-#include "frontend/coarse_gate.hpp"
-#include "frontend/frontend.hpp"
-#include "frontend/range_follower.hpp"
+#include "frontend/staged_frontend.hpp"
 #include "reference/candidate_filters.hpp"
 #include "reference/edge_threshold.hpp"
 #include "reference/stereo_candidates.hpp"
 #include "reference/stereo_clusters.hpp"
 #include "reference/stereo_relaxation.hpp"
+#include "reference/temporal_match.hpp"
 
 namespace quadedge::frontend {
 
@@ -21,34 +20,35 @@ struct ReferenceRig : Rig {
 };
 
 /// Optimised for clarity, not speed; single-threaded.
-class ReferenceFrontend : public Frontend {
+class ReferenceFrontend : public StagedFrontend {
  public:
   ReferenceFrontend(const StereoRig& rig, const Config& config);
 
-  RigHandle process(const StereoFrame& frame) override;
-  void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_globally(const Rig& base, int edges, TemporalMatches& matches) override;
-  void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) override;
   KeptRig keep() override;
-  RigHandle restore(const KeptRig& kept) override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  /// Detects the edges of both images, limited by the budget.
-  void detect(ReferenceRig& now, double threshold);
-  /// The stereo cascade, within the current disparity range. \returns false if the frame is to be searched again
-  bool search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
-                     const reference::EdgeDescriptions& right);
-  void tap_candidates();
-  void tap_clusters();
+  Rig& start(const StereoFrame& frame) override;
+  void detect(Rig& current) override;
+  void describe(const Rig& current, bool by_sift) override;
+  RelaxationTally find_stereo_edges(Rig& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
+                                    const std::optional<CoarseDisparityArguments>& coarse) override;
+  void finish(Rig& current) override;
+  void tap_stereo() override;
+  void describe_by_sift(Rig& rig) override;
+  void search_in_time(Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
+  TemporalMatches search_globally(const Rig& base, const WideSubset& of_base, const WideSubset& of_current) override;
+  std::shared_ptr<Rig> spare() override { return rigs_.restored(); }
+  void load(const KeptRig& kept, Rig& restored) override;
+  RigHandle current_handle() const override { return rigs_.current_handle(); }
+  ReferenceRig& own(const Rig& rig) override { return rigs_.own(rig); }
+  void tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result);
 
-  Config config_;
   reference::EdgeThreshold threshold_;
-  RangeFollower range_;
-  CoarseGate gate_;
   EdgeSet left_edges_, right_edges_;
-  // Of the last search_stereo(), for taps:
+  reference::EdgeDescriptions left_described_, right_described_;
+  // Of the last find_stereo_edges(), for taps:
   reference::Candidates candidates_;
   reference::CandidateScores scores_;
   reference::StereoClusters clusters_;

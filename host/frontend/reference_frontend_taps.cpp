@@ -1,16 +1,21 @@
-/// \file reference_frontend_taps.cpp  Passes data of the reference's stereo cascade to a tap, from the candidate lists
+/// \file reference_frontend_taps.cpp  Passes data of the reference to a tap after each filter, from the candidate lists
 /// on.
 #include "frontend/reference_frontend.hpp"
+#include "reference/point_index.hpp"
+#include "reference/temporal_candidates.hpp"
 
 namespace quadedge::frontend {
 namespace {
 
+constexpr float kAnyDirection = 4.0f;  // rad, larger than any angle
+
 /// Candidates that no filter up to `filter` has rejected, with the scores that the next filter compares.
-CandidateLists alive_after(StereoFilter filter, const reference::Candidates& candidates,
+template <class Filter>
+CandidateLists alive_after(Filter filter, const reference::Candidates& candidates,
                            const reference::CandidateScores& scores) {
-  const StereoFilter judge = next(filter);
-  const bool by_sift = judge == StereoFilter::sift || judge == StereoFilter::nearly_best_sift,
-             by_ncc = judge == StereoFilter::ncc || judge == StereoFilter::nearly_best_ncc;
+  const Filter judge = next(filter);
+  const bool by_sift = judge == Filter::sift || judge == Filter::nearly_best_sift,
+             by_ncc = judge == Filter::ncc || judge == Filter::nearly_best_ncc;
   CandidateLists lists;
   lists.first.assign(1, 0);
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
@@ -27,12 +32,9 @@ CandidateLists alive_after(StereoFilter filter, const reference::Candidates& can
 
 }  // namespace
 
-void ReferenceFrontend::tap_candidates() {
+void ReferenceFrontend::tap_stereo() {
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
     tap_->stereo_filter(filter, alive_after(filter, candidates_, scores_));
-}
-
-void ReferenceFrontend::tap_clusters() {
   const auto lists_that = [&](const auto& pass) {
     CandidateLists lists;
     lists.first.assign(1, 0);
@@ -55,6 +57,25 @@ void ReferenceFrontend::tap_clusters() {
   tap_->stereo_filter(StereoFilter::relaxation, lists_that([&](std::size_t i, std::size_t k) {
                         return relaxation_.chosen[i] == static_cast<std::int32_t>(k);
                       }));
+}
+
+void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result) {
+  const StereoEdges& current = rigs_.current().edges;
+  for (const Side side : kSides) {
+    const bool is_left = side == Side::left;
+    const PinholeCamera& camera = is_left ? calibration_.left : calibration_.right;
+    const EdgePositionsView edges = current.positions(side);
+    reference::PointIndex index;
+    reference::make_point_index(edges.x, edges.y, camera.width, camera.height, index);
+    const auto displaced = reference::temporal_candidates(is_left ? search.left : search.right, edges, index,
+                                                          search.radius, kAnyDirection, search.step);
+    tap_->temporal_filter(TemporalFilter::displacement, side, {displaced.first, displaced.target, {}, {}, {}});
+    const reference::TemporalMatchLists& lists = is_left ? result.left : result.right;
+    for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::agreement; filter = next(filter))
+      tap_->temporal_filter(filter, side, alive_after(filter, lists.candidates, lists.scores));
+    tap_->temporal_filter(TemporalFilter::agreement, side,
+                          alive_after(TemporalFilter::agreement, result.left.candidates, result.left.scores));
+  }
 }
 
 }  // namespace quadedge::frontend

@@ -1,7 +1,7 @@
 #pragma once
 /// \file rig.hpp  Handles to the stereo edges of a frame, valid for as long as they are held.
 
-#include <algorithm>
+#include <Eigen/Core>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -23,17 +23,21 @@ class Rig {
   /// Spacing of the epipolar lines on which edges were selected, at least that of the maxima of a curve [px]. See
   /// kernels/edge_selection.cl.
   double edges_spacing = 1;
+  bool is_restored = false;  ///< without images, with wide descriptors of all edges
   /// The cameras that the edges refer to, if these are not the front end's; offset included.
   std::shared_ptr<const StereoRig> own_calibration;
 
-  /// Measurements of the stereo edges with a calibration whose disparities include `offset` [px], or with their own
-  /// calibration. Cached until the offset changes.
+  /// Measurements of the stereo edges with `calibration`, unless they have their own. Cached until an argument changes.
   /// \param min_epipolar_angle see pose::measure() [rad]
-  const pose::MeasuredEdges& measured_edges(const StereoRig& calibration, double offset,
-                                            double min_epipolar_angle) const {
-    if (measured_with_ != offset) {
-      pose::measure_edges(own_calibration ? *own_calibration : calibration, edges, min_epipolar_angle, measured_);
-      measured_with_ = offset;
+  const pose::MeasuredEdges& measured_edges(const StereoRig& calibration, double min_epipolar_angle) const {
+    const StereoRig& used = own_calibration ? *own_calibration : calibration;
+    Arguments arguments;
+    arguments << used.left.fx, used.left.fy, used.left.cx, used.left.cy, used.right.fx, used.right.fy, used.right.cx,
+        used.right.cy, min_epipolar_angle,
+        Eigen::Map<const Eigen::Matrix<double, 16, 1>>(used.right_from_left.matrix().data());
+    if (arguments != measured_with_) {
+      pose::measure_edges(used, edges, min_epipolar_angle, measured_);
+      measured_with_ = arguments;
     }
     return measured_;
   }
@@ -41,13 +45,15 @@ class Rig {
   void start(int frame_number) {
     frame = frame_number;
     own_calibration = nullptr;
-    measured_with_ = kNever;
+    is_restored = false;
+    measured_with_ = never();
   }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+  using Arguments = Eigen::Matrix<double, 25, 1>;  ///< focal lengths, principal points, angle, right_from_left
+  static Arguments never() { return Arguments::Constant(std::numeric_limits<double>::quiet_NaN()); }
   mutable pose::MeasuredEdges measured_;
-  mutable double measured_with_ = kNever;  ///< disparity offset [px]
+  mutable Arguments measured_with_ = never();
 };
 
 /// Keeps a rig; its memory is reused when the last handle is released. Must not outlive the device.

@@ -2,7 +2,7 @@
 
 #include "frontend/stage_rows.hpp"
 #include "opencl/context.hpp"
-#include "stages/long_loop.hpp"
+#include "stages/stage.hpp"
 
 namespace quadedge {
 namespace {

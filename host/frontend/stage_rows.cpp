@@ -9,7 +9,7 @@
 #include "opencl/buffer.hpp"
 #include "quadedge/synthetic.hpp"
 #include "reference/undistortion.hpp"
-#include "stages/undistortion.hpp"
+#include "stages/images.hpp"
 
 namespace quadedge::frontend {
 namespace {

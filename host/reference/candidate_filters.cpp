@@ -19,6 +19,7 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
     return set.patches.data() + i * kEdgePatchBytes;
   };
   const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
+  const bool by_sift = !a.sift.empty() && !b.sift.empty();
   const int nearly_best_order = std::max(limits.ncc_order, limits.sift_order) + 1;
 
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
@@ -29,7 +30,7 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
     for (std::size_t c = begin; c < end; ++c) {
       const auto j = static_cast<std::size_t>(candidates.target[c]);
       scores.ncc[c] = patch_ncc(patch(a, i), patch(b, j));
-      scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
+      if (by_sift) scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
       int rejected = 0;
       if (scores.ncc[c] < limits.ncc_min) rejected = limits.ncc_order;
       if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max)

@@ -14,13 +14,13 @@ namespace quadedge::reference {
 /// reference/sift.hpp).
 struct EdgeDescriptions {
   std::vector<std::int8_t> patches;
-  std::vector<std::uint8_t> sift;
+  std::vector<std::uint8_t> sift;  ///< empty: no filter asks for them
 };
 
 /// One entry per candidate.
 struct CandidateScores {
   std::vector<float> ncc;           ///< highest of the four side pairings
-  std::vector<float> sift;          ///< smallest of the four L2 distances
+  std::vector<float> sift;          ///< smallest of the four L2 distances; 0 without descriptors
   std::vector<std::uint8_t> state;  ///< alive, rejected by or represented: kernels/layouts.cl
 };
 

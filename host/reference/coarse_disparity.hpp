@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/coarse_search.hpp"
+#include "common/disparity_range.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::reference {

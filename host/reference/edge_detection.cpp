@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/gaussian_taps.hpp"
 #include "common/layouts.hpp"
+#include "common/numeric.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 
 namespace quadedge::reference {
 namespace {

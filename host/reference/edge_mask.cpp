@@ -1,6 +1,6 @@
 #include "reference/edge_mask.hpp"
 
-#include "common/mask_border.hpp"
+#include "common/images.hpp"
 #include "reference/edge_selection.hpp"
 
 namespace quadedge::reference {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "common/gaussian_taps.hpp"
+#include "common/numeric.hpp"
 #include "common/threshold_limits.hpp"
 
 namespace quadedge::reference {
@@ -126,11 +126,10 @@ double EdgeThreshold::next(const std::vector<ImageView>& images) {
   const double step = kMaxGrey / images.front().max_value;  // [grey levels]
   noise_ = step * tally.noise();
   const ThresholdLimits limits = threshold_limits(config_);
-  const double gradient =
-      sum_of(tally.gradients) > 0 ? tally.gradient_exceeded_by(config_.threshold_area) : config_.threshold_max;
-  const double contrast = gradient * gradient / config_.threshold_max;
+  const double gradient = sum_of(tally.gradients) > 0 ? tally.gradient_exceeded_by(kThresholdArea) : kThresholdMax;
+  const double contrast = gradient * gradient / kThresholdMax;
   const double measured =
-      std::min(std::max({contrast, limits.per_noise * noise_, limits.per_step * step}), config_.threshold_max);
+      std::min(std::max({contrast, limits.per_noise * noise_, limits.per_step * step}), kThresholdMax);
   const double hold = kThresholdHold;
   const bool held = threshold_ <= hold * measured && measured <= hold * threshold_;
   if (!held) threshold_ = measured;

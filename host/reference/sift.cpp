@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "quadedge/pi.hpp"
+#include "common/matching_constants.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge::reference {
 namespace {
@@ -114,13 +115,12 @@ void sift_descriptor(const GradientMap& map, float x, float y, float direction, 
 }
 
 std::vector<std::uint8_t> sift_descriptors(const ImageView& image, const std::vector<float>& xs,
-                                           const std::vector<float>& ys, const std::vector<float>& directions,
-                                           const SiftConfig& config) {
+                                           const std::vector<float>& ys, const std::vector<float>& directions) {
   const GradientMap map = sift_gradients(image);
   std::vector<std::uint8_t> descriptors(xs.size() * kEdgeSiftBytes);
   for (std::size_t e = 0; e < xs.size(); ++e) {
     // Rounded like on the device, because the nearest pixel is a discrete choice.
-    const float offset = static_cast<float>(config.offset);
+    const float offset = static_cast<float>(kSiftOffset);
     const float to_dark_x = offset * static_cast<float>(std::sin(static_cast<double>(directions[e])));
     const float to_dark_y = -offset * static_cast<float>(std::cos(static_cast<double>(directions[e])));
     std::uint8_t* edge = descriptors.data() + e * kEdgeSiftBytes;

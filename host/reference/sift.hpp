@@ -40,8 +40,7 @@ void sift_descriptor(const GradientMap& map, float x, float y, float direction, 
 /// (x + offset sin t, y - offset cos t), then on the bright side. `xs`, `ys` in pixels and `directions` in radians,
 /// finite.
 std::vector<std::uint8_t> sift_descriptors(const ImageView& image, const std::vector<float>& xs,
-                                           const std::vector<float>& ys, const std::vector<float>& directions,
-                                           const SiftConfig& config);
+                                           const std::vector<float>& ys, const std::vector<float>& directions);
 
 /// Square of the smallest L2 distance over the four pairings of two edges' descriptors (`kEdgeSiftBytes` each). Exact.
 int sift_distance2(const std::uint8_t* a, const std::uint8_t* b);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/angles.hpp"
+#include "common/numeric.hpp"
 
 namespace quadedge::reference {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include "common/angles.hpp"
-#include "common/stereo_constants.hpp"
+#include "common/matching_constants.hpp"
+#include "common/numeric.hpp"
 
 namespace quadedge::reference {
 
 StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
-                               const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config) {
+                               const RefinedCandidates& refined, const EdgeSet& right) {
   const auto& positions = refined.position;
   StereoClusters clusters;
   clusters.first.assign(1, 0);
@@ -33,8 +33,8 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
     for (std::size_t from = 0, to = 0; from < members.size(); from = to) {
       to = from + 1;
       while (to < members.size() && static_cast<int>(to - from) < kClusterSizeMax &&
-             positions[members[to]] - positions[members[to - 1]] < config.cluster_gap &&
-             angle_between(direction(members[to]), direction(members[to - 1])) <= config.cluster_orientation_rad()) {
+             positions[members[to]] - positions[members[to - 1]] < kClusterGap &&
+             angle_between(direction(members[to]), direction(members[to - 1])) <= kClusterOrientation) {
         ++to;
       }
       double highest = rank(members[from]);

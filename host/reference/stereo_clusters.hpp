@@ -20,6 +20,6 @@ struct StereoClusters {
 /// The most similar member represents its cluster, because the centroid of the paper misses all members where two
 /// curves are within a pixel (terrace_2s: 96.3 % recall and precision instead of 98.2 %).
 StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
-                               const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config);
+                               const RefinedCandidates& refined, const EdgeSet& right);
 
 }  // namespace quadedge::reference

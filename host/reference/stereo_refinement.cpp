@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/filter_limits.hpp"
-#include "common/stereo_constants.hpp"
+#include "common/matching_constants.hpp"
 #include "reference/patches.hpp"
 
 namespace quadedge::reference {
@@ -48,8 +48,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
     for (std::size_t c = begin; c < end; ++c) {
       if (scores.state[c] != kCandidateAlive) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
-      refined.position[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j],
-                                           config.shift_min_angle_rad(), config.shift_max);
+      refined.position[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j], kShiftMinAngle, kShiftMax);
       for (std::size_t k = begin; k < c; ++k) {
         if (scores.state[k] != kCandidateAlive || std::abs(refined.position[k] - refined.position[c]) >= kSamePosition)
           continue;

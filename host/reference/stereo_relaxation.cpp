@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/filter_limits.hpp"
+#include "common/matching_constants.hpp"
 
 namespace quadedge::reference {
 namespace {
@@ -177,7 +178,7 @@ StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet
     for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) highest = std::max(highest, similarity[k]);
     for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
       if (similarity[k] < lowest) continue;
-      prior[k] = result.belief[k] = std::exp((similarity[k] - highest) / config.relaxation_scale);
+      prior[k] = result.belief[k] = std::exp((similarity[k] - highest) / kRelaxationScale);
       ++candidates;
     }
     normalise(result.belief, neighbourhood.begin(i), neighbourhood.end(i));

@@ -1,7 +1,7 @@
 #pragma once
 /// \file stereo_relaxation.hpp  Plain C++ twin of kernels/stereo_relaxation.cl.
 
-#include "common/coarse_search.hpp"
+#include "common/disparity_range.hpp"
 #include "common/epipolar_geometry.hpp"
 #include "reference/coarse_disparity.hpp"
 #include "reference/stereo_clusters.hpp"

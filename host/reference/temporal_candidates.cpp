@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/angles.hpp"
+#include "common/numeric.hpp"
 
 namespace quadedge::reference {
 

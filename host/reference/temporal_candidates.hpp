@@ -1,7 +1,7 @@
 #pragma once
 /// \file temporal_candidates.hpp  Plain C++ twin of kernels/temporal_candidates.cl.
 
-#include "common/temporal_search.hpp"
+#include "common/filter_limits.hpp"
 #include "reference/point_index.hpp"
 #include "reference/stereo_candidates.hpp"
 

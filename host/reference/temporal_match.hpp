@@ -1,7 +1,7 @@
 #pragma once
 /// \file temporal_match.hpp  Plain C++ twin of kernels/temporal_match.cl: the whole cascade in time.
 
-#include "common/temporal_search.hpp"
+#include "common/filter_limits.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "reference/candidate_filters.hpp"
@@ -19,7 +19,6 @@ struct TemporalMatchSide {
 struct TemporalMatchLists {
   Candidates candidates;
   CandidateScores scores;  ///< of the left image: with what the agreement rejected
-  int alive_rows = 0;      ///< rows that kept a candidate before the agreement
 };
 
 /// The quads of a search, and the intermediate results.

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/angles.hpp"
+#include "common/matching_constants.hpp"
+#include "common/numeric.hpp"
 
 namespace quadedge::reference {
 namespace {
 
 /// Number of groups that chain up by position and direction: single linkage, flooding from every member without a
 /// group.
-int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& edges, const TemporalConfig& config) {
+int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& edges) {
   std::vector<bool> reached(members.size(), false);
   int clusters = 0;
   for (std::size_t seed = 0; seed < members.size(); ++seed) {
@@ -24,10 +25,9 @@ int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& e
       for (std::size_t m = 0; m < members.size(); ++m) {
         const std::size_t b = members[m];
         if (reached[m] ||
-            std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= config.cluster_gap)
+            std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= kClusterGap)
           continue;
-        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > config.cluster_orientation_rad())
-          continue;
+        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > kClusterOrientation) continue;
         reached[m] = true;
         open.push_back(b);
       }
@@ -82,7 +82,7 @@ TemporalMatches temporal_best(const Candidates& candidates, const CandidateScore
     }
     if (alive.empty()) continue;
     matches.append(static_cast<std::int32_t>(i), candidates.target[winner], current, agreement[winner],
-                   count_clusters(alive, current, config) - 1);
+                   count_clusters(alive, current) - 1);
   }
   return matches;
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file temporal_quads.hpp  Plain C++ twin of kernels/temporal_quads.cl.
 
-#include "common/temporal_search.hpp"
+#include "common/filter_limits.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "reference/candidate_filters.hpp"

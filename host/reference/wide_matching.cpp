@@ -1,5 +1,6 @@
 #include "reference/wide_matching.hpp"
 
+#include "common/matching_constants.hpp"
 #include "reference/wide_description.hpp"
 
 namespace quadedge::reference {
@@ -23,10 +24,9 @@ bool apart(const WideEdges& set, std::size_t i, std::size_t j, float distance) {
 
 }  // namespace
 
-TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config) {
+TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current) {
   const std::size_t rows = earlier.descriptors.size() / kWideBytes, columns = current.descriptors.size() / kWideBytes;
-  const float neighbourhood = static_cast<float>(config.wide_neighbourhood),
-              ratio = static_cast<float>(config.wide_ratio);
+  const float neighbourhood = static_cast<float>(kWideNeighbourhood), ratio = static_cast<float>(kWideRatio);
   TemporalMatches matches;
   for (std::size_t row = 0; row < rows; ++row) {
     std::size_t winner = columns;

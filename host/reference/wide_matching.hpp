@@ -18,9 +18,9 @@ struct WideEdges {
 };
 
 /// Finds the earlier edges among the current ones, anywhere in the left image: the most similar one, if it is mutually
-/// best and no match elsewhere is nearly as good (config.wide_ratio; "elsewhere": farther than
-/// config.wide_neighbourhood px). The matches' ncc is the cosine of the two descriptors; they have no competing
+/// best and no match elsewhere is nearly as good (kWideRatio; "elsewhere": farther than
+/// kWideNeighbourhood px). The matches' ncc is the cosine of the two descriptors; they have no competing
 /// clusters.
-TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config);
+TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current);
 
 }  // namespace quadedge::reference

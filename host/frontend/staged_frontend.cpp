@@ -1,0 +1,88 @@
+#include "frontend/staged_frontend.hpp"
+
+#include <stdexcept>
+
+#include "common/epipolar_geometry.hpp"
+#include "common/filter_limits.hpp"
+#include "frontend/global_search.hpp"
+
+namespace quadedge::frontend {
+
+StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
+    : Frontend(rig, config.stereo),
+      config_(config),
+      range_(rig, config),
+      gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()) {}
+
+RigHandle StagedFrontend::process(const StereoFrame& frame) {
+  counts_ = {};
+  searches_ = 0;
+  Rig& current = start(frame);
+  rectification_.start_frame();
+  do {
+    detect(current);
+    describe(current, tap_ != nullptr || config_.stereo.sift_max > 0);
+    range_.start_frame();
+    while (!search_stereo(current)) {
+    }
+  } while (!rectification_.suffices(frame, current.edges));
+  counts_.disparity_range = range_.disparity();
+  counts_.epipolar_correction = rectification_.error().largest();
+  finish(current);
+  if (tap_ != nullptr) {
+    tap_->edges(edges(Side::left), edges(Side::right));
+    tap_stereo();
+    tap_->stereo(current.edges);
+  }
+  return current_handle();
+}
+
+bool StagedFrontend::search_stereo(Rig& current) {
+  const auto coarse = gate_.is_open() ? coarse_search(calibration_, range_.geometry()) : std::nullopt;
+  const RelaxationTally tally =
+      find_stereo_edges(current, corrected_geometry(), range_.probe(counts_.edges_left), coarse);
+  const bool range_suffices = range_.suffices(current.edges, counts_.edges_left);
+  return gate_.suffices(tally) && range_suffices;
+}
+
+void StagedFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
+  Rig& base = own(base_rig);
+  if (tap_ != nullptr || temporal_limits(config_.temporal, search).sift_max > 0) {
+    describe_by_sift(base);
+    describe_by_sift(own(*current_handle()));
+  }
+  if (tap_ != nullptr)
+    tap_->temporal_search({searches_, base.frame, search.left, search.right, search.radius, search.step});
+  search_in_time(base, search, matches);
+  matches.search = searches_++;
+  if (tap_ != nullptr) tap_->quads(matches);
+}
+
+void StagedFrontend::match_globally(const Rig& base, int edges, TemporalMatches& matches) {
+  matches = search_globally(own(base), about(edges, base), about(2 * edges, *current_handle()));
+}
+
+void StagedFrontend::match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) {
+  matches.clear();
+  own(base);
+  const StereoEdges before = edges_of(base.edges, among.of_base),
+                    now = edges_of(current_handle()->edges, among.of_current);
+  if ((!base.is_restored && before.size() == 0) || now.size() == 0) return;
+  matches = search_globally(base, {before, 1}, {now, 1});
+  if (!base.is_restored) renumber(among.of_base, matches.previous);
+  renumber(among.of_current, matches.current);
+}
+
+RigHandle StagedFrontend::restore(const KeptRig& kept) {
+  if (tap_ != nullptr) throw std::logic_error("a restored rig has no images, which a tap needs");
+  const std::shared_ptr<Rig> restored = spare();
+  restored->start(kept.frame);
+  restored->edges = kept.edges;
+  restored->edges_spacing = kept.edges_spacing;
+  restored->own_calibration = kept.own_calibration;
+  restored->is_restored = true;
+  load(kept, *restored);
+  return restored;
+}
+
+}  // namespace quadedge::frontend
