@@ -8,9 +8,9 @@
 
 #include "map/edge_grid.hpp"
 #include "map/measured_points.hpp"
-#include "motion/disparity_offset.hpp"
+#include "odometry/disparity_offset.hpp"
 #include "pose/oriented_point.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge {
 namespace {
@@ -112,7 +112,7 @@ bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& r
   const int number_of_frame = frames_++;
   if (!result.new_key_rig || !result.world_from_left || result.ambiguous_motion) return false;
   const StereoEdges& edges = odometry.stereo_edges();
-  StereoRig rig = motion::with_disparity_offset(odometry.rig(), result.disparity_offset);
+  StereoRig rig = odometry::with_disparity_offset(odometry.rig(), result.disparity_offset);
   rig.left_undistortion = odometry.rig().left_undistortion;
   views_.push_back({number_of_frame, result.stamp_ns, *result.world_from_left});
   const Measured measured = map::measure_points(rig, edges, frame.left, config_);

@@ -1,16 +1,16 @@
-#include "quadedge/edge_points.hpp"
-
 #include <limits>
 
-#include "motion/disparity_offset.hpp"
+#include "common/matching_constants.hpp"
+#include "odometry/disparity_offset.hpp"
 #include "pose/quads.hpp"
+#include "quadedge/match_stereo.hpp"
 
 namespace quadedge {
 
-EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, const Config& config, double disparity_offset) {
-  const StereoRig calibration = motion::with_disparity_offset(rig, disparity_offset);
+EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, double disparity_offset) {
+  const StereoRig calibration = odometry::with_disparity_offset(rig, disparity_offset);
   pose::MeasuredEdges measured;
-  pose::measure_edges(calibration, edges, config.stereo.min_epipolar_angle_rad(), measured);
+  pose::measure_edges(calibration, edges, kMinEpipolarAngle, measured);
   const auto count = static_cast<Eigen::Index>(measured.size());
   EdgePoints points{Eigen::Matrix3Xd::Constant(3, count, std::numeric_limits<double>::quiet_NaN()), {}};
   points.tangent = points.position;

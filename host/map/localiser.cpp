@@ -3,21 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "common/disparity_range.hpp"
-#include "common/equal_scale.hpp"
-#include "common/recorded_images.hpp"
-#include "common/run_cost.hpp"
+#include "common/images.hpp"
+#include "common/timing.hpp"
+#include "common/undistortion.hpp"
 #include "map/saved_places.hpp"
 #include "map/view_change.hpp"
-#include "motion/motion_constants.hpp"
-#include "motion/motion_search.hpp"
-#include "odometry/constant_velocity.hpp"
-#include "pose/rig_uncertainty.hpp"
+#include "odometry/frame_preparation.hpp"
+#include "odometry/motion_search.hpp"
+#include "odometry/odometry_constants.hpp"
+#include "odometry/tracking_state.hpp"
+#include "pose/uncertain_pose.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
-#include "rig_check/rig_monitor.hpp"
+#include "rig/rig_monitor.hpp"
 
 namespace quadedge {
 namespace {
@@ -33,7 +33,7 @@ struct Match {
   Eigen::Isometry3d map_from_left;
   int inliers;
   double support, inverse_depth;
-  motion::Doubt doubt;
+  odometry::Ambiguity ambiguity;
 };
 
 bool agree(const Match& one, const Match& other) {
@@ -50,9 +50,9 @@ bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
 
 /// Whether its support, which a wrong motion does not reach by chance, shows that the frame sees this place or one like
 /// it.
-bool is_supported(const Match& match) { return match.support > motion::kChanceSupport; }
+bool is_supported(const Match& match) { return match.support > odometry::kChanceSupport; }
 
-bool is_certain(const Match& match) { return !match.doubt.exists() && is_supported(match); }
+bool is_certain(const Match& match) { return !match.ambiguity.exists() && is_supported(match); }
 
 bool are_equal(const PinholeCamera& one, const PinholeCamera& other) {
   return one.matrix() == other.matrix() && one.width == other.width && one.height == other.height;
@@ -72,9 +72,7 @@ PoseConfig with_offset_of(const map::SavedPlaces& map, const StereoRig& rig, Pos
 }
 
 Config checked(const SavedMap& map, const StereoRig& rig, const Config& config) {
-  check_rig(rig, "stereo rig");
-  if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
-  check_config(config);
+  odometry::check_usable(rig, config);
   map::check_map_config(config);
   const auto settings = map::descriptor_settings(config);
   for (const auto& [key, value] : map.places().settings)
@@ -117,19 +115,18 @@ class Localiser::Implementation {
       : map_(map),
         follow_(follow),
         config_(checked(map, rig, config)),
-        recorded_(rig),
         rig_(with_scale_of(map.rig().left, with_equal_scales(rig))),
-        frontend_(frontend::make_frontend(rig_, device, config, &warnings_)),
+        preparation_(rig, rig_, device, config),
         offset_(rig_, with_offset_of(map.places(), rig_, config.pose)),
-        search_(config_, *frontend_, offset_),
-        rig_monitor_(rig_) {
-    for (const auto& finding : rig_check::implausible_numbers(rig_)) warnings_.push_back(rig_check::warning(finding));
+        search_(config_, frontend(), offset_) {
+    for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(rig::warning(finding));
   }
 
   Localisation locate(const StereoFrame& frame);
   const Config& config() const { return config_; }
 
  private:
+  frontend::Frontend& frontend() const { return preparation_.frontend(); }
   void locate(const frontend::RigHandle& rig, Localisation& result);
   bool follow(const frontend::RigHandle& rig, Localisation& result);
   std::optional<Match> compare(const map::Place& place, const frontend::RigHandle& rig,
@@ -142,45 +139,34 @@ class Localiser::Implementation {
   SavedMap map_;
   bool follow_;
   Config config_;
-  std::vector<Warning> warnings_;  ///< for the next frame
-  std::set<WarningKind> reported_;
-  RecordedImages recorded_;
   StereoRig rig_;  ///< the cameras in which edges are detected
-  std::unique_ptr<frontend::Frontend> frontend_;
-  motion::DisparityOffset offset_;
-  motion::MotionSearch search_;
-  rig_check::RigMonitor rig_monitor_;
+  odometry::FramePreparation preparation_;
+  odometry::DisparityOffset offset_;
+  odometry::MotionSearch search_;
   std::optional<Eigen::Isometry3d> last_;  ///< pose of the previous frame, if that was located
   odometry::ConstantVelocity velocity_;
 };
 
 Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
-  recorded_.check(frame.left, frame.right);
+  preparation_.check(frame);
   const auto start = Clock::now();
   Localisation result;
   result.stamp_ns = frame.stamp_ns;
-  const frontend::RigHandle rig = frontend_->process(frame);
-  const frontend::FrontendCounts& counts = frontend_->counts();
-  const rig_check::RigReport report =
-      rig_monitor_.judge(frame, rig->edges, counts.edges_left, counts.disparity_range, counts.epipolar_correction);
-  if (static_cast<int>(rig->edges.size()) < config_.pose.min_inliers) {
-    result.status = LocalisationStatus::lost_too_few_edges;
-    result.message = std::to_string(rig->edges.size()) + " stereo edges";
-  } else if (const auto* mismatch = report.mismatch()) {
-    result.status = LocalisationStatus::lost_rig_mismatch;
-    result.message = rig_check::sentence(*mismatch);
+  const frontend::RigHandle rig = preparation_.process(frame);
+  const rig::RigReport report = preparation_.judge(frame);
+  if (const auto fault = preparation_.fault(report)) {
+    lose(fault->status == FrameStatus::lost_rig_mismatch ? LocalisationStatus::lost_rig_mismatch
+                                                         : LocalisationStatus::lost_too_few_edges,
+         fault->text, result);
   } else if (!follow(rig, result)) {
     locate(rig, result);
   }
-  if (report.mismatch() == nullptr)
-    for (const auto& finding : report.findings) warnings_.push_back(rig_check::warning(finding));
-  for (const Warning& warning : std::exchange(warnings_, {}))
-    if (reported_.insert(warning.kind).second) result.warnings.push_back(warning);
+  result.warnings = preparation_.new_warnings();
   if (last_ && result.map_from_left)
     velocity_.observe(result.map_from_left->inverse() * *last_, 1);
   else
     velocity_.forget();
-  if (result.map_from_left) frontend_->take(report.fit);
+  if (result.map_from_left) preparation_.adopt(report);
   last_ = result.map_from_left;
   result.latency_ms = milliseconds_since(start);
   return result;
@@ -208,15 +194,14 @@ bool Localiser::Implementation::follow(const frontend::RigHandle& rig, Localisat
 
 /// Compares the frame with the most similar key rigs, and with more of them while it is lost.
 void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisation& result) {
-  const map::PlaceSignature signature = map::place_signature(frontend_->keep());
+  const map::PlaceSignature signature = map::place_signature(frontend().keep());
   const auto may_be = [](const map::Place&) { return true; };
-  const int batch = config_.map.candidates;
-  const auto similar = map_.places().store.most_similar(signature, map::kCandidateBatches * batch, may_be);
+  const auto similar = map_.places().store.most_similar(signature, map::kCandidateBatches * map::kCandidates, may_be);
   result.message = "the map has no key rigs";
   std::vector<Match> matches;
   for (std::size_t k = 0; k < similar.size(); ++k) {
     if (auto match = compare(*similar[k].place, rig, std::nullopt)) matches.push_back(*match);
-    const bool is_last = k + 1 == similar.size() || (k + 1) % static_cast<std::size_t>(batch) == 0;
+    const bool is_last = k + 1 == similar.size() || (k + 1) % map::kCandidates == 0;
     const Match* best = is_last ? judge(matches, result) : nullptr;
     if (best == nullptr) continue;
     if (const auto rival = find_rival(*best, similar, k + 1, rig))
@@ -246,13 +231,13 @@ const Match* Localiser::Implementation::judge(const std::vector<Match>& matches,
   if (matches.empty()) return lose(LocalisationStatus::lost_unknown_place, "no key rig of the map matches", result);
   const Match* best = nullptr;
   for (const Match& match : matches)
-    if (!match.doubt.exists() && (best == nullptr || match.inliers > best->inliers)) best = &match;
+    if (!match.ambiguity.exists() && (best == nullptr || match.inliers > best->inliers)) best = &match;
   if (best == nullptr)
     return lose(LocalisationStatus::lost_ambiguous,
-                rig_text(matches.front()) + ": " + motion::to_string(matches.front().doubt), result);
+                rig_text(matches.front()) + ": " + odometry::to_string(matches.front().ambiguity), result);
   bool is_confirmed = is_certain(*best);
   for (const Match& match : matches) {
-    if (&match == best || match.doubt.exists()) continue;
+    if (&match == best || match.ambiguity.exists()) continue;
     if (agree(match, *best)) {
       is_confirmed = true;
     } else if (is_certain(match)) {
@@ -269,22 +254,18 @@ const Match* Localiser::Implementation::judge(const std::vector<Match>& matches,
 std::optional<Match> Localiser::Implementation::compare(const map::Place& place, const frontend::RigHandle& rig,
                                                         const std::optional<Eigen::Isometry3d>& map_from_left) {
   const Eigen::Isometry3d& map_from_key = map_.places().poses[static_cast<std::size_t>(place.node)];
-  motion::MotionQuery query;
+  odometry::MotionQuery query;
   query.current = rig;
-  query.base = frontend_->restore(place.rig);
+  query.base = frontend().restore(place.rig);
   query.seed = config_.seed;
   if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
-  const motion::StepHandle step = search_.find(query);
+  const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
   const pose::RelativePose current_from_key = motion.adopted();
-  return Match{&place,
-               current_from_key,
-               map_from_key * current_from_key.transform.inverse(),
-               motion.inliers,
-               step->verdict.support,
-               step->mean_inverse_depth(),
-               step->doubt};
+  return Match{&place,         current_from_key,      map_from_key * current_from_key.transform.inverse(),
+               motion.inliers, step->verdict.support, step->mean_inverse_depth(),
+               step->ambiguity};
 }
 
 void Localiser::Implementation::take(const Match& match, Localisation& result) const {

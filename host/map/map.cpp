@@ -7,15 +7,16 @@
 #include <map>
 #include <utility>
 
+#include "common/matching_constants.hpp"
 #include "map/place_store.hpp"
 #include "map/pose_graph.hpp"
 #include "map/saved_places.hpp"
 #include "map/view_change.hpp"
-#include "motion/motion_constants.hpp"
-#include "motion/motion_search.hpp"
 #include "odometry/current_rig.hpp"
-#include "pose/rig_uncertainty.hpp"
-#include "quadedge/pi.hpp"
+#include "odometry/motion_search.hpp"
+#include "odometry/odometry_constants.hpp"
+#include "pose/uncertain_pose.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge {
 namespace {
@@ -105,7 +106,7 @@ class Map::Implementation {
   Closure& listed(const ListedClosure& closure) { return closures_[closure.number]; }
   /// Whether its support, which a wrong motion does not reach by chance, suffices to join two segments.
   bool is_certain(const ListedClosure& closure) const {
-    return closures_[closure.number].support > motion::kChanceSupport;
+    return closures_[closure.number].support > odometry::kChanceSupport;
   }
   bool is_rival(const map::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
   void reject_contradictions(const std::vector<ListedClosure>& joining);
@@ -120,7 +121,7 @@ class Map::Implementation {
   Config config_;
   map::PlaceStore store_;
   map::PoseGraph graph_;
-  motion::MotionSearch search_;
+  odometry::MotionSearch search_;
   std::vector<LocatedFrame> frames_;
   std::vector<int> frame_of_node_;
   /// Motion of the frame located last, from its node to itself, in case it becomes a reference.
@@ -149,7 +150,8 @@ void Map::Implementation::locate(const FrameResult& result) {
   const bool has_motion = result.status == FrameStatus::tracked;
   if (has_motion) {
     const int reference = node_of_reference(result.reference_frame);
-    last_motion_ = GraphEdge::of(reference, -1, {*result.current_from_reference, *result.relative_covariance},
+    last_motion_ = GraphEdge::of(reference, -1,
+                                 {*result.current_from_reference, pose::in_other_order(*result.relative_covariance)},
                                  result.diagnostics.rig_sensitivity, false);
     frame(number).node = reference;
     frame(number).node_from_left = result.current_from_reference->inverse();
@@ -174,8 +176,7 @@ bool Map::Implementation::add(const FrameResult& result) {
 /// Mean inverse depth of the current rig's edges [1/m].
 double Map::Implementation::mean_inverse_depth() const {
   const odometry::CurrentRig now = odometry_.current_rig();
-  const auto& edges =
-      now.rig->measured_edges(now.offset.rig(), now.offset.value(), config_.stereo.min_epipolar_angle_rad());
+  const auto& edges = now.rig->measured_edges(now.offset.rig(), kMinEpipolarAngle);
   double sum = 0, count = 0;
   for (const auto& edge : edges) {
     if (!edge) continue;
@@ -249,9 +250,8 @@ bool Map::Implementation::recognise(int node) {
   std::optional<ListedClosure> own;
   std::vector<ListedClosure> joining;
   int rank = 0;
-  for (const auto& similar :
-       store_.most_similar(place.signature, map::kCandidateBatches * config_.map.candidates, may_be)) {
-    const bool is_candidate = rank++ < config_.map.candidates;
+  for (const auto& similar : store_.most_similar(place.signature, map::kCandidateBatches * map::kCandidates, may_be)) {
+    const bool is_candidate = rank++ < map::kCandidates;
     if (!is_joined(similar.place->node, node)) {
       if (!is_candidate && !is_rival(*similar.place, joining, inverse_depth)) continue;
       if (auto closure = compare(similar, node, false)) joining.push_back(*std::move(closure));
@@ -285,22 +285,22 @@ std::optional<ListedClosure> Map::Implementation::compare(const map::PlaceStore:
 std::optional<GraphEdge> Map::Implementation::search(const map::Place& place, int node, bool near_prediction,
                                                      Closure& closure) {
   const odometry::CurrentRig now = odometry_.current_rig();
-  motion::MotionQuery query;
+  odometry::MotionQuery query;
   query.current = now.rig;
   query.base = now.frontend.restore(place.rig);
   query.seed = config_.seed + static_cast<std::uint64_t>(closure.frame);
   if (near_prediction) {
     query.prediction = graph_.pose(node).inverse() * graph_.pose(place.node);
-    query.most = motion::Effort::prediction;
+    query.is_near_prediction = true;
   }
-  const motion::StepHandle step = search_.find(query);
+  const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
   const pose::RelativePose frame_from_other = motion.adopted();
   closure.frame_from_other = frame_from_other.transform;
   closure.inliers = motion.inliers;
   closure.support = step->verdict.support;
-  closure.verdict = step->doubt.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
+  closure.verdict = step->ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
   GraphEdge edge =
       GraphEdge::of(place.node, node, frame_from_other,
                     pose::rig_sensitivity(frame_from_other.transform.inverse(), step->mean_inverse_depth()), true);
@@ -411,9 +411,9 @@ std::optional<Eigen::Isometry3d> Map::Implementation::pose(std::size_t frame) co
 SavedMap Map::Implementation::saved() const {
   map::SavedPlaces saved;
   const StereoRig& rig = odometry_.rig();
-  saved.rig = motion::with_disparity_offset(rig, 0);
+  saved.rig = odometry::with_disparity_offset(rig, 0);
   saved.is_undistorted = rig.left_undistortion.empty() && rig.right_undistortion.empty() ? 0 : 1;
-  const motion::DisparityOffset& offset = odometry_.current_rig().offset;
+  const odometry::DisparityOffset& offset = odometry_.current_rig().offset;
   saved.offset = offset.value();
   saved.offset_variance = offset.variance();
   saved.settings = map::descriptor_settings(config_);

@@ -1,7 +1,7 @@
 #include "quadedge/match_stereo.hpp"
 
-#include "common/equal_scale.hpp"
-#include "common/recorded_images.hpp"
+#include "common/images.hpp"
+#include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
 #include "map/measured_points.hpp"
 

@@ -3,9 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "common/pinhole_view.hpp"
-#include "pose/noise_model.hpp"
+#include "common/matching_constants.hpp"
+#include "common/undistortion.hpp"
 #include "pose/oriented_point.hpp"
+#include "pose/residuals.hpp"
 
 namespace quadedge::map {
 namespace {
@@ -39,7 +40,7 @@ std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, c
     observation.right = {edges.right_x[i], edges.right_y[i]};
     observation.left_direction = edges.left_direction[i];
     observation.right_direction = edges.right_direction[i];
-    const auto measured = pose::measure(rig, observation, config.stereo.min_epipolar_angle_rad());
+    const auto measured = pose::measure(rig, observation, kMinEpipolarAngle);
     if (!measured) continue;
     const pose::OrientedPoint oriented = measured->oriented_point();
     const double sigma = noise.on_epipolar_line(measured->epipolar_sine);

@@ -12,9 +12,10 @@
 
 namespace quadedge::map {
 
-/// A rig without a known place is compared with `map.candidates` places at a time and with up to this many times as
-/// many. If it is found, those of them that see other places are compared as well, in case another matches, too.
-constexpr int kCandidateBatches = 4;
+/// A rig is compared with this number of places, the most similar ones; one without a known place with up to
+/// kCandidateBatches times as many. If it is found, those of them that see other places are compared as well, in case
+/// another matches, too.
+constexpr int kCandidates = 5, kCandidateBatches = 4;
 
 /// A kept rig.
 struct Place {

@@ -5,9 +5,9 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "pose/relative_pose.hpp"
+#include "pose/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
-#include "quadedge/pose_covariance.hpp"
+#include "quadedge/trajectory.hpp"
 
 namespace quadedge::map {
 

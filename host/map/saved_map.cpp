@@ -1,6 +1,4 @@
 /// \file saved_map.cpp  The bytes of a map: little-endian values without gaps, in the order of exchange().
-#include "quadedge/saved_map.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,8 +6,9 @@
 #include <numeric>
 
 #include "map/saved_places.hpp"
-#include "motion/disparity_offset.hpp"
+#include "odometry/disparity_offset.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/map.hpp"
 
 namespace quadedge {
 namespace {
@@ -203,7 +202,7 @@ class Check {
 }  // namespace
 
 SavedMap::SavedMap(SavedPlaces header, std::vector<map::Place> places) {
-  const auto calibration = std::make_shared<StereoRig>(motion::with_disparity_offset(header.rig, header.offset));
+  const auto calibration = std::make_shared<StereoRig>(odometry::with_disparity_offset(header.rig, header.offset));
   for (map::Place& place : places) {
     place.node = static_cast<int>(header.store.size());
     place.rig.own_calibration = calibration;

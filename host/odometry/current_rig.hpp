@@ -2,7 +2,7 @@
 /// \file current_rig.hpp  What a map needs of the frame tracked last.
 
 #include "frontend/frontend.hpp"
-#include "motion/disparity_offset.hpp"
+#include "odometry/disparity_offset.hpp"
 
 namespace quadedge::odometry {
 
@@ -10,7 +10,7 @@ namespace quadedge::odometry {
 struct CurrentRig {
   frontend::Frontend& frontend;
   frontend::RigHandle rig;  ///< null before the first frame
-  const motion::DisparityOffset& offset;
+  const DisparityOffset& offset;
 };
 
 }  // namespace quadedge::odometry

@@ -1,49 +1,42 @@
 /// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
-#include <chrono>
 #include <cmath>
-#include <set>
 #include <tbb/task_group.h>
 #include <utility>
 
 #include "common/disparity_range.hpp"
-#include "common/equal_scale.hpp"
-#include "common/host_stages.hpp"
-#include "common/recorded_images.hpp"
+#include "common/images.hpp"
+#include "common/timing.hpp"
+#include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
-#include "motion/disparity_offset.hpp"
-#include "motion/motion_search.hpp"
-#include "odometry/constant_velocity.hpp"
 #include "odometry/current_rig.hpp"
-#include "odometry/key_rig.hpp"
+#include "odometry/disparity_offset.hpp"
+#include "odometry/frame_preparation.hpp"
+#include "odometry/motion_search.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
-#include "pose/relative_pose.hpp"
-#include "pose/rig_uncertainty.hpp"
+#include "pose/uncertain_pose.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
-#include "rig_check/rig_monitor.hpp"
 
 namespace quadedge {
 namespace {
 
-/// Milliseconds since the previous lap, steady clock.
+/// Milliseconds since the previous lap.
 class StageClock {
  public:
   double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
+    const auto start = std::exchange(last_, Clock::now());
+    return std::chrono::duration<double, std::milli>(last_ - start).count();
   }
 
  private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  Clock::time_point last_ = Clock::now();
 };
 
-FrameStatus lost_status(pose::MotionStatus status) {
-  return status == pose::MotionStatus::too_few_quads ? FrameStatus::lost_too_few_quads : FrameStatus::lost_no_consensus;
+FrameStatus lost_status(odometry::Refusal refusal) {
+  return refusal == odometry::Refusal::too_few_quads ? FrameStatus::lost_too_few_quads : FrameStatus::lost_no_consensus;
 }
 
 void add_message(const std::string& message, FrameResult& result) {
@@ -52,9 +45,7 @@ void add_message(const std::string& message, FrameResult& result) {
 
 /// The configuration, if it and the rig are valid. \throws DataError, UsageError.
 Config checked(const StereoRig& rig, Config config) {
-  check_rig(rig, "stereo rig");
-  if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
-  check_config(config);
+  odometry::check_usable(rig, config);
   return config;
 }
 
@@ -76,15 +67,13 @@ class StereoOdometry::Implementation {
  public:
   /// \param own the device if this object owns it, else null
   Implementation(const StereoRig& rig, std::unique_ptr<Device> own, Device& device, const Config& config)
-      : recorded_(rig),
-        rig_(with_equal_scales(rig)),
+      : rig_(with_equal_scales(rig)),
         own_device_(std::move(own)),
         device_(device),
         config_(config),
-        frontend_(frontend::make_frontend(rig_, device, config, &start_warnings_)),
+        preparation_(rig, rig_, device, config),
         offset_(rig_, config.pose),
-        motion_search_(config, *frontend_, offset_),
-        rig_monitor_(rig_) {}
+        motion_search_(config, preparation_.frontend(), offset_) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
@@ -93,53 +82,39 @@ class StereoOdometry::Implementation {
     static const StereoEdges none;
     return current_ ? current_->edges : none;
   }
-  odometry::CurrentRig current_rig() const { return {*frontend_, current_, offset_}; }
+  odometry::CurrentRig current_rig() const { return {preparation_.frontend(), current_, offset_}; }
   const StereoRig& rig() const { return rig_; }
-  frontend::Frontend& frontend() const { return *frontend_; }
+  frontend::Frontend& frontend() const { return preparation_.frontend(); }
   Device& device() const { return device_; }
   const Config& config() const { return config_; }
 
  private:
-  /// The motion of the current rig, found before it is known whether the frame can be used. Until adopt() it changes
-  /// nothing.
-  struct FoundMotion {
-    motion::StepHandle step;  ///< null if none was searched for
-    bool is_from_lost_rig = false;
-    double pose_ms = 0;
-  };
-
   void process(const StereoFrame& frame, FrameResult& result);
   void start(FrameResult& result);
-  FoundMotion search();
-  void adopt(FoundMotion& found, FrameResult& result);
+  odometry::StepHandle search();
+  void adopt(odometry::StepHandle found, FrameResult& result);
   void start_segment(FrameResult& result);
-  void locate(const motion::MotionStep& step, FrameResult& result);
+  void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
-  void take(const rig_check::RigReport& report, FrameResult& result) const;
-  void warn(const Warning& warning, FrameResult& result) const;
 
-  RecordedImages recorded_;
   StereoRig rig_;  ///< the cameras in which edges are detected
   std::unique_ptr<Device> own_device_;
   Device& device_;
   Config config_;
-  std::vector<Warning> start_warnings_;  ///< for the first frame
-  std::unique_ptr<frontend::Frontend> frontend_;
-  motion::DisparityOffset offset_;
-  motion::MotionSearch motion_search_;
-  rig_check::RigMonitor rig_monitor_;
+  odometry::FramePreparation preparation_;
+  odometry::DisparityOffset offset_;
+  odometry::MotionSearch motion_search_;
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
   frontend::RigHandle current_;  ///< of the last frame tracked; null before the first frame
-  motion::StepHandle step_;      ///< its motion; null if none was searched for
+  odometry::StepHandle step_;    ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
-  std::vector<double> distances_;   ///< buffer of median_parallax()
-  std::set<WarningKind> reported_;  ///< kinds of warnings of the frames before
+  std::vector<double> distances_;  ///< buffer of median_parallax()
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
-  recorded_.check(frame.left, frame.right);
+  preparation_.check(frame);
   if (last_stamp_ns_ && frame.stamp_ns < *last_stamp_ns_) {
     throw DataError("timestamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
                     std::to_string(*last_stamp_ns_) + " ns, the timestamp of the previous frame");
@@ -150,43 +125,36 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   result.stamp_ns = frame.stamp_ns;
 
   process(frame, result);
-  const bool has_edges = result.counts.stereo_edges >= config_.pose.min_inliers;
   // The images are checked on a processor that the search leaves idle. An error in the search waits for the check.
-  rig_check::RigReport rig_report;
+  rig::RigReport rig_report;
   tbb::task_group beside;
-  beside.run([&] {
-    rig_report = rig_monitor_.judge(frame, current_->edges, result.counts.edges_left,
-                                    result.diagnostics.disparity_range, frontend_->counts().epipolar_correction);
-  });
+  beside.run([&] { rig_report = preparation_.judge(frame); });
   double stereo_ms = clock.lap();
-  FoundMotion found = has_edges && state_.has_started() ? search() : FoundMotion();
-  const double search_ms = clock.lap();
+  odometry::StepHandle found = preparation_.has_enough_edges() && state_.has_started() ? search() : nullptr;
+  const double search_ms = clock.lap(), pose_ms = motion_search_.take_pose_ms();
   beside.wait();
   stereo_ms += clock.lap();
   result.timing.stages.push_back({kStereoStage, stereo_ms});
-  take(rig_report, result);
-  if (!has_edges) {
-    lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
-  } else if (const auto* mismatch = rig_report.mismatch()) {
-    lose(FrameStatus::lost_rig_mismatch, rig_check::sentence(*mismatch), result);
+  result.diagnostics.rig_evidence = rig_report.evidence;
+  for (const auto& finding : rig_report.findings)
+    if (finding.kind == rig::RigFindingKind::repeated_images) add_message(rig::warning(finding).text, result);
+  if (const auto fault = preparation_.fault(rig_report)) {
+    lose(fault->status, fault->text, result);
   } else if (!state_.has_started()) {
     start(result);
   } else {
-    adopt(found, result);
-    result.timing.stages.push_back({kTemporalStage, search_ms - found.pose_ms});
-    if (step_->ok()) {
+    adopt(std::move(found), result);
+    result.timing.stages.push_back({kTemporalStage, search_ms - pose_ms});
+    if (step_->ok())
       locate(*step_, result);
-    } else {
-      const std::string reason = step_->doubt.exists() ? "ambiguous motion after a loss: " + to_string(step_->doubt)
-                                                       : pose::to_string(step_->motion.status);
-      lose(lost_status(step_->motion.status), reason, result);
-    }
-    result.timing.stages.push_back({kPoseStage, found.pose_ms + clock.lap()});
+    else
+      lose(lost_status(step_->refusal), to_string(step_->refusal, step_->ambiguity), result);
+    result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
   }
-  if (result.world_from_left) frontend_->take(rig_report.fit);
+  if (result.world_from_left) preparation_.adopt(rig_report);
   result.segment = state_.segment;
   state_.world_from_last = result.pose_or_prediction();
-  for (const Warning& warning : result.warnings) reported_.insert(warning.kind);
+  result.warnings = preparation_.new_warnings();
   result.timing.latency_ms = latency.lap();
   if (device_.context() != nullptr && device_.context()->profiling()) {
     for (const auto& row : device_.context()->take_profile())
@@ -195,13 +163,12 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   return result;
 }
 
-/// Turns the images into the current rig. The previous rig is recycled unless the state holds it.
+/// Turns the images into the current rig.
 void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResult& result) {
   step_ = nullptr;
   current_ = nullptr;
-  current_ = frontend_->process(frame);
-  const frontend::FrontendCounts& counts = frontend_->counts();
-  result.warnings = std::exchange(start_warnings_, {});
+  current_ = preparation_.process(frame);
+  const frontend::FrontendCounts& counts = frontend().counts();
   result.diagnostics.edge_threshold = counts.edge_threshold;
   result.diagnostics.disparity_range = counts.disparity_range;
   result.counts.edges_left = counts.edges_left;
@@ -219,48 +186,40 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   result.new_key_rig = true;
   result.reference_frame = current_->frame;
   result.current_from_reference = Eigen::Isometry3d::Identity();
-  result.relative_covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  result.covariance = result.diagnostics.covariance_in_reference = PoseCovariance::Zero();
-  for (const auto& finding : rig_check::implausible_numbers(rig_)) warn(rig_check::warning(finding), result);
+  result.relative_covariance = result.covariance = result.diagnostics.covariance_in_reference = PoseCovariance::Zero();
+  for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(rig::warning(finding));
   state_.set_key(current_, {*result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
 /// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
 /// the motion since the lost frame is tried.
-StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::search() {
-  motion::MotionQuery query;
+odometry::StepHandle StereoOdometry::Implementation::search() {
+  odometry::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
   query.base = state_.base.rig;
   query.prediction = velocity_.predict(current_->frame - state_.base.rig->frame);
+  query.accepts_ambiguous = current_->frame - state_.base.rig->frame == 1;
   if (!state_.base_is_key()) {
     query.key = state_.key.rig();
     query.base_from_key = state_.base.from_key.transform;
   }
-  FoundMotion found;
-  found.step = motion_search_.find(query);
-  const bool is_after_loss = current_->frame - state_.base.rig->frame > 1;
-  if (is_after_loss && found.step->doubt.exists()) found.step->motion.status = pose::MotionStatus::no_consensus;
-  if (!found.step->ok() && state_.lost) {
-    query.base = state_.lost->rig;
-    query.prediction = std::nullopt;
-    motion::StepHandle relocalised = motion_search_.find(query);
-    if (relocalised->ok()) {
-      found.step = std::move(relocalised);
-      found.is_from_lost_rig = true;
-    }
-  }
-  found.pose_ms = motion_search_.take_pose_ms();
-  return found;
+  odometry::StepHandle found = motion_search_.find(query);
+  if (found->ok() || !state_.lost) return found;
+  query.base = state_.lost->rig;
+  query.prediction = std::nullopt;
+  query.accepts_ambiguous = true;
+  odometry::StepHandle relocalised = motion_search_.find(query);
+  return relocalised->ok() ? std::move(relocalised) : std::move(found);
 }
 
 /// Takes over the result of the search. If the motion was found from a lost frame, a segment starts.
-void StereoOdometry::Implementation::adopt(FoundMotion& found, FrameResult& result) {
-  step_ = std::move(found.step);
+void StereoOdometry::Implementation::adopt(odometry::StepHandle found, FrameResult& result) {
+  step_ = std::move(found);
   motion_search_.remember(*step_);
-  if (found.is_from_lost_rig) start_segment(result);
-  result.counts.temporal_left = frontend_->counts().temporal_left;
-  result.counts.temporal_right = frontend_->counts().temporal_right;
+  if (state_.lost && step_->base == state_.lost->rig) start_segment(result);
+  result.counts.temporal_left = step_->matches.alive_left;
+  result.counts.temporal_right = step_->matches.alive_right;
   result.counts.quads = static_cast<int>(step_->matches.size());
 }
 
@@ -273,15 +232,15 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
   add_message("segment " + number(segment) + " starts: relocalised against frame " + number(lost) +
                   ", whose pose was predicted",
               result);
-  warn({WarningKind::unknown_motion, "the motion between frames " + number(last) + " and " + number(current_->frame) +
-                                         " is unknown; the poses from here on are segment " + number(segment) +
-                                         ", whose place relative to the earlier ones is a prediction"},
-       result);
+  preparation_.warn(
+      {WarningKind::unknown_motion, "the motion between frames " + number(last) + " and " + number(current_->frame) +
+                                        " is unknown; the poses from here on are segment " + number(segment) +
+                                        ", whose place relative to the earlier ones is a prediction"});
 }
 
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
 /// becomes the key rig.
-void StereoOdometry::Implementation::locate(const motion::MotionStep& step, FrameResult& result) {
+void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == state_.key.rig();
   pose::RelativePose current_from_key = step.motion.adopted();
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
@@ -289,7 +248,8 @@ void StereoOdometry::Implementation::locate(const motion::MotionStep& step, Fram
   const int frames = current_->frame - state_.base.rig->frame;
   velocity_.observe(current_from_base, frames);
   if (frames == 1) {
-    if (const auto late = rig_monitor_.observe_motion(current_from_base)) warn(rig_check::warning(*late), result);
+    if (const auto late = preparation_.rig_monitor().observe_motion(current_from_base))
+      preparation_.warn(rig::warning(*late));
   }
 
   odometry::KeyRigFitness fitness;
@@ -304,16 +264,16 @@ void StereoOdometry::Implementation::locate(const motion::MotionStep& step, Fram
   const pose::PoseAndOffset learned = step.motion.learned.value_or(pose::PoseAndOffset());
   result.disparity_offset = offset_.value() + learned.offset;
   result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
-  if (const auto large = rig_check::judge_disparity_offset(offset_.value() + step.motion.offset))
-    warn(rig_check::warning(*large), result);
-  result.ambiguous_motion = step.doubt.exists();
+  if (const auto large = rig::judge_disparity_offset(offset_.value() + step.motion.offset))
+    preparation_.warn(rig::warning(*large));
+  result.ambiguous_motion = step.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
-  if (step.doubt.exists()) add_message("ambiguous motion: " + motion::to_string(step.doubt), result);
+  if (step.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;
   result.diagnostics.search = step.matches.search;
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
-  result.relative_covariance = current_from_key.covariance;
+  result.relative_covariance = pose::in_other_order(current_from_key.covariance);
   pose::UncertainPose key_from_current = pose::pose_in_earlier(current_from_key);
   key_from_current.by_rig = pose::rig_sensitivity(key_from_current.fixed_from_camera, step.mean_inverse_depth());
   const pose::UncertainPose world_from_current = state_.key.pose() * key_from_current;
@@ -348,25 +308,11 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   state_.lost = odometry::LostRig{current_, *result.predicted_world_from_left};
 }
 
-void StereoOdometry::Implementation::take(const rig_check::RigReport& report, FrameResult& result) const {
-  result.diagnostics.rig_evidence = report.evidence;
-  if (report.mismatch() != nullptr) return;
-  for (const auto& finding : report.findings) {
-    warn(rig_check::warning(finding), result);
-    if (finding.kind == rig_check::RigFindingKind::repeated_images) add_message(rig_check::sentence(finding), result);
-  }
-}
-
-/// Reports each kind of warning in one frame only.
-void StereoOdometry::Implementation::warn(const Warning& warning, FrameResult& result) const {
-  if (reported_.count(warning.kind) == 0) result.warnings.push_back(warning);
-}
-
 FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
   if (!current_) return details;
-  details.left_edges = frontend_->edges(Side::left);
-  details.right_edges = frontend_->edges(Side::right);
+  details.left_edges = frontend().edges(Side::left);
+  details.right_edges = frontend().edges(Side::right);
   details.stereo = current_->edges;
   if (!step_) return details;
   details.previous_stereo = step_->base->edges;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/row_blocks.hpp"
+#include "common/parallel.hpp"
 #include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
@@ -133,7 +133,7 @@ MeasuredCovariance measure_covariance(const ReprojectionTerms& terms, const std:
                                       const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                                       const Eigen::Isometry3d& current_from_previous, double offset,
                                       double reprojection_scale, CovarianceWorkspace& workspace) {
-  const CellGrid left_out(rig.left, config.inflation_cell * (1 << kLeftOut));
+  const CellGrid left_out(rig.left, kInflationCell * (1 << kLeftOut));
   const StudentWeights weights{reprojection_scale, config.student_dof};
   add_up(terms, rows, quads.scoring, left_out, Evaluation(current_from_previous, offset, weights), workspace);
   const CovarianceSums& sums = workspace.total;
@@ -142,7 +142,7 @@ MeasuredCovariance measure_covariance(const ReprojectionTerms& terms, const std:
   // d(w e)/de to that of w.
   const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
   const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kReprojectionSize);
-  const Factors factors = cell_factors(rows, quads, rig.left, config.inflation_cell, sums, inverse, workspace);
+  const Factors factors = cell_factors(rows, quads, rig.left, kInflationCell, sums, inverse, workspace);
   return {inverse, factors.largest / (flattening * flattening), factors.smallest_cells / (flattening * flattening)};
 }
 

@@ -54,7 +54,7 @@ struct MeasuredCovariance {
 /// normal equations predict. Dense edges come in rows of about two per pixel with similar errors, and some errors are
 /// common to a whole cable or surface. Contributions of quads within one square cell are therefore summed before they
 /// are squared: errors that agree within a cell count once, independent errors count in full. Cells have sides of
-/// config.inflation_cell px and two, four, eight and sixteen times that; the largest factor is used, including that
+/// kInflationCell px and two, four, eight and sixteen times that; the largest factor is used, including that
 /// without cells. The three larger sizes use a jackknife, the squared changes of the pose when each cell in turn is
 /// left out, because sums over few cells underestimate the scatter: the fit has adapted to each of them. A size is
 /// skipped if one cell holds half of all information. Errors common to the whole image are not visible at any size.

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/row_blocks.hpp"
-#include "common/vector_clones.hpp"
+#include "common/parallel.hpp"
 #include "pose/quads.hpp"
 #include "pose/stereo_numbers.hpp"
 

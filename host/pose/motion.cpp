@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pose/pose_constants.hpp"
+
 namespace quadedge::pose {
 
 namespace {
@@ -65,7 +67,7 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
     estimate.inliers = refined.inliers;
   } else {
     estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,
-                                      config.inlier_orientation_rad(), estimate.inlier);
+                                      kInlierOrientation, estimate.inlier);
   }
   estimate.inlier_ratio = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
   if (estimate.inliers < config.min_inliers || estimate.inlier_ratio < config.min_inlier_ratio) return;

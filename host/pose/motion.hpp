@@ -10,7 +10,7 @@
 #include "pose/quads.hpp"
 #include "pose/ransac.hpp"
 #include "pose/refinement.hpp"
-#include "pose/relative_pose.hpp"
+#include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 

@@ -4,7 +4,31 @@
 
 #include <cstddef>
 
+#include "quadedge/camera.hpp"
+
 namespace quadedge::pose {
+
+/// Equation 9 of the paper: relative difference of the lengths of D; differences of the cosines between D and a tangent
+/// and between the tangents; minimum angle between D and a tangent; determinant above which the handedness must agree.
+constexpr double kLengthDifference = 0.13, kAngleDifference = 0.12, kTangentDifference = 0.32, kMinAngleDeg = 14.0,
+                 kMinDeterminant = 0.1;
+
+/// Maximum difference of directions of an inlier (section 6 of the paper).
+constexpr double kInlierOrientation = 10.0 * kDegree;
+
+/// RANSAC: probability of having drawn an outlier-free sample at which the search ends, and the maximum number of
+/// hypotheses, by which it ends at inlier ratios above 6 %.
+constexpr double kConfidence = 0.999;
+constexpr int kMaxHypotheses = 2000;
+
+/// Number of inlier selections, each followed by a fit: further ones change hardly any row.
+constexpr int kRefineRounds = 4;
+
+/// Standard deviations of an edge's position along the edge [px] and of its direction in the image [rad].
+constexpr double kSigmaAlong = 0.5, kSigmaDirection = 2.0 * kDegree;
+
+/// Covariance inflation: side of the smallest square cells whose edges may share their error [px].
+constexpr double kInflationCell = 16.0;
 
 /// Maximum number of Gauss-Newton steps of a fit: one that needs more started from a wrong motion.
 constexpr int kFitSteps = 5;
@@ -37,7 +61,7 @@ constexpr double kSmallestPivot = 1e-12;
 /// Standard deviation of depth slopes in typical scenes: surfaces slanted by 45 degrees, for any camera.
 constexpr double kSlopePrior = 1.0;
 
-/// Cell sizes within which errors may be correlated: config.inflation_cell and its doublings. From index kLeftOut on,
+/// Cell sizes within which errors may be correlated: kInflationCell and its doublings. From index kLeftOut on,
 /// the cells are used for the jackknife.
 constexpr int kCellSizes = 5, kLeftOut = 2;
 

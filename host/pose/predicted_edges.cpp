@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "common/row_blocks.hpp"
-#include "common/vector_clones.hpp"
+#include "common/parallel.hpp"
 #include "pose/stereo_numbers.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge::pose {
 

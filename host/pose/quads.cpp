@@ -1,7 +1,6 @@
 #include "pose/quads.hpp"
 
-#include "common/row_blocks.hpp"
-#include "pose/pose_constants.hpp"
+#include "common/parallel.hpp"
 
 namespace quadedge::pose {
 
@@ -16,9 +15,6 @@ StereoObservation observation(const StereoEdges& edges, std::size_t i) {
 }
 
 }  // namespace
-
-QuadLimits::QuadLimits(const Config& config)
-    : min_epipolar_angle(config.stereo.min_epipolar_angle_rad()), direction_sigma(config.pose.sigma_direction_rad()) {}
 
 void ScoringArrays::assign_rows(const ScoringArrays& other, const std::vector<std::int32_t>& rows) {
   for (auto column : kScoringColumns) {
@@ -48,8 +44,9 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
                            std::int32_t match_number, const QuadLimits& limits) {
   previous[i] = before;
   current[i] = after;
-  const double doubt = before.slope_per_radian * limits.direction_sigma / kSlopePrior;
-  const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
+  const double uncertainty = before.slope_per_radian * limits.direction_sigma / kSlopePrior;
+  const Eigen::Vector3d tangent =
+      (before.direction + before.slope / (1.0 + uncertainty * uncertainty) * before.ray).normalized();
   scoring.ray_x[i] = static_cast<float>(before.ray.x());
   scoring.ray_y[i] = static_cast<float>(before.ray.y());
   scoring.inverse_depth[i] = static_cast<float>(before.inverse_depth);
@@ -67,18 +64,6 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
   ncc[i] = ncc_value;
   competing_clusters[i] = competing;
   match[i] = match_number;
-}
-
-bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge,
-                              const StereoObservation& current_edge, float ncc_value, std::int32_t competing,
-                              std::int32_t match_number, const QuadLimits& limits) {
-  const auto before = measure(rig, previous_edge, limits.min_epipolar_angle);
-  if (!before) return false;
-  const auto after = measure(rig, current_edge, limits.min_epipolar_angle);
-  if (!after) return false;
-  resize(size() + 1);
-  set(size() - 1, *before, *after, current_edge, ncc_value, competing, match_number, limits);
-  return true;
 }
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,

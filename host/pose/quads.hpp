@@ -5,7 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "common/matching_constants.hpp"
 #include "pose/oriented_point.hpp"
+#include "pose/pose_constants.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 
@@ -13,9 +15,8 @@ namespace quadedge::pose {
 
 /// Limits that decide whether a quad is used, and the noise of its tangent.
 struct QuadLimits {
-  explicit QuadLimits(const Config& config);
-  double min_epipolar_angle;  ///< see measure() [rad]
-  double direction_sigma;     ///< noise of an edge's direction [rad]
+  double min_epipolar_angle = kMinEpipolarAngle;  ///< see measure() [rad]
+  double direction_sigma = kSigmaDirection;       ///< noise of an edge's direction [rad]
 };
 
 /// Data used for scoring a hypothesis, one row per quad, single precision (1e-4 px).
@@ -57,12 +58,8 @@ struct QuadObservations {
   std::vector<std::int32_t> match;  ///< the caller's index of the quad (row of TemporalMatches)
 
   std::size_t size() const { return previous.size(); }
-  /// Appends a quad made of four edges [px, rad]. \returns false, and appends nothing, if one of the two stereo edges
-  /// has no depth or no tangent (see measure())
-  bool append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge,
-              float ncc_value, std::int32_t competing, std::int32_t match_number, const QuadLimits& limits);
   void resize(std::size_t quads);
-  /// Sets quad `i`, see append().
+  /// Sets quad `i`, made of two measured stereo edges and the current edge as detected [px, rad].
   void set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
            const StereoObservation& current_edge, float ncc_value, std::int32_t competing, std::int32_t match_number,
            const QuadLimits& limits);
@@ -74,10 +71,9 @@ using MeasuredEdges = std::vector<std::optional<StereoMeasurement>>;
 /// \param min_epipolar_angle see measure() [rad]
 void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured);
 
-/// All quads of two rigs: the stereo edges paired by `matches`, each at its detected position. Across the edge, where a
-/// quad is measured, detection is more accurate than the photometric refinement of the match (KITTI 06, frame to frame:
-/// 1.6 cm per frame against 2.3 cm), because the patches lie beside the edge; the refinement serves to distinguish
-/// correct matches. Matches without depth are dropped; QuadObservations::match gives the row of each quad.
+/// All quads of two rigs: the stereo edges paired by `matches`, each at its detected position, which across the edge is
+/// more accurate than the photometric refinement of the match, because the patches lie beside the edge. Matches without
+/// depth are dropped; QuadObservations::match gives the row of each quad.
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits);
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "pose/constraints.hpp"
 #include "pose/pose_constants.hpp"
-#include "pose/random_index.hpp"
+#include "pose/sampling_order.hpp"
 #include "pose/scoring.hpp"
 #include "pose/two_quads.hpp"
 
@@ -29,7 +28,7 @@ class Search {
  public:
   Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
          ConsensusWorkspace& workspace)
-      : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config), work_(workspace) {
+      : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), work_(workspace) {
     const auto scored = static_cast<std::size_t>(config.scoring_quads), preview = kPreviewQuads;
     if (config.scoring_cell > 0) {
       balanced_subset(random_, quads.scoring, config.scoring_cell, scored, work_.subset, work_.scored_rows);
@@ -61,13 +60,13 @@ class Search {
  private:
   void sample() {
     SamplingOrder order(quads_, work_.order);
-    // The pool grows linearly over the first max_hypotheses draws, from the smallest useful subset to all quads.
+    // The pool grows linearly over the first kMaxHypotheses draws, from the smallest useful subset to all quads.
     const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
-    const double growth = (static_cast<double>(order.size()) - first_pool) / config_.max_hypotheses;
+    const double growth = (static_cast<double>(order.size()) - first_pool) / kMaxHypotheses;
     const double pairs = 0.5 * static_cast<double>(order.size()) * static_cast<double>(order.size() - 1);
-    const double useful = std::max<double>(config_.max_hypotheses, kDrawsPerPair * pairs);
+    const double useful = std::max<double>(kMaxHypotheses, kDrawsPerPair * pairs);
     const int max_draws = useful < config_.max_draws ? static_cast<int>(useful) : config_.max_draws;
-    while (best_.draws < max_draws && best_.hypotheses < std::min(needed_, config_.max_hypotheses)) {
+    while (best_.draws < max_draws && best_.hypotheses < std::min(needed_, kMaxHypotheses)) {
       const double pool_size = std::min(first_pool + growth * best_.draws, static_cast<double>(order.size()));
       const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
       order.sort_first(pool);
@@ -116,7 +115,7 @@ class Search {
     for (int round = 0; round < rounds; ++round) {
       const double progress = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1.0;
       const double distance = config_.inlier_distance * std::pow(config_.local_optimisation_widening, 1.0 - progress);
-      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, config_.inlier_orientation_rad(), work_.mask);
+      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, kInlierOrientation, work_.mask);
       mask_to_rows(work_.mask, work_.inlier_rows);
       if (!fit_sample(work_.preview_terms, work_.inlier_rows, config_, motion, work_.fit)) return std::nullopt;
     }
@@ -130,13 +129,12 @@ class Search {
     best_.found = true;
     best_.cost = cost;
     best_.current_from_previous = motion;
-    const int inliers =
-        select_inliers(work_.scored, cameras, config_.inlier_distance, config_.inlier_orientation_rad(), work_.mask);
+    const int inliers = select_inliers(work_.scored, cameras, config_.inlier_distance, kInlierOrientation, work_.mask);
     const double ratio = static_cast<double>(inliers) / static_cast<double>(work_.scored.size());
     const double miss = std::log1p(-std::min(ratio * ratio, 1.0 - std::numeric_limits<double>::epsilon()));
-    const double draws = std::log1p(-config_.confidence) / miss;
-    needed_ = std::max(config_.min_hypotheses,
-                       draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
+    const double draws = std::log1p(-kConfidence) / miss;
+    needed_ =
+        std::max(config_.min_hypotheses, draws < kMaxHypotheses ? static_cast<int>(std::ceil(draws)) : kMaxHypotheses);
   }
 
   const QuadObservations& quads_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "pose/pose_constants.hpp"
 #include "pose/sample_fit.hpp"
 #include "pose/sampling_order.hpp"
 #include "pose/scoring.hpp"
@@ -35,21 +36,12 @@ struct ConsensusWorkspace {
   SampleWorkspace fit;
 };
 
-/// Samples pairs of quads, best first (see SamplingOrder; the pool grows with the draws, as in PROSAC). Each pair that
-/// passes the six constraints and whose quads are far enough apart in the image is solved and scored on a fixed random
-/// subset of kPreviewQuads, taken evenly from the image cells of config.scoring_cell px: a motion is judged by the area
-/// whose quads agree with it, not by the number of edges in that area (a moving object may contain most of them).
-///
-/// Proposition 2 determines the rotation about the line through the pair from one tangent in space, whose depth slope
-/// is the least certain quantity of an edge. fit_sample(), which models this uncertainty, is therefore run on the two
-/// quads. (For generated quads with a direction noise of 0.6 degrees, it reduces the median error elsewhere in the
-/// image from 28 to 7 px.) A correct sample is still several pixels off elsewhere. Samples are therefore compared with
-/// an inlier distance widened by config.local_optimisation_widening, and each sample that beats all previous ones is
-/// optimised locally by fits over its inliers in the subset, with a distance that decreases to config.inlier_distance.
-/// Optimised motions are compared over config.scoring_quads, selected in the same way.
-/// The search ends when a further pair of inliers has been drawn with probability config.confidence, after
-/// config.max_hypotheses hypotheses, or after config.max_draws draws. Rejected draws count, so that the search also
-/// ends if there are fewer than two quads or no pair passes.
+/// Samples pairs of quads, best first (SamplingOrder; the pool grows with the draws, as in PROSAC). A pair that passes
+/// the six constraints is solved, fitted with the noise of its tangents (fit_sample()) and scored on kPreviewQuads
+/// quads, taken evenly from cells of config.scoring_cell px, so that a motion is judged by the area that agrees with
+/// it. A sample that beats all previous ones is optimised locally over its inliers, with a distance that decreases from
+/// config.local_optimisation_widening times to config.inlier_distance, and compared over config.scoring_quads. The
+/// search ends after kConfidence, max_hypotheses or max_draws; rejected draws count.
 /// \param seed seed of all random numbers; the same seed gives identical bits
 /// \param initial a hypothesis that is scored first (a predicted or frame-to-frame pose), current_from_previous
 Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,

@@ -1,5 +1,6 @@
 #pragma once
-/// \file refinement.hpp  Robust least squares on SE(3) over the positions of many quads (doc/method.md section 6).
+/// \file refinement.hpp  Robust least squares on SE(3) over the positions of many quads, and over the pose and a common
+/// offset of all disparities (doc/method.md section 6).
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -8,11 +9,41 @@
 #include <vector>
 
 #include "pose/covariance.hpp"
-#include "pose/offset_fit.hpp"
 #include "pose/reprojection_terms.hpp"
 #include "pose/scoring.hpp"
+#include "quadedge/config.hpp"
 
 namespace quadedge::pose {
+
+/// Solution of the equations.
+struct FreeFit {
+  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
+  /// [px], added to every right point along its epipolar line, away from the point at infinity.
+  double offset = 0;
+};
+
+/// A pose and the disparity offset, with their uncertainties.
+struct PoseAndOffset : FreeFit {
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose [rad, m]
+  double offset_variance = 0;              ///< [px^2], including the prior
+};
+
+struct OffsetFit {
+  FreeFit free;  ///< in: initial pose and offset; out: solution
+  /// What is worth learning from it. Where an offset looks like a motion, as with all edges at one depth straight ahead
+  /// or while the camera hardly moves, small systematic errors of the edges decide about the free offset. Systematic
+  /// errors (kSystematicPosition, kSystematicDisparity) are added to its variance.
+  PoseAndOffset learned;
+};
+
+/// Continues a fit of `terms` with one more unknown: the common offset of all disparities left by rectification, with a
+/// zero-mean prior of variance `variance` [px^2]. Edges at all depths separate it from a motion along the optical axis;
+/// a stationary camera leaves the prior unchanged. \param covariance the information of the quads is reduced by
+/// small_cell_inflation relative to the prior; the covariance of the result is that of a fit with these weights, with
+/// errors that scatter by `inflation` \param reprojection_scale ratio of measured to assumed variance of the
+/// reprojection residuals \param focal_length of the left camera [px] \returns false if the equations have no solution
+bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
+                double reprojection_scale, double focal_length, ReprojectionTerms& terms, OffsetFit& result);
 
 /// Buffers of refine(), kept between calls so that steady-state operation allocates nothing.
 struct RefinementWorkspace {
@@ -36,28 +67,13 @@ struct Refined {
   std::optional<PoseAndOffset> learned;  ///< see OffsetFit; without a value there was no fit with an offset
 };
 
-/// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and Gauss-Newton with Student-t weights over
-/// them, config.refine_rounds times or until the selection hardly changes; if there are many quads, a subset determines
-/// the selection. A fit ends after kFitSteps steps or with a step below kFitTolerance standard deviations of the pose.
-/// The variance of the errors is measured in each step, by the median. All inliers are then used in fit_offset() with a
-/// prior of `offset_variance` [px^2], or in one more fit if that is 0. With RefinementGoal::pose, neither offset nor
-/// covariance is computed.
-///
-/// The true depth of each quad is eliminated in closed form, which is the Schur complement of a bundle adjustment of
-/// the two rigs. Measured on generated quads (f 700 px, baseline 0.54 m, 1.2 m forward, 1000 quads, 300 trials); error
-/// along the motion as mean +- its standard error, and standard deviation, in mm:
-///
-///   noise of 0.15 px, depths of 5 to 100 m:    0.00 +- 0.01, 0.23; earlier points assumed exact: 0.03 +- 0.02, 0.31
-///   noise of 0.30 px, depths of 15 to 150 m:  -0.03 +- 0.08, 1.33; earlier points assumed exact: 0.67 +- 0.10, 1.70
-///
-/// This removes the scale bias of plain PnP (a motion that is too short) and a quarter of the spread.
-///
-/// Uses positions only, because with many quads directions are harmful: the slope of a tangent is as uncertain as it is
-/// large, and its errors are correlated with the directions that it is compared with, so that the resulting bias does
-/// not average out. Rendered room, 640 x 332: the root mean square error is 2.1 mdeg with positions only and 3.4 mdeg
-/// with directions.
-/// \param initial current_from_previous, left cameras, metres
-/// \param inlier one byte per quad, selected at the final pose
+/// Alternates between selecting inliers and Gauss-Newton with Student-t weights over their positions, until the
+/// selection hardly changes; the variance of the errors is measured in each step. All inliers are then used in
+/// fit_offset() with a prior of `offset_variance` [px^2], or in one more fit if that is 0. With RefinementGoal::pose,
+/// neither offset nor covariance is computed. The true depth of each quad is eliminated in closed form, which is the
+/// Schur complement of a bundle adjustment of the two rigs and removes the scale bias of plain PnP. Directions are not
+/// used: the errors of slopes are correlated with the directions that they are compared with. \param initial
+/// current_from_previous, left cameras, metres \param inlier one byte per quad, selected at the final pose
 Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
                std::vector<std::uint8_t>& inlier, RefinementGoal goal = RefinementGoal::pose_and_covariance);

@@ -1,7 +1,6 @@
 #include "pose/reprojection_terms.hpp"
 
-#include "common/row_blocks.hpp"
-#include "common/vector_clones.hpp"
+#include "common/parallel.hpp"
 
 namespace quadedge::pose {
 

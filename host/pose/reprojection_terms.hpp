@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "pose/least_squares.hpp"
-#include "pose/normal_contribution.hpp"
 #include "pose/quads.hpp"
 
 namespace quadedge::pose {

@@ -1,6 +1,6 @@
 #include "pose/sample_fit.hpp"
 
-#include "common/vector_clones.hpp"
+#include "common/parallel.hpp"
 #include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {

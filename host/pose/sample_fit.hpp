@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "pose/direction_residual.hpp"
 #include "pose/least_squares.hpp"
 #include "pose/reprojection_terms.hpp"
+#include "pose/residuals.hpp"
 
 namespace quadedge::pose {
 

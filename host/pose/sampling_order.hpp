@@ -1,15 +1,22 @@
 #pragma once
-/// \file sampling_order.hpp  Order in which quads enter the samples of a consensus search (PROSAC).
+/// \file sampling_order.hpp  Random indices, and the order in which quads enter the samples of a consensus search
+/// (PROSAC).
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <random>
 #include <vector>
 
 #include "pose/quads.hpp"
 
 namespace quadedge::pose {
+
+/// Uniform over 0 .. count - 1 (std::uniform_int_distribution differs between libraries).
+inline std::size_t random_index(std::mt19937_64& random, std::size_t count) {
+  return static_cast<std::size_t>(((random() >> 32) * static_cast<std::uint64_t>(count)) >> 32);
+}
 
 /// Bits of a number as an unsigned integer with the same order.
 inline std::uint32_t ordered_bits(float value) {

@@ -5,8 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "common/row_blocks.hpp"
-#include "common/vector_clones.hpp"
+#include "common/parallel.hpp"
 
 namespace quadedge::pose {
 

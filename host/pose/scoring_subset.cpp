@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "pose/random_index.hpp"
+#include "pose/sampling_order.hpp"
 
 namespace quadedge::pose {
 

@@ -12,6 +12,23 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 }  // namespace
 
+Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform) {
+  Eigen::Matrix3d cross;
+  const Eigen::Vector3d t = transform.translation();
+  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();
+  result.topLeftCorner<3, 3>() = transform.linear();
+  result.bottomRightCorner<3, 3>() = transform.linear();
+  result.bottomLeftCorner<3, 3>() = cross * transform.linear();
+  return result;
+}
+
+RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_a) {
+  const Eigen::Matrix<double, 6, 6> carried = adjoint(c_from_b.transform);
+  return {c_from_b.transform * b_from_a.transform,
+          c_from_b.covariance + carried * b_from_a.covariance * carried.transpose()};
+}
+
 UncertainPose pose_in_earlier(const RelativePose& current_from_earlier) {
   const Eigen::Isometry3d pose = current_from_earlier.transform.inverse();
   // If current_from_earlier is perturbed by (w, v), the error of the position is -R v and that of the rotation -R w,
@@ -48,6 +65,35 @@ UncertainPose inverse(const UncertainPose& fixed_from_camera) {
   result.by_rig = change * fixed_from_camera.by_rig;
   result.covariance = change * fixed_from_camera.covariance * change.transpose();
   return result;
+}
+
+RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth) {
+  const Eigen::Vector3d translation = fixed_from_camera.translation();
+  const Eigen::Matrix3d turn = fixed_from_camera.linear();
+  const Eigen::AngleAxisd rotation(turn);
+  RigSensitivity result = RigSensitivity::Zero();
+  result.col(0).head<3>() = translation;
+  for (int axis = 0; axis < 3; ++axis) {
+    // The motion in a frame that is rotated by w: exp(w) T exp(-w).
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
+    result.col(1 + axis).head<3>() = unit.cross(translation);
+    result.col(1 + axis).tail<3>() = unit - turn * unit;
+    result.col(5 + axis).tail<3>() = translation.norm() * inverse_depth * unit;
+  }
+  result.col(4).tail<3>() = rotation.angle() * rotation.axis();
+  return result;
+}
+
+PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& config) {
+  Eigen::Matrix<double, kRigErrors, 1> sigma;
+  sigma << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
+      Eigen::Vector3d::Constant(config.rig_sigma_lens);
+  const RigSensitivity scaled = by_rig * sigma.asDiagonal();
+  return scaled * scaled.transpose();
+}
+
+PoseCovariance whole_covariance(const UncertainPose& pose, const PoseConfig& config) {
+  return pose.covariance + rig_covariance(pose.by_rig, config);
 }
 
 }  // namespace quadedge::pose

@@ -1,12 +1,28 @@
 #pragma once
-/// \file uncertain_pose.hpp  Covariances of poses from covariances of motions (doc/method.md section 7).
+/// \file uncertain_pose.hpp  Motions and poses with covariance, and the effect of calibration errors on them
+/// (doc/method.md section 7).
 
 #include <Eigen/Geometry>
+#include <optional>
 
-#include "pose/relative_pose.hpp"
-#include "quadedge/pose_covariance.hpp"
+#include "pose/uncertain_pose.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/trajectory.hpp"
 
 namespace quadedge::pose {
+
+/// `transform` is b_from_a [m]; `covariance` refers to a left perturbation in frame b: (rotation [rad^2], translation
+/// [m^2]). The default is the exact identity.
+struct RelativePose {
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/// Maps a left perturbation before `transform` (rotation, translation) to the perturbation after it.
+Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform);
+
+/// c_from_a from c_from_b and b_from_a, with independent errors.
+RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_a);
 
 /// Pose of a camera in a fixed frame [m].
 struct UncertainPose {
@@ -22,7 +38,27 @@ UncertainPose pose_in_earlier(const RelativePose& current_from_earlier);
 /// errors are the same.
 UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose& key_from_current);
 
+/// The covariance of a RelativePose, which has the rotation first, in the order of PoseCovariance, and back.
+inline PoseCovariance in_other_order(const PoseCovariance& covariance) {
+  PoseCovariance other;
+  other << covariance.bottomRightCorner<3, 3>(), covariance.bottomLeftCorner<3, 3>(), covariance.topRightCorner<3, 3>(),
+      covariance.topLeftCorner<3, 3>();
+  return other;
+}
+
 /// Returns camera_from_fixed.
 UncertainPose inverse(const UncertainPose& fixed_from_camera);
+
+/// Sensitivity of a pose, found from edges at `inverse_depth` [1/m], to calibration errors: a longer baseline lengthens
+/// the translation, a rotated optical frame rotates the motion, a longer focal length reduces the angles, and residual
+/// distortion rotates the camera in proportion to its approach to the scene.
+/// \param fixed_from_camera a single motion, between two frames or since a key rig
+RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth);
+
+/// Covariance due to calibration errors, which are independent of each other and have the sizes `pose.rig_sigma_*`.
+PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& config);
+
+/// Covariance due to edge and calibration errors.
+PoseCovariance whole_covariance(const UncertainPose& pose, const PoseConfig& config);
 
 }  // namespace quadedge::pose

@@ -1,0 +1,45 @@
+#include "odometry/disparity_offset.hpp"
+
+#include "odometry/odometry_constants.hpp"
+
+namespace quadedge::odometry {
+
+namespace {
+
+/// Unit vector along which a point in the middle of the right image moves when its depth decreases.
+Eigen::Vector2d direction_of_nearer(const StereoRig& rig) {
+  // For the middle of the image, between depths of 100 and 50 baselines.
+  const Eigen::Vector3d ray = rig.left.ray({0.5 * (rig.left.width - 1), 0.5 * (rig.left.height - 1)});
+  const Eigen::Vector2d far = rig.right.project(rig.right_from_left * Eigen::Vector3d(100 * rig.baseline() * ray));
+  return (rig.right.project(rig.right_from_left * Eigen::Vector3d(50 * rig.baseline() * ray)) - far).normalized();
+}
+
+}  // namespace
+
+StereoRig with_disparity_offset(const StereoRig& rig, double offset) {
+  const Eigen::Vector2d nearer = direction_of_nearer(rig);
+  StereoRig moved;
+  moved.left = rig.left;
+  moved.right = rig.right;
+  moved.right_from_left = rig.right_from_left;
+  moved.max_value = rig.max_value;
+  moved.right.cx -= offset * nearer.x();
+  moved.right.cy -= offset * nearer.y();
+  return moved;
+}
+
+DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
+    : calibration_(with_disparity_offset(rig, 0)),
+      rig_(with_disparity_offset(rig, config.disparity_offset)),
+      drift_(kDisparityOffsetDrift),
+      value_(config.disparity_offset),
+      variance_(config.disparity_offset_sigma * config.disparity_offset_sigma) {}
+
+void DisparityOffset::update(double correction, double variance, int frames) {
+  if (!(variance_ > 0) || !(variance > 0)) return;
+  value_ += correction;
+  variance_ = variance + frames * drift_ * drift_;
+  rig_ = with_disparity_offset(calibration_, value_);
+}
+
+}  // namespace quadedge::odometry

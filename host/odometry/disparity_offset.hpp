@@ -1,0 +1,38 @@
+#pragma once
+/// \file disparity_offset.hpp  Online estimate of the common offset of all disparities.
+
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::odometry {
+
+/// Moves the right principal point so that all disparities increase by `offset` px. The result has no undistortion
+/// tables and no masks.
+StereoRig with_disparity_offset(const StereoRig& rig, double offset);
+
+/// A scalar Kalman filter for the common offset of a rig's disparities, a rectification error of a fraction of a pixel
+/// (KITTI: 0.2 px and more). The offset is observable in the quads of a moving camera (pose::fit_offset()); one frame
+/// per key stereo rig contributes a measurement.
+class DisparityOffset {
+ public:
+  DisparityOffset(const StereoRig& rig, const PoseConfig& config);
+
+  /// Adds a measurement: the correction to the current offset and its variance, which includes the prior [px, px^2];
+  /// `frames` have passed since the last measurement.
+  void update(double correction, double variance, int frames);
+
+  /// The rig with its right principal point corrected by the offset, without undistortion tables.
+  const StereoRig& rig() const { return rig_; }
+  double value() const { return value_; }  ///< added to disparities [px]
+  double variance() const {
+    return variance_;
+  }  ///< predicted for the next frame [px^2]; 0: disparities are assumed exact
+
+ private:
+  StereoRig calibration_;  ///< without undistortion tables
+  StereoRig rig_;
+  double drift_;
+  double value_, variance_;
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,53 @@
+#include "odometry/frame_preparation.hpp"
+
+#include <utility>
+
+#include "common/disparity_range.hpp"
+
+namespace quadedge::odometry {
+
+void check_usable(const StereoRig& rig, const Config& config) {
+  check_rig(rig, "stereo rig");
+  if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
+  check_config(config);
+}
+
+FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& rig, Device& device,
+                                   const Config& config)
+    : recorded_(recorded),
+      min_edges_(config.pose.min_inliers),
+      frontend_(frontend::make_frontend(rig, device, config, &warnings_)),
+      rig_monitor_(rig) {}
+
+/// The previous rig is recycled unless somebody holds it.
+frontend::RigHandle FramePreparation::process(const StereoFrame& frame) {
+  current_ = nullptr;
+  current_ = frontend_->process(frame);
+  return current_;
+}
+
+rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
+  const frontend::FrontendCounts& counts = frontend_->counts();
+  return rig_monitor_.judge(frame, current_->edges, counts.edges_left, counts.disparity_range,
+                            counts.epipolar_correction);
+}
+
+std::optional<FrameFault> FramePreparation::fault(const rig::RigReport& report) {
+  const auto* mismatch = report.mismatch();
+  if (mismatch == nullptr)
+    for (const auto& finding : report.findings) warn(rig::warning(finding));
+  if (!has_enough_edges())
+    return FrameFault{FrameStatus::lost_too_few_edges, std::to_string(current_->edges.size()) + " stereo edges"};
+  if (mismatch != nullptr) return FrameFault{FrameStatus::lost_rig_mismatch, rig::warning(*mismatch).text};
+  return std::nullopt;
+}
+
+std::vector<Warning> FramePreparation::new_warnings() {
+  std::vector<Warning> wanted;
+  for (Warning& warning : std::exchange(warnings_, {}))
+    if (reported_.count(warning.kind) == 0) wanted.push_back(std::move(warning));
+  for (const Warning& warning : wanted) reported_.insert(warning.kind);
+  return wanted;
+}
+
+}  // namespace quadedge::odometry

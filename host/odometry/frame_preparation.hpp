@@ -1,0 +1,66 @@
+#pragma once
+/// \file frame_preparation.hpp  What a frame goes through before its motion is searched for: the stereo edges, and
+/// whether the images fit the rig.
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/images.hpp"
+#include "frontend/frontend.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+#include "rig/rig_monitor.hpp"
+
+namespace quadedge::odometry {
+
+/// Throws if the rig or the configuration cannot be used. \throws DataError, UsageError
+void check_usable(const StereoRig& rig, const Config& config);
+
+/// Why a frame cannot be located.
+struct FrameFault {
+  FrameStatus status = FrameStatus::lost_too_few_edges;  ///< or lost_rig_mismatch
+  std::string text;
+};
+
+/// The front end of a rig, the check of its calibration and the warnings about its recording.
+class FramePreparation {
+ public:
+  /// \param recorded the cameras of the images \param rig those in which edges are detected
+  FramePreparation(const StereoRig& recorded, const StereoRig& rig, Device& device, const Config& config);
+
+  /// \throws DataError for images that do not fit the rig
+  void check(const StereoFrame& frame) const { recorded_.check(frame.left, frame.right); }
+  /// Turns the images into the front end's current rig.
+  frontend::RigHandle process(const StereoFrame& frame);
+  bool has_enough_edges() const { return static_cast<int>(current_->edges.size()) >= min_edges_; }
+  /// Compares the images with the calibration; may run beside the search for matches.
+  rig::RigReport judge(const StereoFrame& frame);
+  /// Warns of the findings. \returns the reason why the frame cannot be located, if there is one
+  std::optional<FrameFault> fault(const rig::RigReport& report);
+  /// Takes over the rectification error of a frame that was located.
+  void adopt(const rig::RigReport& report) { frontend_->take(report.fit); }
+
+  void warn(const Warning& warning) { warnings_.push_back(warning); }
+  /// Warnings since the last call, of kinds that no earlier call has returned.
+  std::vector<Warning> new_warnings();
+
+  frontend::Frontend& frontend() const { return *frontend_; }
+  rig::RigMonitor& rig_monitor() { return rig_monitor_; }
+
+ private:
+  RecordedImages recorded_;
+  int min_edges_;
+  std::vector<Warning> warnings_;
+  std::set<WarningKind> reported_;
+  std::unique_ptr<frontend::Frontend> frontend_;
+  rig::RigMonitor rig_monitor_;
+  frontend::RigHandle current_;
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,103 @@
+#include "odometry/motion_evidence.hpp"
+
+#include <algorithm>
+
+#include "frontend/prediction.hpp"
+#include "odometry/odometry_constants.hpp"
+#include "pose/pose_constants.hpp"
+#include "pose/scoring.hpp"
+#include "quadedge/camera.hpp"
+
+namespace quadedge::odometry {
+
+void MotionEvidence::judge(const EdgePositions& predicted, MotionStep& step) {
+  const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
+  step.explained = {};
+  step.explained.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
+  step.refusal = refusal_of(step.motion.status);
+  if (step.ok() && step.explained.support < config_.temporal.min_support) step.refusal = Refusal::little_support;
+  if (!step.ok()) return;
+  step.explained.static_ratio = static_ratio(step);
+  select(step, step.motion.current_from_previous, kCloseAgreement * config_.pose.inlier_distance,
+         pose::kInlierOrientation, step.agrees);
+  measure_area(predicted, step);
+}
+
+int MotionEvidence::select(const MotionStep& step, const Eigen::Isometry3d& motion, double distance, double angle,
+                           std::vector<std::uint8_t>& inlier) const {
+  return pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), motion), distance, angle, inlier);
+}
+
+/// Sets the area, which weights objects by the area that they cover, not by their number of edges, and the moving
+/// ratio.
+void MotionEvidence::measure_area(const EdgePositions& predicted, MotionStep& step) const {
+  step.cells.start(offset_.rig().left, config_.pose.scoring_cell);
+  for (std::size_t i = 0; i < predicted.x.size(); ++i)
+    if (ExplainedCell* cell = step.cells.at(predicted.x[i], predicted.y[i])) cell->edges += 1;
+  for (std::size_t q = 0; q < step.quads.size(); ++q) {
+    const auto edge = static_cast<std::size_t>(step.matches.previous[static_cast<std::size_t>(step.quads.match[q])]);
+    ExplainedCell* cell = step.cells.at(predicted.x[edge], predicted.y[edge]);
+    if (cell == nullptr) continue;
+    cell->found += 1;
+    cell->explained += step.agrees[q] != 0 ? 1 : 0;
+  }
+  step.explained.area = step.cells.explained_area();
+  step.explained.moving_ratio = step.cells.moving_ratio();
+}
+
+/// Edges are not static by chance, and distant edges agree with the motion as well. Hence, either the camera did not
+/// move, or something moves along with it.
+double MotionEvidence::static_ratio(const MotionStep& step) {
+  const double close = kCloseAgreement * config_.pose.inlier_distance, turn = pose::kInlierOrientation;
+  select(step, step.motion.current_from_previous, 2 * close, turn, follows_);
+  select(step, Eigen::Isometry3d::Identity(), close, turn, is_still_);
+  std::size_t still = 0;
+  for (std::size_t q = 0; q < step.quads.size(); ++q) still += is_still_[q] != 0 && follows_[q] == 0 ? 1 : 0;
+  return static_cast<double>(still) / std::max(1.0, static_cast<double>(step.quads.size()));
+}
+
+ExplainedCells MotionEvidence::explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen,
+                                                double distance) const {
+  std::vector<std::uint8_t> shared;
+  select(other, chosen, distance, 0.5 * kPi, shared);
+  ExplainedCells cells = other.cells;
+  for (ExplainedCell& cell : cells.all()) cell.explained = 0;
+  for (std::size_t q = 0; q < shared.size(); ++q) {
+    ExplainedCell* cell = cells.at(other.quads.scoring.left_x[q], other.quads.scoring.left_y[q]);
+    if (cell != nullptr && other.agrees[q] != 0 && shared[q] == 0) cell->explained += 1;
+  }
+  for (ExplainedCell& cell : cells.all())
+    if (cell.explained < kMinCellEdges) cell.explained = 0;
+  return cells;
+}
+
+double MotionEvidence::area_beside(const MotionStep& found, const MotionStep& other,
+                                   const Eigen::Isometry3d& motion) const {
+  ExplainedCells cells = explained_beside(found, motion, kCloseAgreement * config_.pose.inlier_distance);
+  for (std::size_t i = 0; i < cells.all().size(); ++i)
+    if (!other.cells.all()[i].is_free()) cells.all()[i].explained = 0;
+  return cells.explained_area();
+}
+
+bool MotionEvidence::is_same_motion(const MotionStep& found, const Eigen::Isometry3d& other) const {
+  std::vector<std::uint8_t> agrees;
+  select(found, other, config_.pose.inlier_distance, pose::kInlierOrientation, agrees);
+  int inliers = 0, shared = 0;
+  for (std::size_t q = 0; q < agrees.size(); ++q) {
+    if (found.motion.inlier[q] == 0) continue;
+    ++inliers;
+    shared += agrees[q];
+  }
+  return shared >= kSharedInlierRatio * inliers;
+}
+
+void MotionEvidence::compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion,
+                                      Verdict& verdict) const {
+  std::vector<std::uint8_t> agrees;
+  const int agreeing = select(global_matches, motion, kWideInlierDistance, pose::kInlierOrientation, agrees);
+  verdict.global_ratio = agreeing / std::max(1.0, static_cast<double>(agrees.size()));
+  verdict.agrees_globally =
+      pose::count_cells(global_matches.quads.scoring, agrees, pose::kInflationCell) >= config_.pose.min_inliers;
+}
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,53 @@
+#pragma once
+/// \file motion_evidence.hpp  Measures what a motion explains of the image, and compares motions.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/filter_limits.hpp"
+#include "odometry/disparity_offset.hpp"
+#include "odometry/motion_step.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::odometry {
+
+/// The measurements on which the choice between motions rests (motion_selection.hpp).
+class MotionEvidence {
+ public:
+  /// Refers to `offset`, which must outlive the object.
+  MotionEvidence(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
+
+  /// Confirms or refuses the motion of a step whose base's edges were searched for at `predicted` in the left image,
+  /// and measures what it explains. A wrong motion also finds some support within the few pixels of the search radius,
+  /// but less than the true motion.
+  void judge(const EdgePositions& predicted, MotionStep& step);
+
+  /// Whether most inliers of `found` also agree with the motion `other` since the same rig.
+  bool is_same_motion(const MotionStep& found, const Eigen::Isometry3d& other) const;
+
+  /// Explained area of `found` in cells that do not follow the motion of `other`, without edges that the latter
+  /// explains closely as well. \param motion that of `other`, since the rig of `found`
+  double area_beside(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& motion) const;
+
+  /// What `other` explains closely of the image while `chosen` is off by more than `distance` [px].
+  /// \param chosen current_from_base, since the base of `other`
+  ExplainedCells explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen, double distance) const;
+
+  /// Compares a motion since the global matches' base with them: sets global_ratio and agrees_globally. It agrees if
+  /// they follow it in at least as many image cells as an estimate needs inliers: a global match can lie anywhere, so
+  /// that a wrong motion agrees with hardly any. Matches in the same cell count once, since their errors are alike.
+  void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion, Verdict& verdict) const;
+
+ private:
+  double static_ratio(const MotionStep& step);
+  void measure_area(const EdgePositions& predicted, MotionStep& step) const;
+  /// Marks the quads within `distance` [px] of where a motion since the step's base brings them.
+  int select(const MotionStep& step, const Eigen::Isometry3d& motion, double distance, double angle,
+             std::vector<std::uint8_t>& inlier) const;
+
+  Config config_;
+  const DisparityOffset& offset_;
+  std::vector<std::uint8_t> follows_, is_still_;  ///< kept between calls
+};
+
+}  // namespace quadedge::odometry

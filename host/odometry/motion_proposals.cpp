@@ -1,0 +1,151 @@
+#include "odometry/motion_proposals.hpp"
+
+#include <algorithm>
+
+#include "common/matching_constants.hpp"
+#include "common/timing.hpp"
+#include "frontend/prediction.hpp"
+#include "odometry/odometry_constants.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+/// The inlier distance is larger because a global match may be a neighbour of the correct edge.
+PoseConfig limits_of_global_matches(const Config& config) {
+  PoseConfig limits = limits_of_proposals(config);
+  limits.inlier_distance = kWideInlierDistance;
+  return limits;
+}
+
+/// Collects the indices of the positions that lie in free cells; if there are at least twice `wanted`, only every n-th,
+/// so that at least `wanted` and fewer than twice `wanted` remain.
+void collect_free(const ExplainedCells& cells, const std::vector<float>& x, const std::vector<float>& y, int wanted,
+                  std::vector<std::int32_t>& numbers) {
+  numbers.clear();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const ExplainedCell* cell = cells.at(x[i], y[i]);
+    if (cell != nullptr && cell->is_free()) numbers.push_back(static_cast<std::int32_t>(i));
+  }
+  const auto step = static_cast<std::size_t>(wide_step(numbers.size(), wanted));
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < numbers.size(); k += step) numbers[kept++] = numbers[k];
+  numbers.resize(kept);
+}
+
+}  // namespace
+
+StepHandle MotionFits::new_step(const frontend::RigHandle& base) {
+  StepHandle step = steps_.take();
+  step->base = base;
+  return step;
+}
+
+void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
+                     const std::optional<Eigen::Isometry3d>& initial, pose::RefinementGoal goal, MotionStep& step) {
+  const auto start = Clock::now();
+  quad_builder_.build(measured(*step.base), query.current->edges, measured(*query.current), step.matches,
+                      pose::QuadLimits(), step.quads);
+  step.quads.scoring.half_length =
+      pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
+  estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion, goal);
+  pose_ms_ += milliseconds_since(start);
+}
+
+const pose::MeasuredEdges& MotionFits::measured(const frontend::Rig& rig) const {
+  return rig.measured_edges(calibration(), kMinEpipolarAngle);
+}
+
+PoseConfig limits_of_proposals(const Config& config) {
+  PoseConfig limits = config.pose;
+  limits.min_inlier_ratio = kProposalMinInlierRatio;
+  limits.min_spread = 0;
+  return limits;
+}
+
+MotionProposals::MotionProposals(const Config& config, frontend::Frontend& frontend, MotionFits& fits)
+    : config_(config),
+      limits_(limits_of_proposals(config)),
+      global_limits_(limits_of_global_matches(config)),
+      frontend_(frontend),
+      fits_(fits) {}
+
+StepHandle MotionProposals::near_prediction(const MotionQuery& query) {
+  return query.prediction ? in_radius(query, config_.temporal.coarse_radius) : nullptr;
+}
+
+StepHandle MotionProposals::in_wide_radius(const MotionQuery& query) {
+  return in_radius(query, kCoarseWideRadiusRatio * fits_.calibration().left.width);
+}
+
+StepHandle MotionProposals::in_radius(const MotionQuery& query, double radius) {
+  const StereoEdges& edges = query.base->edges;
+  const int wanted = config_.temporal.coarse_edges;
+  const int every = std::max(1, (static_cast<int>(edges.size()) + wanted - 1) / wanted);
+  frontend::predict_positions(fits_.calibration(), edges, fits_.measured(*query.base), query.prediction, radius, every,
+                              search_);
+  search_.coarse = true;
+  StepHandle step = fits_.new_step(query.base);
+  frontend_.match(*query.base, search_, step->matches);
+  fits_.fit(query, limits_, query.prediction, pose::RefinementGoal::pose, *step);
+  return step;
+}
+
+StepHandle MotionProposals::still_camera(const MotionQuery& query) {
+  StepHandle step = fits_.new_step(query.base);
+  step->motion = {};
+  step->motion.status = pose::MotionStatus::ok;
+  return step;
+}
+
+StepHandle MotionProposals::global_matches(const MotionQuery& query) {
+  StepHandle step = fits_.new_step(query.base);
+  frontend_.match_globally(*query.base, config_.temporal.wide_edges, step->matches);
+  fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
+  return step;
+}
+
+StepHandle MotionProposals::rest_of_global_matches(const MotionQuery& query, const MotionStep& global_matches) {
+  if (!global_matches.has_motion()) return nullptr;
+  is_rest_.assign(global_matches.matches.size(), 1);
+  for (std::size_t q = 0; q < global_matches.quads.size(); ++q)
+    if (global_matches.motion.inlier[q] != 0) is_rest_[static_cast<std::size_t>(global_matches.quads.match[q])] = 0;
+  return with_rest_of(query, global_matches, global_limits_);
+}
+
+StepHandle MotionProposals::rest_of_confirmed(const MotionQuery& query, const MotionStep& confirmed) {
+  is_rest_.assign(confirmed.matches.size(), 0);
+  for (std::size_t q = 0; q < confirmed.quads.size(); ++q)
+    if (confirmed.agrees[q] == 0) is_rest_[static_cast<std::size_t>(confirmed.quads.match[q])] = 1;
+  PoseConfig limits = limits_;
+  limits.inlier_distance *= kCloseAgreement;
+  StepHandle step = with_rest_of(query, confirmed, limits);
+  step->motion.current_from_previous = motion_since(query.base, query, *step);
+  step->base = query.base;
+  return step;
+}
+
+StepHandle MotionProposals::with_rest_of(const MotionQuery& query, const MotionStep& other, const PoseConfig& limits) {
+  StepHandle step = fits_.new_step(other.base);
+  for (std::size_t m = 0; m < other.matches.size(); ++m) {
+    if (is_rest_[m] == 0) continue;
+    step->matches.append(other.matches.previous[m], other.matches.current[m], query.current->edges,
+                         other.matches.ncc[m], other.matches.competing_clusters[m]);
+  }
+  fits_.fit(query, limits, std::nullopt, pose::RefinementGoal::pose, *step);
+  return step;
+}
+
+StepHandle MotionProposals::in_free_cells(const MotionQuery& query, const MotionStep& chosen) {
+  frontend::predict_positions(fits_.calibration(), query.base->edges, fits_.measured(*query.base),
+                              motion_since(query.base, query, chosen), config_.temporal.radius, 1, search_);
+  const StereoEdges& current = query.current->edges;
+  const int wanted = std::max(1, config_.temporal.wide_edges / kFreeCellThinning);
+  collect_free(chosen.cells, search_.left.x, search_.left.y, wanted, among_.of_base);
+  collect_free(chosen.cells, current.left_x, current.left_y, 2 * wanted, among_.of_current);
+  StepHandle step = fits_.new_step(query.base);
+  frontend_.match_globally(*query.base, among_, step->matches);
+  fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
+  return step;
+}
+
+}  // namespace quadedge::odometry

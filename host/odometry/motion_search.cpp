@@ -1,0 +1,247 @@
+#include "odometry/motion_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "frontend/prediction.hpp"
+#include "odometry/odometry_constants.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+/// Leaves out the edges that are predicted where another motion explains the image.
+void hide_explained(const ExplainedCells& other, TemporalSearch& search) {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < search.left.size(); ++i) {
+    const ExplainedCell* cell = other.at(search.left.x[i], search.left.y[i]);
+    if (cell != nullptr && cell->is_free()) continue;
+    search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+  }
+}
+
+/// Whether a motion explains so little beside a confirmed one that further rounds would not make them ambiguous.
+bool cannot_compete(const MotionStep& step, const MotionStep* known) {
+  return known != nullptr && step.explained.area < kHopelessAreaRatio * known->explained.area;
+}
+
+}  // namespace
+
+MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
+    : config_(config),
+      frontend_(frontend),
+      fits_(config, offset),
+      proposals_(config, frontend, fits_),
+      evidence_(config, offset),
+      record_(config) {}
+
+StepHandle MotionSearch::find(const MotionQuery& query) {
+  Candidates candidates;
+  std::vector<Verdict> verdicts;
+  Selection selection;
+  for (Effort effort = Effort::prediction;; effort = selection.needed) {
+    attempt_all(effort, query, candidates);
+    verdicts = verdicts_on(candidates, query);
+    selection = choose(verdicts, candidates, query);
+    if (query.is_near_prediction || selection.needed <= effort) break;
+  }
+  const bool is_checked = selection.refusal == Refusal::none && !query.is_near_prediction &&
+                          record_.is_check_due(verdicts.at(selection.chosen));
+  if (is_checked) {
+    const Ambiguity ambiguity = search_free_cells(query, *candidates[selection.chosen].outcome());
+    if (!selection.ambiguity.exists()) selection.ambiguity = ambiguity;
+  }
+  if (candidates.empty()) return fits_.new_step(query.base);  // only a motion near a prediction, and there is none
+  StepHandle found = std::move(candidates[selection.chosen].outcome());
+  found->verdict = verdicts[selection.chosen];
+  found->is_checked = is_checked;
+  found->ambiguity = selection.ambiguity;
+  found->refusal = decide(selection, query.accepts_ambiguous);
+  return found;
+}
+
+/// Tries the hypotheses of a level of effort that have not been tried. They come in an order in which each has what it
+/// builds on.
+void MotionSearch::attempt_all(Effort effort, const MotionQuery& query, Candidates& candidates) {
+  if (effort == Effort::prediction) return attempt(Hypothesis::near_prediction, query, candidates);
+  attempt(Hypothesis::still_camera, query, candidates);
+  if (config_.temporal.wide_edges == 0) {
+    attempt(Hypothesis::wide_radius, query, candidates);
+  } else if (effort == Effort::everything) {
+    attempt(Hypothesis::global_matches, query, candidates);
+    attempt(Hypothesis::rest_of_global_matches, query, candidates);
+  }
+  attempt(Hypothesis::rest_of_confirmed, query, candidates);
+}
+
+/// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would
+/// include the edges of both motions and end between them.
+bool MotionSearch::is_close_to_another(Hypothesis hypothesis) {
+  return hypothesis == Hypothesis::still_camera || hypothesis == Hypothesis::rest_of_confirmed;
+}
+
+void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates) {
+  const MotionStep* known = nullptr;  // the first confirmed motion with all of its inliers
+  for (const Candidate& candidate : candidates) {
+    if (candidate.hypothesis == hypothesis) return;
+    if (known == nullptr && candidate.is_confirmed() && !is_close_to_another(candidate.hypothesis))
+      known = candidate.confirmed.get();
+  }
+  Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
+  if (!candidate.proposed) return;
+  if (candidate.proposed->has_motion())
+    candidate.confirmed =
+        confirm(query, candidate.proposed->motion.current_from_previous, is_close_to_another(hypothesis), known);
+  candidates.push_back(std::move(candidate));
+}
+
+/// A motion since the query's base, or null if there is nothing to try.
+StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates) {
+  const auto first = [&](auto is_wanted) { return std::find_if(candidates.begin(), candidates.end(), is_wanted); };
+  switch (hypothesis) {
+    case Hypothesis::near_prediction: return proposals_.near_prediction(query);
+    case Hypothesis::wide_radius: return proposals_.in_wide_radius(query);
+    case Hypothesis::still_camera: return proposals_.still_camera(query);
+    case Hypothesis::global_matches: return proposals_.global_matches(query);
+    case Hypothesis::rest_of_global_matches:
+      return proposals_.rest_of_global_matches(
+          query, *first([](const Candidate& of) { return of.hypothesis == Hypothesis::global_matches; })->proposed);
+    case Hypothesis::rest_of_confirmed: {
+      const auto confirmed = first([](const Candidate& candidate) { return candidate.is_confirmed(); });
+      return confirmed == candidates.end() ? nullptr : proposals_.rest_of_confirmed(query, *confirmed->confirmed);
+    }
+  }
+  return nullptr;
+}
+
+/// The motion since the key rig or, if that is not confirmed, since the base; null if the proposal leads to `known`.
+/// \param closely whether inliers have to lie within a third of the usual distance
+StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
+                                 const MotionStep* known) {
+  PoseConfig limits = config_.pose;
+  limits.min_hypotheses = 0;  // the proposal has drawn them; more are drawn only as its inlier ratio requires
+  if (closely) limits.inlier_distance *= kCloseAgreement;
+  const Others others{known, nullptr, closely};
+  if (query.key) {
+    StepHandle step = confirm_with(query.key, query, limits, current_from_base * query.base_from_key, others);
+    if (step && step->ok() && !closely && step->explained.support < record_.confident_support())
+      use_support_of_base(query, limits, *step);
+    if (!step || step->ok()) return step;
+  }
+  return confirm_with(query.base, query, limits, current_from_base, others);
+}
+
+/// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
+/// same motion, their support is used.
+void MotionSearch::use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
+  const Eigen::Isometry3d current_from_base = motion_since(query.base, query, by_key);
+  const StepHandle by_base = confirm_with(query.base, query, limits, current_from_base, {});
+  if (by_base->ok() && evidence_.is_same_motion(*by_base, current_from_base))
+    by_key.explained.support = std::max(by_key.explained.support, by_base->explained.support);
+}
+
+/// Matches all edges of a rig within a few pixels of the positions that a motion predicts, and repeats this with the
+/// motion found until the predicted positions no longer change.
+StepHandle MotionSearch::confirm_with(const frontend::RigHandle& base, const MotionQuery& query,
+                                      const PoseConfig& limits, Eigen::Isometry3d current_from_base,
+                                      const Others& others) {
+  const auto predict = [&](const Eigen::Isometry3d& motion, int every, TemporalSearch& search) {
+    frontend::predict_positions(fits_.calibration(), base->edges, fits_.measured(*base), motion,
+                                config_.temporal.radius, every, search);
+  };
+  const auto predict_all = [&] {
+    predict(current_from_base, 1, search_);
+    if (others.explained != nullptr) hide_explained(*others.explained, search_);
+  };
+  const MotionStep* const known = others.known;
+  if (known != nullptr) predict(motion_since(base, query, *known), kSettledStep, known_search_);
+  const auto shift_from_known = [&] {
+    return frontend::mean_distance(known_search_.left, next_search_.left, kSettledStep);
+  };
+  StepHandle step = fits_.new_step(base);
+  if (known != nullptr && known->base == base) {
+    predict(current_from_base, kSettledStep, next_search_);
+    if (shift_from_known() < kNearKnown) {
+      step->matches = known->matches;
+      fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose, *step);
+      predict(step->motion.current_from_previous, kSettledStep, next_search_);
+      if (step->has_motion() && shift_from_known() < kSettled) return nullptr;
+    }
+  }
+  predict_all();
+  for (int round = 1;; ++round) {
+    frontend_.match(*base, search_, step->matches);
+    fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
+    evidence_.judge(search_.left, *step);
+    if (!step->ok()) return step;
+    current_from_base = step->motion.current_from_previous;
+    predict(current_from_base, kSettledStep, next_search_);
+    if (known != nullptr && shift_from_known() < kSettled) return nullptr;
+    if (round == config_.temporal.rounds || (others.must_compete && cannot_compete(*step, known)) ||
+        frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
+      return step;
+    predict_all();
+  }
+}
+
+std::vector<Verdict> MotionSearch::verdicts_on(const Candidates& candidates, const MotionQuery& query) const {
+  const auto global = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& candidate) {
+    return candidate.hypothesis == Hypothesis::global_matches;
+  });
+  std::vector<Verdict> verdicts;
+  for (const Candidate& candidate : candidates) {
+    const MotionStep& step = candidate.outcome();
+    Verdict verdict{step.explained};
+    if (candidate.confirmed) {
+      verdict.refusal = step.refusal;
+    } else if (!step.has_motion()) {  // else it led to the known motion
+      verdict.refusal = refusal_of(step.motion.status);
+    }
+    verdict.has_all_inliers = !is_close_to_another(candidate.hypothesis);
+    if (verdict.is_confirmed() && global != candidates.end())
+      evidence_.compare_globally(*global->proposed, motion_since(query.base, query, step), verdict);
+    verdicts.push_back(verdict);
+  }
+  return verdicts;
+}
+
+Selection MotionSearch::choose(const std::vector<Verdict>& verdicts, const Candidates& candidates,
+                               const MotionQuery& query) const {
+  Expectation expectation;
+  expectation.was_ambiguous = record_.was_ambiguous();
+  expectation.confident_support = query.is_near_prediction ? kChanceSupport : record_.confident_support();
+  if (!candidates.empty() && candidates.front().hypothesis == Hypothesis::near_prediction) expectation.predicted = 0;
+  Comparison comparison;
+  comparison.is_same = [&](std::size_t one, std::size_t other) {
+    const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();
+    return evidence_.is_same_motion(found, motion_since(found.base, query, its));
+  };
+  comparison.area_beside = [&](std::size_t one, std::size_t other) {
+    const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();
+    return evidence_.area_beside(found, its, motion_since(found.base, query, its));
+  };
+  return select(verdicts, expectation, comparison);
+}
+
+/// An object that fills much of the image may hold most of the edges, so that its motion is chosen with confidence. The
+/// scene beside it moves too far to be found near that motion, and is searched for where that explains nothing.
+Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const MotionStep& chosen) {
+  const StepHandle proposed = proposals_.in_free_cells(query, chosen);
+  if (!proposed->has_motion()) return {};
+  PoseConfig limits = limits_of_proposals(config_);
+  limits.min_hypotheses = 0;
+  const StepHandle other =
+      confirm_with(query.base, query, limits, proposed->motion.current_from_previous, {nullptr, &chosen.cells, false});
+  if (!other->ok()) return {};
+  const ExplainedCells cells =
+      evidence_.explained_beside(*other, motion_since(query.base, query, chosen), config_.pose.inlier_distance);
+  const int searched = chosen.cells.count(false), following = cells.count(true);
+  const double count = following;
+  OtherPart part;
+  part.area = count / std::max(1, searched + chosen.cells.count(true));
+  part.ratio = count / std::max(1, searched);
+  part.spread = cells.spread(true) / std::max(1e-9, chosen.cells.spread(false));
+  return ambiguity_of(part, record_.was_ambiguous());
+}
+
+}  // namespace quadedge::odometry

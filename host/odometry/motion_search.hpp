@@ -1,0 +1,82 @@
+#pragma once
+/// \file motion_search.hpp  Finds the motion of the current stereo edges since an earlier rig.
+
+#include <vector>
+
+#include "frontend/frontend.hpp"
+#include "odometry/disparity_offset.hpp"
+#include "odometry/motion_evidence.hpp"
+#include "odometry/motion_proposals.hpp"
+#include "odometry/motion_selection.hpp"
+#include "odometry/motion_step.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::odometry {
+
+/// Tries hypotheses about the motion with growing effort. Each proposal, made from a subset of the edges, is confirmed
+/// with all edges; select() chooses among the verdicts and says whether more has to be tried.
+class MotionSearch {
+ public:
+  /// Refers to the front end and the offset, which must outlive the object.
+  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
+
+  /// Returns the motion of the query's current rig, accepted or refused with the reason. The search must outlive the
+  /// handle. The same query gives the same result until remember() is called.
+  StepHandle find(const MotionQuery& query);
+
+  /// Takes note of the motion that was chosen for a frame: what is expected of the next frame depends on it.
+  void remember(const MotionStep& found) { record_.remember(found); }
+
+  /// Time spent on motions since the last call, without the searches for matches [ms].
+  double take_pose_ms() { return fits_.take_pose_ms(); }
+
+ private:
+  enum class Hypothesis {
+    near_prediction,
+    still_camera,
+    global_matches,
+    rest_of_global_matches,
+    wide_radius,
+    rest_of_confirmed
+  };
+  /// A motion that was proposed, and the result of the confirmation.
+  struct Candidate {
+    Hypothesis hypothesis;
+    StepHandle proposed;
+    StepHandle confirmed;  ///< null if the proposal has no motion, or if it led to the known motion
+
+    bool is_confirmed() const { return confirmed && confirmed->ok(); }
+    StepHandle& outcome() { return confirmed ? confirmed : proposed; }
+    const MotionStep& outcome() const { return confirmed ? *confirmed : *proposed; }
+  };
+  using Candidates = std::vector<Candidate>;
+  /// What is known of other motions while one is confirmed.
+  struct Others {
+    const MotionStep* known = nullptr;          ///< a motion that has been confirmed
+    const ExplainedCells* explained = nullptr;  ///< if not null, only edges where it explains nothing are matched
+    bool must_compete = false;                  ///< whether a motion that explains much less than `known` is given up
+  };
+
+  static bool is_close_to_another(Hypothesis hypothesis);
+  void attempt_all(Effort effort, const MotionQuery& query, Candidates& candidates);
+  void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
+  StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
+  StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
+                     const MotionStep* known);
+  void use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
+  StepHandle confirm_with(const frontend::RigHandle& base, const MotionQuery& query, const PoseConfig& limits,
+                          Eigen::Isometry3d current_from_base, const Others& others);
+  std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;
+  Selection choose(const std::vector<Verdict>& verdicts, const Candidates& candidates, const MotionQuery& query) const;
+  Ambiguity search_free_cells(const MotionQuery& query, const MotionStep& chosen);
+
+  Config config_;
+  frontend::Frontend& frontend_;
+  MotionFits fits_;
+  MotionProposals proposals_;
+  MotionEvidence evidence_;
+  TrackRecord record_;
+  TemporalSearch search_, next_search_, known_search_;  ///< kept between calls
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,170 @@
+#include "odometry/motion_selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "odometry/motion_step.hpp"
+#include "odometry/odometry_constants.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+/// The motion that explains the largest area. Of equal ones, such as two failures, one that does not rely on the
+/// prediction takes precedence, then the first.
+std::size_t largest(const std::vector<Verdict>& verdicts, const std::optional<std::size_t>& predicted) {
+  const auto beats = [&](std::size_t one, std::size_t other) {
+    const Verdict &its = verdicts[one], &others = verdicts[other];
+    if (its.is_confirmed() != others.is_confirmed()) return its.is_confirmed();
+    if (its.is_confirmed() && its.area != others.area) return its.area > others.area;
+    return predicted == other;
+  };
+  std::size_t best = 0;
+  for (std::size_t one = 1; one < verdicts.size(); ++one)
+    if (beats(one, best)) best = one;
+  return best;
+}
+
+/// The same motion with all of its inliers, if another hypothesis led to it.
+std::size_t with_all_inliers(std::size_t chosen, const std::vector<Verdict>& verdicts, const Comparison& comparison) {
+  if (!verdicts[chosen].is_confirmed() || verdicts[chosen].has_all_inliers) return chosen;
+  for (std::size_t other = 0; other < verdicts.size(); ++other)
+    if (verdicts[other].is_confirmed() && verdicts[other].has_all_inliers && comparison.is_same(chosen, other))
+      return other;
+  return chosen;
+}
+
+/// The largest area that a different motion explains and the chosen one does not, in units of the chosen motion's; 0 if
+/// none competes.
+double competing_area(std::size_t chosen, const std::vector<Verdict>& verdicts, const Comparison& comparison) {
+  const double unit = verdicts[chosen].area;
+  double largest = 0;
+  for (std::size_t other = 0; other < verdicts.size(); ++other) {
+    if (other == chosen || !verdicts[other].is_confirmed()) continue;
+    const auto competes = [&](double area) { return area >= kCompetingAreaRatio * unit && area >= largest * unit; };
+    if (!competes(verdicts[other].area) || comparison.is_same(chosen, other)) continue;
+    const double area = comparison.area_beside(other, chosen);
+    if (competes(area)) largest = unit > 0 ? area / unit : 1;
+  }
+  return largest;
+}
+
+Ambiguity ambiguity_of(std::size_t chosen, const std::vector<Verdict>& verdicts, const Comparison& comparison) {
+  const Verdict& verdict = verdicts[chosen];
+  if (verdict.moving_ratio > kMinorityMotionRatio && verdict.global_ratio < kConfirmedGlobalRatio)
+    return {AmbiguityKind::moving_image, verdict.moving_ratio};
+  if (verdict.static_ratio > kStaticQuadRatio) return {AmbiguityKind::static_scene, verdict.static_ratio};
+  const double area = competing_area(chosen, verdicts, comparison);
+  return area > 0 ? Ambiguity{AmbiguityKind::competing_motion, area} : Ambiguity{};
+}
+
+/// A confident prediction that explains the image ends the search. If a part of the image moves differently, the
+/// inexpensive hypotheses are tried as well; if most of it does, if the last motion was ambiguous, or if one of them
+/// explains more, everything.
+Effort effort_for(const Verdict& chosen, bool is_expected, bool was_ambiguous) {
+  if (was_ambiguous || !is_expected || chosen.moving_ratio > kMinorityMotionRatio) return Effort::everything;
+  const bool is_open = chosen.moving_ratio > kSecondaryMotionRatio || chosen.static_ratio > kStaticQuadRatio;
+  return is_open ? Effort::inexpensive : Effort::prediction;
+}
+
+/// A ratio as a percentage.
+std::string percent(double ratio) { return std::to_string(std::lround(100 * ratio)) + " %"; }
+
+}  // namespace
+
+Refusal refusal_of(pose::MotionStatus status) {
+  switch (status) {
+    case pose::MotionStatus::ok: return Refusal::none;
+    case pose::MotionStatus::too_few_quads: return Refusal::too_few_quads;
+    case pose::MotionStatus::no_consensus: return Refusal::no_consensus;
+    case pose::MotionStatus::badly_spread: return Refusal::badly_spread;
+  }
+  return Refusal::no_consensus;
+}
+
+std::string to_string(const Ambiguity& ambiguity) {
+  switch (ambiguity.kind) {
+    case AmbiguityKind::none: return "";
+    case AmbiguityKind::moving_image: return percent(ambiguity.ratio) + " of the image move differently";
+    case AmbiguityKind::static_scene:
+      return percent(ambiguity.ratio) + " of the edges are where they were, although the motion would have moved them";
+    case AmbiguityKind::competing_motion:
+      return "another motion explains " + percent(ambiguity.ratio) + " of the area that this one explains";
+    case AmbiguityKind::other_part:
+      return percent(ambiguity.ratio) + " of the image follow another motion and not this one";
+  }
+  return "";
+}
+
+std::string to_string(Refusal refusal, const Ambiguity& ambiguity) {
+  switch (refusal) {
+    case Refusal::none: return "";
+    case Refusal::too_few_quads: return "too few quads";
+    case Refusal::no_consensus: return "no consensus";
+    case Refusal::badly_spread: return "badly spread";
+    case Refusal::little_support: return "too few of the edges in view follow the motion";
+    case Refusal::contradicted: return "matches over the whole image do not follow the motion";
+    case Refusal::ambiguous: return "ambiguous motion after a loss: " + to_string(ambiguity);
+  }
+  return "";
+}
+
+Selection select(const std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison) {
+  Selection selection;
+  if (verdicts.empty()) return selection;
+  selection.chosen = with_all_inliers(largest(verdicts, expectation.predicted), verdicts, comparison);
+  const Verdict& chosen = verdicts[selection.chosen];
+  const bool is_expected = chosen.is_confirmed() && selection.chosen == expectation.predicted &&
+                           chosen.support >= expectation.confident_support;
+  selection.needed = effort_for(chosen, is_expected, expectation.was_ambiguous);
+  selection.refusal = chosen.refusal;
+  if (!chosen.is_confirmed()) return selection;
+  if (!is_expected && !chosen.agrees_globally) selection.refusal = Refusal::contradicted;
+  selection.ambiguity = ambiguity_of(selection.chosen, verdicts, comparison);
+  return selection;
+}
+
+Refusal decide(const Selection& selection, bool accepts_ambiguous) {
+  const bool is_refused = selection.refusal == Refusal::none && selection.ambiguity.exists() && !accepts_ambiguous;
+  return is_refused ? Refusal::ambiguous : selection.refusal;
+}
+
+Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous) {
+  const double factor = was_ambiguous ? kRepeatedOtherPart : 1;
+  const auto exceeds = [&](double area, double ratio) {
+    return part.area > factor * area && part.ratio > factor * ratio;
+  };
+  const bool is_large = exceeds(kOtherPartArea, kOtherPartRatio);
+  const bool surrounds =
+      exceeds(kSurroundingArea, kSurroundingRatio) && (was_ambiguous || part.spread > kSurroundingSpread);
+  return is_large || surrounds ? Ambiguity{AmbiguityKind::other_part, part.area} : Ambiguity{};
+}
+
+TrackRecord::TrackRecord(const Config& config) : limits_(config.temporal), rechecks_(kRechecks) {}
+
+void TrackRecord::remember(const MotionStep& found) {
+  recent_support_ = found.ok() ? std::max(found.verdict.support, kSupportDecay * recent_support_) : 0;
+  was_ambiguous_ = found.ambiguity.exists();
+  --frames_to_check_;
+  if (!found.ok()) {
+    frames_to_check_ = 0;
+    rechecks_ = kRechecks;
+  }
+  if (!found.is_checked) return;
+  rechecks_ = was_ambiguous_ ? kRechecks : std::max(0, rechecks_ - 1);
+  frames_to_check_ = rechecks_ > 0 ? 0 : kCheckInterval - 1;
+  checked_moving_ratio_ = found.verdict.moving_ratio;
+}
+
+double TrackRecord::confident_support() const {
+  if (limits_.wide_edges == 0) return 0;
+  if (rechecks_ > 0) return kConfidentSupport;
+  return std::min(kConfidentSupport, std::max(kChanceSupport, kRecentSupportRatio * recent_support_));
+}
+
+bool TrackRecord::is_check_due(const Explained& explained) const {
+  if (limits_.wide_edges == 0) return false;
+  const double noticeable = std::max(kCheckedMovingRatio, checked_moving_ratio_ + kMovingRatioStep);
+  return frames_to_check_ <= 0 || explained.moving_ratio > noticeable;
+}
+
+}  // namespace quadedge::odometry

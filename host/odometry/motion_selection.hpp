@@ -1,0 +1,147 @@
+#pragma once
+/// \file motion_selection.hpp  Chooses the camera's motion among those that were confirmed, accepts or refuses it, and
+/// says how much has to be tried (doc/method.md section 7).
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pose/motion.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::odometry {
+
+struct MotionStep;
+
+/// Why a motion is refused.
+enum class Refusal {
+  none,
+  too_few_quads,   ///< fewer than an estimate needs
+  no_consensus,    ///< no motion that enough quads follow
+  badly_spread,    ///< the quads that follow it cover too small a part of the image to determine it
+  little_support,  ///< too few of the edges in view follow it
+  contradicted,    ///< the global matches do not follow it
+  ambiguous        ///< another motion may be the camera's, and nothing was known of the motion
+};
+
+/// What a confirmed motion explains of the images.
+struct Explained {
+  double support = 0;       ///< inliers divided by the base's edges that the motion brings into view
+  double area = 0;          ///< mean over the image cells of the fraction of edges that agree closely
+  double moving_ratio = 0;  ///< fraction of the edges in view in cells that hardly follow the motion
+  double static_ratio = 0;  ///< fraction of the quads that are static although the motion would have moved them
+};
+
+/// What is known of a motion that was tried.
+struct Verdict : Explained {
+  Refusal refusal = Refusal::no_consensus;  ///< none: the motion was confirmed; else the rest has no meaning
+  bool has_all_inliers = true;  ///< false: confirmed with close agreement, which uses fewer quads than there are
+  bool agrees_globally = true;  ///< with the global matches, if there are any
+  double global_ratio = 0;      ///< fraction of the global matches that agree; 0 if there are none
+
+  bool is_confirmed() const { return refusal == Refusal::none; }
+};
+
+/// How much is tried to find a motion. Each level includes those before.
+enum class Effort {
+  prediction,   ///< the search near the prediction only
+  inexpensive,  ///< hypotheses that cost little beside the rest of a frame
+  everything    ///< global matches, which take as long as the rest of a frame
+};
+
+/// What is known about the prediction.
+struct Expectation {
+  std::optional<std::size_t> predicted;  ///< index of the verdict on it; nothing without a prediction
+  bool was_ambiguous = false;            ///< whether the last motion, which it repeats, was ambiguous
+  double confident_support = 0;          ///< support from which it is accepted without further tests
+};
+
+/// Why a motion may not be the camera's.
+enum class AmbiguityKind {
+  none,
+  moving_image,      ///< most of the image moves differently
+  static_scene,      ///< a part of the image is static that the motion would have moved
+  competing_motion,  ///< another motion explains nearly as much
+  other_part         ///< another motion explains parts of the image of which the motion explains nothing
+};
+
+/// An ambiguity and the ratio that shows it: the verdict's, the area that only the competing motion explains in units
+/// of the chosen one's, or the fraction of the image that moves otherwise.
+struct Ambiguity {
+  AmbiguityKind kind = AmbiguityKind::none;
+  double ratio = 0;
+
+  bool exists() const { return kind != AmbiguityKind::none; }
+};
+
+/// Why an estimate gave no motion; none if it gave one.
+Refusal refusal_of(pose::MotionStatus status);
+
+/// In words, for a frame's message.
+std::string to_string(const Ambiguity& ambiguity);
+/// Why a motion was refused, in words; `ambiguity` is the reason for Refusal::ambiguous.
+std::string to_string(Refusal refusal, const Ambiguity& ambiguity);
+
+/// The choice among the verdicts.
+struct Selection {
+  std::size_t chosen = 0;                   ///< index of its verdict
+  Refusal refusal = Refusal::no_consensus;  ///< none: it is the camera's motion as far as the images tell
+  Ambiguity ambiguity;
+  Effort needed = Effort::everything;  ///< if less was tried, the choice is preliminary
+};
+
+/// Comparisons of two motions by the indices of their verdicts.
+struct Comparison {
+  /// Whether most inliers of the first motion agree with the second one.
+  std::function<bool(std::size_t, std::size_t)> is_same;
+  /// Explained area of the first motion in cells that do not follow the second one, without edges that the latter
+  /// explains closely as well.
+  std::function<double(std::size_t, std::size_t)> area_beside;
+};
+
+/// Takes the motion that explains the largest area of the image. `verdicts` are in the order in which the motions were
+/// tried.
+Selection select(const std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison);
+
+/// The final answer: the selection's own refusal, or ambiguous if an ambiguous motion is not accepted.
+Refusal decide(const Selection& selection, bool accepts_ambiguous);
+
+/// A motion found in the image cells that do not follow the chosen motion.
+struct OtherPart {
+  double area = 0;    ///< fraction of all cells that follow it
+  double ratio = 0;   ///< fraction of the cells searched that follow it
+  double spread = 0;  ///< of these cells over the image, in units of that of all cells
+};
+
+/// Whether it may be the camera's. \param was_ambiguous whether the last motion was \returns nothing or other_part
+Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous);
+
+/// What the motions of earlier frames say about the next prediction: the support that recent ones had, and whether the
+/// last one was ambiguous.
+class TrackRecord {
+ public:
+  explicit TrackRecord(const Config& config);
+
+  /// Records the motion that was chosen; a failure resets the support.
+  void remember(const MotionStep& found);
+
+  /// Support from which a motion near the prediction is accepted without further tests: temporal.confident_support, or
+  /// less if recent motions had low support and no other motion was found; 0 if there is no global search to ask.
+  double confident_support() const;
+  /// Whether the parts of the image that do not follow a motion have to be searched for another one.
+  bool is_check_due(const Explained& explained) const;
+  /// Whether the last motion, which the prediction repeats, was ambiguous.
+  bool was_ambiguous() const { return was_ambiguous_; }
+
+ private:
+  TemporalConfig limits_;
+  double recent_support_ = 0;  ///< since the last failure
+  bool was_ambiguous_ = false;
+  int frames_to_check_ = 0;
+  int rechecks_;  ///< searches in the next frames; 0: the last ones found no other motion
+  double checked_moving_ratio_ = 0;
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,103 @@
+#pragma once
+/// \file motion_step.hpp  The motion from an earlier rig to the current one: the query, and what is found.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/pool.hpp"
+#include "frontend/rig.hpp"
+#include "odometry/motion_selection.hpp"
+#include "pose/motion.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/edges.hpp"
+
+namespace quadedge::odometry {
+
+/// What is known about the current frame before its edges are matched with earlier ones.
+struct MotionQuery {
+  frontend::RigHandle current;
+  frontend::RigHandle base;  ///< the rig that the motion starts from
+  frontend::RigHandle key;   ///< the key rig, preferred while in view; null if the base is the key rig
+  Eigen::Isometry3d base_from_key = Eigen::Isometry3d::Identity();  ///< valid if `key` is not null
+  std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
+  std::uint64_t seed = 0;
+  /// Only a motion near the prediction, with more support than chance gives; no global matches.
+  bool is_near_prediction = false;
+  bool accepts_ambiguous = true;  ///< whether an ambiguous motion is an answer
+};
+
+/// The edges of a base that a motion brings into one cell of the image: how many there are, how many of them were found
+/// again, and how many of those the motion explains.
+struct ExplainedCell {
+  double edges = 0, found = 0, explained = 0;
+
+  /// Whether enough of the edges found again follow the motion.
+  bool follows() const;
+  /// Whether another motion may be found here: the cell does not follow, or the motion brings no edges into it.
+  bool is_free() const { return !(edges > 0) || !follows(); }
+};
+
+/// The current left image in square cells of pose.scoring_cell px.
+class ExplainedCells {
+ public:
+  /// Empties the cells and keeps the memory. \param side [px]; 0: a single cell
+  void start(const PinholeCamera& camera, double side);
+  void clear() { cells_.clear(); }
+
+  /// The cell of a position [px]; null outside the image or for NaN.
+  ExplainedCell* at(float x, float y);
+  const ExplainedCell* at(float x, float y) const { return const_cast<ExplainedCells*>(this)->at(x, y); }
+  /// Row-major.
+  const std::vector<ExplainedCell>& all() const { return cells_; }
+  std::vector<ExplainedCell>& all() { return cells_; }
+
+  /// Mean over the cells with edges of the fraction of edges that the motion explains; 0 without edges.
+  double explained_area() const;
+  /// Standard deviation of the positions of the cells that hold edges, or only of those that follow [cells].
+  double spread(bool only_following) const;
+  /// Number of cells that hold edges and follow, or do not.
+  int count(bool following) const;
+  /// Fraction of the edges that lie in cells that do not follow the motion; 0 without edges.
+  double moving_ratio() const;
+
+ private:
+  double side_ = 1;
+  int columns_ = 1, rows_ = 0;
+  std::vector<ExplainedCell> cells_;
+};
+
+/// Quads between an earlier rig and the current one, and the motion that they support.
+struct MotionStep {
+  frontend::RigHandle base;  ///< the earlier rig
+  TemporalMatches matches;
+  pose::QuadObservations quads;
+  pose::MotionEstimate motion;
+  // Of a motion that was confirmed with all edges:
+  std::vector<std::uint8_t> agrees;  ///< one per quad: whether it agrees closely
+  ExplainedCells cells;
+  Explained explained;
+  // Of a motion that MotionSearch::find() returns:
+  Verdict verdict;
+  Refusal refusal = Refusal::too_few_quads;
+  Ambiguity ambiguity;
+  bool is_checked = false;  ///< whether the rest of the image was searched for another motion
+
+  /// Whether the motion is accepted.
+  bool ok() const { return refusal == Refusal::none; }
+  /// Whether the matches gave a motion, to be confirmed.
+  bool has_motion() const { return motion.status == pose::MotionStatus::ok; }
+  /// Mean inverse depth of the inliers in the earlier left camera [1/m]; 0 without inliers.
+  double mean_inverse_depth() const;
+  /// Releases the rig and keeps the memory.
+  void clear();
+};
+
+/// A step's motion since `rig`, which, like the step's own rig, is the query's base or key.
+Eigen::Isometry3d motion_since(const frontend::RigHandle& rig, const MotionQuery& query, const MotionStep& step);
+
+/// A step from a pool.
+using StepHandle = Pool<MotionStep>::Handle;
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,97 @@
+#pragma once
+/// \file odometry_constants.hpp  Constants that decide about motions (doc/method.md section 7) and that no recording
+/// has needed to adjust. The others are in quadedge/constants.inc.
+
+namespace quadedge::odometry {
+
+/// Coarse search without a global one: radius [image width] without a prediction or after it failed.
+constexpr double kCoarseWideRadiusRatio = 0.1;
+
+/// Inlier distance of global matches [px], since a match may be a neighbour of the correct edge.
+constexpr double kWideInlierDistance = 4.0;
+
+/// A motion with less support must agree with the global matches.
+constexpr double kConfidentSupport = 0.35;
+
+/// Growth per frame of the standard deviation of the disparity offset [px]: the rig bends with temperature, slowly.
+constexpr double kDisparityOffsetDrift = 0.003;
+
+/// Fraction of the inlier distance that counts as close agreement. In fine texture, edges agree with a wrong position
+/// by chance, less often at a smaller distance. Of two motions that differ by a pixel or two, only one agrees closely.
+constexpr double kCloseAgreement = 1.0 / 3.0;
+
+/// In an image cell that shows another motion, less than this fraction of the edges found again is explained by the
+/// motion. A cell counts as having found at least kMinFoundRatio of its edges in view.
+constexpr double kMinExplainedRatio = 0.25, kMinFoundRatio = 0.1;
+
+/// Edges of a cell that must follow a second motion and not the first, since a single one may do so by chance.
+constexpr double kMinCellEdges = 2;
+
+/// Fraction of the edges in view that lie in such cells, above which another motion is searched for: a motion that is
+/// not the camera's fails to explain more of the image than it explains.
+constexpr double kSecondaryMotionRatio = 0.25;
+
+/// A motion with more than this fraction of the edges in view in such cells is a compromise between motions or
+/// accidental.
+constexpr double kMinorityMotionRatio = 0.5;
+
+/// A motion that this fraction of the global matches agree with is not that of a minority: between distant views, most
+/// edges are not found again.
+constexpr double kConfirmedGlobalRatio = 1.0 / 3.0;
+
+/// A part of the image that moves otherwise counts above these fractions of all image cells and of those that the
+/// chosen motion does not explain.
+constexpr double kOtherPartArea = 0.08, kOtherPartRatio = 0.12;
+/// The same for parts on all sides, which are less likely those of an object: their standard deviation over the image
+/// reaches this fraction of that of all cells.
+constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurroundingSpread = 0.6;
+/// The limits of areas and ratios are this fraction of those if the last motion was ambiguous: another motion that
+/// is found in one frame is seldom gone in the next.
+constexpr double kRepeatedOtherPart = 0.25;
+
+/// Lists of edges in cells that the chosen motion does not explain are thinned once they reach temporal.wide_edges (of
+/// the current rig: twice that), but to no fewer than it divided by this.
+constexpr int kFreeCellThinning = 2;
+
+/// The rest of the image is searched for another motion after this number of frames, or earlier if the moving ratio has
+/// risen to kCheckedMovingRatio and by kMovingRatioStep; at the start, after a loss and after one was found, in each of
+/// the next kRechecks frames.
+constexpr int kCheckInterval = 10, kRechecks = 3;
+constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1;
+
+/// Two motions whose explained areas have a ratio above this are ambiguous.
+constexpr double kCompetingAreaRatio = 0.4;
+
+/// A motion that after the first round explains less than this fraction of the area that another one explains gets no
+/// further rounds: these have added at most a quarter, which leaves it below kCompetingAreaRatio.
+constexpr double kHopelessAreaRatio = 0.75 * kCompetingAreaRatio;
+
+/// Fraction of the quads that are static although the motion would have moved them, above which the camera may be
+/// stationary.
+constexpr double kStaticQuadRatio = 0.05;
+
+/// Two motions that share more than this fraction of the inliers are the same motion.
+constexpr double kSharedInlierRatio = 0.7;
+
+/// Support that a wrong motion may reach by chance in fine texture.
+constexpr double kChanceSupport = 0.2;
+
+/// A motion is confident if it reaches this fraction of the support that recent motions had.
+constexpr double kRecentSupportRatio = 0.5;
+
+/// Decay of the recent support per frame.
+constexpr double kSupportDecay = 0.95;
+
+/// Minimum inlier ratio of a proposed motion; low, because the confirmation follows.
+constexpr double kProposalMinInlierRatio = 0.03;
+
+/// The confirmation ends when the predicted positions change by less than this on average [px], far below
+/// temporal.radius. The mean is computed over every 16th edge, which suffices for an average.
+constexpr double kSettled = 0.3;
+constexpr int kSettledStep = 16;
+
+/// A proposal whose predicted positions are this close on average to those of a confirmed motion [px] is fitted to the
+/// quads of that motion first, which lie within temporal.radius of both.
+constexpr double kNearKnown = 1;
+
+}  // namespace quadedge::odometry

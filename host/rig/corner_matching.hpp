@@ -1,0 +1,90 @@
+#pragma once
+/// \file corner_matching.hpp  Searches for corners of the left image in the right one, along and across the epipolar
+/// lines. The cascade of doc/method.md section 3 only considers positions within half a pixel of the line and therefore
+/// cannot measure larger deviations.
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "common/epipolar_geometry.hpp"
+#include "common/undistortion.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/edges.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::rig {
+
+/// A corner of the left image, found in the right one.
+struct CornerMatch {
+  Eigen::Vector2d left = Eigen::Vector2d::Zero();  ///< [px]
+  double along = 0;   ///< position along the epipolar line, measured from the point at infinity [px]: the disparity
+  double across = 0;  ///< distance from the line [px]
+  double sigma = 0;   ///< standard deviation of `across`, from the contrast of the patch [px]
+  bool is_aligned = true;  ///< whether it was aligned with sub-pixel accuracy, not only found at the coarse resolution
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of increasing `across`
+  double inverse_depth = 0;                           ///< in the left camera, by `along` [1/m]
+  int edge = -1;                                      ///< index of the stereo edge, if it is one
+};
+
+/// Transformations of the right image relative to the calibration that a search can assume.
+enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
+
+/// Result of a search.
+struct CornerSearch {
+  int searched = 0;                ///< corners searched for
+  std::vector<CornerMatch> found;  ///< found in the right image and, from there, again in the left one
+  int negative = 0;                ///< matches whose right patch is the negative of the left one
+  double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
+};
+
+/// For any rig and for recorded images with or without distortion. Runs on the host, on a small number of corners.
+class CornerMatcher {
+ public:
+  explicit CornerMatcher(const StereoRig& rig);
+
+  /// Aligns patches of about 240 stereo edges in both image directions, starting from the cascade's match. Detects
+  /// deviations of a few pixels. Allocates nothing in steady state.
+  void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& matches) const;
+
+  /// Searches for corners of the left image in the right one by normalised correlation, over a quarter of the image
+  /// width to both sides along the line and a tenth of the image height across it. Uses images reduced to a width of
+  /// about 320 px and takes some ten milliseconds.
+  /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
+  CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none) const;
+
+ private:
+  /// An epipolar line in the right image.
+  struct Line {
+    Eigen::Vector2d infinity, direction, normal;
+    double scale = 1;  ///< z of `infinity` in homogeneous coordinates
+
+    /// Inverse depth [1/m] of a point at `along` [px] from `infinity`. \param t K_R T0
+    double inverse_depth(double along, const Eigen::Vector3d& t) const {
+      return along * scale / (direction.dot(t.head<2>()) - (direction.dot(infinity) + along) * t.z());
+    }
+  };
+  std::optional<Line> line(const Eigen::Vector2d& left) const;
+  std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;
+  struct CoarseViews;
+  CoarseViews coarse_views(const PinholeView& left, const PinholeView& right, ImageTurn turn) const;
+  std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& corner_at,
+                                    Eigen::Vector2d at) const;
+
+  StereoRig rig_;
+  Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: maps left pixels to the right pixels of points at infinity
+  Eigen::Vector3d t_;  ///< K_R T0
+};
+
+/// Linear model of the distances from the epipolar lines over the image.
+struct EpipolarFit : RectificationError {
+  double residual = 0;  ///< median distance from the lines, before the fit [px]
+  double scatter = 0;   ///< median distance from the fit [px]
+  int samples = 0;
+  bool is_coarse = false;  ///< whether the corners were found at the coarse resolution only
+};
+
+/// Robust fit (iteratively reweighted least squares with Cauchy weights); all zero for fewer than 12 corners.
+EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height);
+
+}  // namespace quadedge::rig

@@ -1,0 +1,95 @@
+#pragma once
+/// \file rig_constants.hpp  Constants that decide whether images fit the calibration (doc/method.md section 7,
+/// which lists what valid recordings have). No recording has needed to adjust them.
+
+#include <cstddef>
+
+namespace quadedge::rig {
+
+// Corners (patch_search.cpp).
+
+/// Correlation of two patches from which they count as a match.
+constexpr double kMinCorrelation = 0.8;
+/// Patches with a lower standard deviation count as flat [grey levels].
+constexpr double kFlat = 1.5;
+/// Size of the cells that yield one corner each [px].
+constexpr int kCell = 20;
+/// Minimum of the smaller eigenvalue of the structure tensor, per pixel [(grey levels per px)^2].
+constexpr double kMinCorner = 4;
+
+// Their refined matches (corner_matching.cpp).
+
+constexpr int kAlignedSpots = 240;
+constexpr double kMinAlignedCorrelation = 0.8;
+/// A refinement takes at most this many steps, ends when a step is shorter than kSettledShift, and is dropped when it
+/// leaves kMaxShift around its start [px].
+constexpr int kAlignmentSteps = 10;
+constexpr double kSettledShift = 0.01, kMaxShift = 4;
+/// Determinant over squared trace of the structure tensor; 0.25 for an isotropic corner.
+constexpr double kMinRoundness = 0.03;
+/// Matches with a larger error across the line do not constrain the distance from it [px].
+constexpr double kMaxSigma = 0.1;
+/// Extent of the search, as fractions of the left image's width and height.
+constexpr double kSearchAlong = 0.25, kSearchAcross = 0.1;
+/// Width of the image that the search reads [px].
+constexpr double kCoarseWidth = 320;
+
+// The fit of their distances from the lines (corner_matching.cpp).
+
+constexpr std::size_t kMinFitCorners = 12;
+constexpr int kFitRounds = 8;
+constexpr double kMinScale = 0.02;  ///< px
+
+// When the corners are searched for again (rig_monitor.cpp).
+
+constexpr int kSearchPeriod = 50;  ///< frames
+/// Decrease of the ratio of matched edges, and increase of the residual [px], since the last search.
+constexpr double kMatchedDecrease = 0.7, kResidualIncrease = 0.2;
+/// Fraction of the corners found in a transformed right image, from which that transformation is reported.
+constexpr double kTransformedFoundRatio = 0.4;
+
+// Findings (rig_monitor.cpp).
+
+constexpr int kMinCorners = 20, kMinMatches = 12;
+/// Fraction of the corners that are found.
+constexpr double kLostFoundRatio = 0.2;
+/// Fraction of the left edges that have a match.
+constexpr double kLostMatchedRatio = 0.1;
+constexpr double kMajority = 0.5;
+/// Fraction of the corners found that have a negative disparity or exceed the range.
+constexpr double kWarningRatio = 0.1;
+/// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
+/// [px]
+constexpr double kLostResidual = 3;
+/// Distance from the line that the cascade searches. [px]
+constexpr double kDoubtfulResidual = 0.5;
+/// If more of the edges than this have a match on their epipolar lines, the corners off their lines are mostly on thin
+/// structures.
+constexpr double kReliableMatchedRatio = 0.65;
+/// Learned disparity offset. [px]
+constexpr double kMaxOffset = 1.5;
+
+// Parts of the image that do not move (static_region.cpp).
+
+constexpr int kStaticCell = 32;  ///< size of the cells that are compared [px]
+/// Frames from the first to the last comparison, and between two of them.
+constexpr int kStaticWindow = 20, kStaticPeriod = 4;
+/// Cells with a lower standard deviation of the reduced grey levels count as flat [grey levels].
+constexpr double kStaticTexture = 4;
+/// Correlation with the start of the window, from which a cell is static and below which it has changed.
+constexpr double kStaticCorrelation = 0.9, kChangedCorrelation = 0.5;
+/// Static part of the textured cells, and the part that has to change.
+constexpr double kMinStaticRatio = 0.05, kMinMovingRatio = 0.3;
+constexpr int kMinStaticMatches = 20;
+
+// The time between the two images (rig_monitor.cpp).
+
+constexpr int kMinSamples = 200;
+/// Standard deviations of the time; many, because the errors of neighbours are correlated.
+constexpr double kMinTimeSigmas = 10;
+constexpr double kMinTimeOffset = 0.3;  ///< frame intervals
+/// A camera that is later than this shows another motion, to which distances are not proportional [frame intervals].
+/// Larger values come from other errors of the rig in images that hardly move.
+constexpr double kMaxTimeOffset = 3;
+
+}  // namespace quadedge::rig

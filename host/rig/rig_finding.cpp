@@ -1,0 +1,148 @@
+#include "rig/rig_finding.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace quadedge::rig {
+namespace {
+
+std::string number(double value, int decimals) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string percent(double ratio) { return number(100 * ratio, 0) + " %"; }
+
+std::string name(Side side) { return side == Side::left ? "left" : "right"; }
+
+std::string name(ImageTurn turn) {
+  switch (turn) {
+    case ImageTurn::none: return "unchanged";
+    case ImageTurn::mirrored: return "mirrored";
+    case ImageTurn::half: return "rotated by 180 degrees";
+    case ImageTurn::quarter: return "rotated by 90 degrees";
+    case ImageTurn::three_quarters: return "rotated by -90 degrees";
+  }
+  return {};
+}
+
+std::string matched(const RigEvidence& evidence) {
+  if (!(evidence.matched_ratio >= 0)) return {};
+  return percent(evidence.matched_ratio) + " of the left edges have a match, ";
+}
+
+std::string corners_found(const RigFinding& finding) {
+  return percent(finding.evidence.found_ratio) + " of " + std::to_string(finding.corners) +
+         " corners of the left image are found in the right one";
+}
+
+std::string seen_across(const EpipolarFit& fit) {
+  return "corners are found " + number(fit.residual, 1) + " px off their epipolar lines (" + number(fit.offset, 1) +
+         " px in the middle of the image, changing by " + number(fit.slope_x, 1) + " px over its width and " +
+         number(fit.slope_y, 1) + " px over its height)";
+}
+
+/// Likely cause of the distances from the lines.
+std::string cause_across(const EpipolarFit& fit) {
+  const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
+  if (fit.scatter > 0.5 * fit.residual) {
+    return "is the direction of the baseline or the right camera's yaw wrong, or are distorted images used with a "
+           "pinhole calibration?";
+  }
+  if (y >= x && y >= middle) return "is a focal length in the calibration wrong?";
+  if (x >= middle) return "is one camera rolled relative to the calibration?";
+  return "is one camera pitched relative to the calibration, is its principal point wrong, or are left and right "
+         "exchanged?";
+}
+
+/// What was measured in a frame that cannot be used, and the likely cause.
+std::string seen_and_cause(const RigFinding& finding) {
+  switch (finding.kind) {
+    case RigFindingKind::negative_image:
+      return corners_found(finding) + ", and " + percent(finding.inverted_ratio) +
+             " as their negative; is one image a negative?";
+    case RigFindingKind::turned_image:
+      return corners_found(finding) + ", but most are found if it is " + name(finding.turn) + "; is the right image " +
+             name(finding.turn) + "?";
+    case RigFindingKind::negative_disparities:
+      return percent(finding.evidence.negative_ratio) +
+             " of the disparities are negative; are left and right exchanged, are the images mirrored, is the sign of "
+             "the baseline wrong, or the right camera's yaw?";
+    case RigFindingKind::far_off_lines: return seen_across(finding.fit) + "; " + cause_across(finding.fit);
+    default:
+      return corners_found(finding) +
+             "; do both cameras see the same scene at the same time? is one image mirrored or rotated?";
+  }
+}
+
+std::string frozen(Side side) {
+  const std::string camera = name(side), other = name(side == Side::left ? Side::right : Side::left);
+  return "the " + camera + " image is identical to that of the previous frame, the " + other + " one is not: has the " +
+         camera + " camera frozen?";
+}
+
+}  // namespace
+
+Warning warning(const RigFinding& finding) {
+  const std::string camera = "the " + name(finding.camera) + " camera's ";
+  switch (finding.kind) {
+    case RigFindingKind::frozen_camera: return {WarningKind::doubtful_calibration, frozen(finding.camera)};
+    case RigFindingKind::off_lines:
+      return {WarningKind::doubtful_calibration, "the calibration is doubtful: " + matched(finding.evidence) +
+                                                     seen_across(finding.fit) + "; " + cause_across(finding.fit)};
+    case RigFindingKind::beyond_range:
+      return {WarningKind::small_disparity_range,
+              percent(finding.evidence.beyond_ratio) + " of the corners exceed the maximum disparity, " +
+                  number(finding.max_disparity, 1) +
+                  " px: is stereo.max_disparity too small, or stereo.min_depth too large?"};
+    case RigFindingKind::some_negative_disparities:
+      return {WarningKind::negative_disparities,
+              percent(finding.evidence.negative_ratio) +
+                  " of the disparities are negative: is the right camera's yaw or principal point wrong?"};
+    case RigFindingKind::late_camera:
+      return {WarningKind::unsynchronised_cameras,
+              "distances from the epipolar lines are proportional to the image motion: are the cameras out of sync, by "
+              "about " +
+                  number(std::abs(finding.time_offset), 1) + " frames?"};
+    case RigFindingKind::repeated_images:
+      return {WarningKind::repeated_images,
+              "both images are identical to those of the previous frame: "
+              "have both cameras frozen, or was a frame stored twice?"};
+    case RigFindingKind::large_disparity_offset:
+      return {
+          WarningKind::large_disparity_offset,
+          "all disparities seem to be off by " + number(finding.disparity_offset, 1) +
+              " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
+              "wrong?"};
+    case RigFindingKind::static_region: {
+      const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
+      return {WarningKind::static_region,
+              percent(finding.region.ratio) + " of the left image's texture, between columns " + number(from.x(), 0) +
+                  " and " + number(to.x(), 0) + " and rows " + number(from.y(), 0) + " and " + number(to.y(), 0) +
+                  ", does not move although it is nearer than most of what moves: is it part of the vehicle, or dirt? "
+                  "Use a mask to exclude it"};
+    }
+    case RigFindingKind::long_baseline:
+      return {WarningKind::implausible_calibration,
+              "the baseline is " + number(finding.number, 3) + " m: is it given in millimetres?"};
+    case RigFindingKind::short_baseline:
+      return {WarningKind::implausible_calibration,
+              "the baseline is " + number(finding.number, 6) + " m: is it given in metres?"};
+    case RigFindingKind::focal_length:
+      return {WarningKind::implausible_calibration,
+              camera + "focal length is " + number(finding.number, 2) + " image widths: is it given in pixels?"};
+    case RigFindingKind::pixel_shape:
+      return {WarningKind::implausible_calibration,
+              camera + "fx is " + number(finding.number, 2) + " times its fy: are the pixels really not square?"};
+    case RigFindingKind::principal_point:
+      return {WarningKind::implausible_calibration,
+              camera + "principal point (" + number(finding.principal_point.x(), 1) + ", " +
+                  number(finding.principal_point.y(), 1) + ") lies outside its image"};
+    default:
+      return {WarningKind::doubtful_calibration,
+              "the images do not fit the calibration: " + matched(finding.evidence) + seen_and_cause(finding)};
+  }
+}
+
+}  // namespace quadedge::rig

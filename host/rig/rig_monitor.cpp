@@ -1,0 +1,249 @@
+#include "rig/rig_monitor.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+#include "rig/rig_constants.hpp"
+
+namespace quadedge::rig {
+namespace {
+
+/// A hash that practically identifies an image. Four hashes of every fourth word each are computed side by side.
+std::uint64_t fingerprint(const ImageView& image) {
+  constexpr std::size_t kHashes = 4, kStep = kHashes * sizeof(std::uint64_t);
+  std::uint64_t hashes[kHashes] = {1469598103934665603U, 2, 3, 4};
+  const auto add = [](std::uint64_t word, std::uint64_t& hash) {
+    hash = (hash ^ word) * 1099511628211U;
+    hash ^= hash >> 29U;
+  };
+  const std::size_t bytes = bytes_per_pixel(image.max_value) * static_cast<std::size_t>(image.width);
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.pixels + y * image.stride;
+    for (std::size_t i = 0; i < bytes; i += kStep) {
+      std::uint64_t words[kHashes] = {};
+      std::memcpy(words, row + i, std::min(kStep, bytes - i));
+      for (std::size_t k = 0; k < kHashes; ++k) add(words[k], hashes[k]);
+    }
+  }
+  for (std::size_t k = 1; k < kHashes; ++k) add(hashes[k], hashes[0]);
+  return hashes[0];
+}
+
+/// The transformation of the right image with which a search finds most corners; none if there is no such.
+ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity) {
+  for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
+    const CornerSearch search = matcher.search(frame, max_disparity, turn);
+    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
+  }
+  return ImageTurn::none;
+}
+
+/// Adds the results of a search to the evidence.
+void add_search_results(const CornerSearch& search, const EpipolarFit& fit, RigEvidence& evidence) {
+  if (search.searched == 0) return;
+  evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
+  evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
+  if (search.found.empty()) return;
+  int aligned = 0, on_line = 0, negative = 0, beyond = 0;
+  for (const CornerMatch& match : search.found) {
+    negative += match.along < -1 - 2 * match.sigma ? 1 : 0;
+    beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
+    aligned += match.is_aligned ? 1 : 0;
+    on_line += match.is_aligned && std::abs(match.across) < 1 ? 1 : 0;
+  }
+  const auto found = static_cast<double>(search.found.size());
+  if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
+  evidence.negative_ratio = negative / found;
+  evidence.beyond_ratio = beyond / found;
+}
+
+/// Whether so few corners are found that transformed images should be tried.
+bool finds_few_corners(const CornerSearch& search, const RigEvidence& evidence) {
+  return search.searched >= kMinCorners && evidence.found_ratio < kLostFoundRatio &&
+         !(evidence.matched_ratio > kLostMatchedRatio);
+}
+
+/// Judges the rig by the results of a search.
+/// \param turn transformation of the right image with which most corners are found, or none
+std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarFit& fit, const RigEvidence& evidence,
+                                     ImageTurn turn) {
+  std::vector<RigFinding> findings;
+  const auto add = [&](RigFindingKind kind) {
+    RigFinding finding{kind, evidence};
+    finding.corners = search.searched;
+    finding.inverted_ratio = search.searched > 0 ? static_cast<double>(search.negative) / search.searched : 0;
+    finding.turn = turn;
+    finding.fit = fit;
+    finding.max_disparity = search.max_disparity;
+    findings.push_back(finding);
+  };
+  if (finds_few_corners(search, evidence)) {
+    if (search.negative > kMajority * search.searched) {
+      add(RigFindingKind::negative_image);
+    } else {
+      add(turn == ImageTurn::none ? RigFindingKind::no_common_scene : RigFindingKind::turned_image);
+    }
+    return findings;
+  }
+  if (search.found.size() < static_cast<std::size_t>(kMinMatches)) return findings;
+  if (evidence.negative_ratio > kMajority || fit.residual > kLostResidual) {
+    add(evidence.negative_ratio > kMajority ? RigFindingKind::negative_disparities : RigFindingKind::far_off_lines);
+    return findings;
+  }
+  const bool finds_edges_on_lines = evidence.matched_ratio > kReliableMatchedRatio && evidence.epipolar_correction == 0;
+  if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !finds_edges_on_lines) add(RigFindingKind::off_lines);
+  if (evidence.beyond_ratio > kWarningRatio) add(RigFindingKind::beyond_range);
+  if (evidence.negative_ratio > kWarningRatio) add(RigFindingKind::some_negative_disparities);
+  return findings;
+}
+
+/// Adds a search and its findings to the report.
+void search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const StereoFrame& frame,
+                      double max_disparity, RigReport& report) {
+  const CornerSearch search = matcher.search(frame, max_disparity);
+  // On thin curves, coarse positions do not determine the distance from the line.
+  std::vector<CornerMatch> aligned;
+  std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
+               [](const CornerMatch& match) { return match.is_aligned; });
+  EpipolarFit fit = fit_across(aligned, rig.left.width, rig.left.height);
+  if (fit.samples == 0) {
+    fit = fit_across(search.found, rig.left.width, rig.left.height);
+    fit.is_coarse = true;
+  }
+  add_search_results(search, fit, report.evidence);
+  const ImageTurn turn =
+      finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity) : ImageTurn::none;
+  report.findings = judge_search(search, fit, report.evidence, turn);
+}
+
+}  // namespace
+
+std::vector<RigFinding> implausible_numbers(const StereoRig& rig) {
+  std::vector<RigFinding> found;
+  const auto add = [&](RigFindingKind kind, double number) -> RigFinding& {
+    found.push_back({kind});
+    found.back().number = number;
+    return found.back();
+  };
+  const double baseline = rig.baseline();
+  if (baseline > 5) add(RigFindingKind::long_baseline, baseline);
+  if (baseline < 0.005) add(RigFindingKind::short_baseline, baseline);
+  for (const Side side : kSides) {
+    const PinholeCamera& camera = side == Side::left ? rig.left : rig.right;
+    const double widths = camera.fx / camera.width, shape = camera.fx / camera.fy;
+    if (widths < 0.2 || widths > 20) add(RigFindingKind::focal_length, widths).camera = side;
+    if (shape < 1 / 1.5 || shape > 1.5) add(RigFindingKind::pixel_shape, shape).camera = side;
+    if (camera.cx >= 0 && camera.cx < camera.width && camera.cy >= 0 && camera.cy < camera.height) continue;
+    RigFinding& finding = add(RigFindingKind::principal_point, 0);
+    finding.camera = side;
+    finding.principal_point = {camera.cx, camera.cy};
+  }
+  return found;
+}
+
+std::optional<RigFinding> judge_disparity_offset(double offset) {
+  if (!(std::abs(offset) > kMaxOffset)) return std::nullopt;
+  RigFinding finding{RigFindingKind::large_disparity_offset};
+  finding.disparity_offset = offset;
+  return finding;
+}
+
+void Synchronisation::add(double u, double v, double across, double motion) {
+  Terms row;
+  row << 1, u, v, u * u, u * v, v * v, -motion;
+  normal_ += row * row.transpose();
+  right_side_ += row * across;
+  squares_ += across * across;
+  ++count_;
+}
+
+double Synchronisation::time_offset_frames() const {
+  if (count_ < kMinSamples) return 0;
+  const Eigen::FullPivLU<Eigen::Matrix<double, 7, 7>> solver(normal_);
+  if (!solver.isInvertible()) return 0;
+  const Terms terms = solver.solve(right_side_);
+  const double variance = (squares_ - terms.dot(right_side_)) / (count_ - 7);
+  const double sigma = std::sqrt(std::fmax(variance, 0) * solver.inverse()(6, 6));
+  const double offset = std::abs(terms[6]);
+  return offset > kMinTimeOffset && offset < kMaxTimeOffset && offset > kMinTimeSigmas * sigma ? terms[6] : 0;
+}
+
+RigMonitor::RigMonitor(const StereoRig& rig) : rig_(rig), corner_matcher_(rig) {}
+
+std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& frame) {
+  const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
+  const bool same_left = last_left_ == left, same_right = last_right_ == right;
+  last_left_ = left;
+  last_right_ = right;
+  if (!same_left && !same_right) return std::nullopt;
+  RigFinding repeated{same_left && same_right ? RigFindingKind::repeated_images : RigFindingKind::frozen_camera};
+  repeated.camera = same_left ? Side::left : Side::right;
+  return repeated;
+}
+
+bool RigMonitor::needs_search(const RigEvidence& evidence) const {
+  if (!searched_ || !fits_ || frames_since_search_ >= kSearchPeriod) return true;
+  return evidence.matched_ratio < kMatchedDecrease * searched_->matched_ratio ||
+         evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease;
+}
+
+RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
+                            double correction) {
+  RigReport report;
+  RigEvidence& evidence = report.evidence;
+  evidence.epipolar_correction = correction;
+  if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
+  corner_matcher_.align(frame, edges, corner_matches_);
+  const EpipolarFit& fit = report.fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height);
+  if (fit.samples > 0) {
+    evidence.epipolar_residual = fit.residual;
+    evidence.epipolar_offset = fit.offset;
+    evidence.epipolar_slope_x = fit.slope_x;
+    evidence.epipolar_slope_y = fit.slope_y;
+    evidence.epipolar_samples = fit.samples;
+  }
+  ++frames_since_search_;
+  const auto repeated = find_repeated_images(frame);
+  const bool is_frozen = repeated && is_mismatch(repeated->kind);
+  if (!is_frozen && left_edges > 0 && needs_search(evidence)) {
+    search_and_judge(corner_matcher_, rig_, frame, max_disparity, report);
+    frames_since_search_ = 0;
+    searched_ = evidence;
+    fits_ = report.mismatch() == nullptr;
+  }
+  if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
+  if (const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
+      region && report.mismatch() == nullptr) {
+    report.findings.push_back({RigFindingKind::static_region});
+    report.findings.back().region = *region;
+  }
+  return report;
+}
+
+std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& current_from_last) {
+  const Eigen::Isometry3d last_from_current = current_from_last.inverse();
+  for (const CornerMatch& match : corner_matches_) {
+    const Eigen::Vector3d last =
+        last_from_current.linear() * rig_.left.ray(match.left) + last_from_current.translation() * match.inverse_depth;
+    if (!(last.z() > 0)) continue;
+    const Eigen::Vector2d motion = match.left - rig_.left.project(last);
+    synchronisation_.add(match.left.x() / rig_.left.width - 0.5, match.left.y() / rig_.left.height - 0.5, match.across,
+                         motion.dot(match.normal));
+  }
+  const double time_offset = synchronisation_.time_offset_frames();
+  if (time_offset == 0) return std::nullopt;
+  RigFinding late{RigFindingKind::late_camera};
+  late.time_offset = time_offset;
+  return late;
+}
+
+RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
+  RigReport report;
+  search_and_judge(CornerMatcher(rig), rig, frame, max_disparity, report);
+  return report;
+}
+
+}  // namespace quadedge::rig

@@ -1,0 +1,48 @@
+#pragma once
+/// \file static_region.hpp  A part of the image that does not move while the rest does: a bonnet, a robot's arm, dirt.
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "common/undistortion.hpp"
+#include "rig/corner_matching.hpp"
+
+namespace quadedge::rig {
+
+/// What was found in the left image.
+struct StaticRegion {
+  double ratio = 0;            ///< of the textured cells of the image
+  Eigen::AlignedBox2d bounds;  ///< of the static cells [px]
+};
+
+/// Compares cells of the left image with the same cells some frames before. What is static although it is nearer than
+/// what moves does not belong to the scene. A camera at rest and distant scenery do not count as such a
+/// region.
+class StaticRegionDetector {
+ public:
+  /// Adds the next image. \param matches of this frame, whose depths are used
+  /// \returns the region, at the end of each window of frames that has one
+  std::optional<StaticRegion> observe(const PinholeView& left, const std::vector<CornerMatch>& matches);
+
+ private:
+  /// A cell of the image: its texture at the start of the window, and what became of it.
+  struct Cell {
+    std::vector<float> texture;  ///< reduced grey levels, zero-mean, of unit length; empty if flat
+    bool is_static = true;       ///< in all comparisons so far
+    int changes = 0;             ///< comparisons in which the texture is another one
+    double inverse_depths = 0;   ///< sum over the matches in this cell [1/m]
+    int matches = 0;
+  };
+
+  void start(const PinholeView& left);
+  void compare(const PinholeView& left);
+  std::optional<StaticRegion> judge() const;
+  Eigen::AlignedBox2d bounds(std::size_t cell) const;
+
+  int columns_ = 0, rows_ = 0;
+  std::vector<Cell> cells_;  ///< row-major
+  int frames_ = 0;           ///< since the start of the window
+};
+
+}  // namespace quadedge::rig
