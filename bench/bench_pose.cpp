@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "benchmark/frontend_agreement.hpp"
-#include "pose/constraints.hpp"
+#include "frontend/compare_frontends.hpp"
 #include "pose/quads.hpp"
 #include "pose/ransac.hpp"
 #include "pose/refinement.hpp"
@@ -43,15 +42,15 @@ struct BenchQuads {
 BenchQuads::BenchQuads(std::size_t wanted) : sequence(options()) {
   config.stereo.max_disparity = sequence.rig().max_disparity;
   Device device("reference");
-  const auto seen = bench::run_frontend(*frontend::make_frontend(sequence.rig(), device, config), sequence.pair(0),
-                                        sequence.pair(1), config);
+  const auto seen = frontend::run_frontend(*frontend::make_frontend(sequence.rig(), device, config),
+                                           sequence.pair(0).view(), sequence.pair(1).view(), config);
   TemporalMatches matches;
   for (std::size_t i = 0; i < wanted; ++i) {
     const std::size_t q = i % seen.quads.size();
     matches.append(seen.quads.previous[q], seen.quads.current[q], seen.current, seen.quads.ncc[q],
                    seen.quads.competing_clusters[q]);
   }
-  quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches, pose::QuadLimits(config));
+  quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches, pose::QuadLimits());
   motion = sequence.world_from_left(1).inverse() * sequence.world_from_left(0);
 }
 
@@ -66,7 +65,7 @@ const BenchQuads& quads_of(std::int64_t wanted) {
 /// The two-quad solver (Proposition 2).
 void two_quads(benchmark::State& state) {
   const auto& input = quads_of(2000);
-  const double max_cosine = pose::ConstraintLimits(input.config.pose).max_cosine;
+  const double max_cosine = pose::ConstraintLimits().max_cosine;
   std::size_t i = 0;
   for (auto unused : state) {
     (void)unused;

@@ -13,7 +13,7 @@
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
 #include "quadedge/error.hpp"
-#include "report/append_file.hpp"
+#include "report/rows.hpp"
 
 namespace {
 

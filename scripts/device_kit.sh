@@ -1,69 +1,94 @@
 #!/usr/bin/env bash
-# Builds a folder that measures QuadEdge on a machine with an OpenCL driver, a C library and a shell, but without
-# network, OpenCV or Python. OUT/run.sh runs everything there (doc/performance.md, "Measure a GPU").
-#   scripts/device_kit.sh OUT [BUILD]      BUILD: folder of the builds; default: build
-# The frames of KITTI 06 and of EuRoC's flight go into OUT where QUADEDGE_DATA has them: keep to their licences.
+# Packs a folder of at most 60 MiB that measures QuadEdge on a machine with an OpenCL driver, a C library and a shell,
+# but without network, OpenCV or Python: OUT/run.sh does everything there (doc/performance.md, "Measure a GPU").
+#   scripts/device_kit.sh OUT WHEEL [DATA [FRAMES]]
+# WHEEL: a wheel by scripts/build_wheel.sh, of which the kit takes the program and its libraries. DATA: folder of
+# recorded data; FRAMES (default: 24) of KITTI 06 and of EuRoC's flight go into OUT: keep to their licences.
 set -euo pipefail
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
+if [ $# -lt 2 ] || [ $# -gt 4 ]; then
   sed -n '2,6s/^# //p' "$0" >&2
   exit 2
 fi
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-build="$(realpath -m "${2:-$repository/build}")"
-core="$build/device_kit" limit_mb=60
+data="${3:-}" frames="${4:-24}" limit_mb=60
 if [ -e "$1" ] && [ -n "$(ls -A "$1")" ]; then
   echo "device_kit: $1 is not empty" >&2
   exit 2
 fi
-mkdir -p "$1"/{bin,lib,data}
+mkdir -p "$1"/{lib,data}
 out="$(realpath "$1")"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
 
-options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON)
-[ -f "$build/CMakeCache.txt" ] || cmake -S "$repository" -B "$build" "${options[@]}"
-cmake --build "$build" --target kit_frames
-cmake -S "$repository" -B "$core" "${options[@]}" -DQUADEDGE_CORE_ONLY=ON
-cmake --build "$core" --target device_check quadedge_device_tests
-for program in device_check quadedge_device_tests; do
-  strip -o "$out/bin/$program" "$core/bench/device_kit/$program"
-done
+python3 -m zipfile -e "$2" "$work/wheel"
+mkdir "$out/quadedge"
+cp -R "$work/wheel/quadedge/bin" "$out/quadedge/"
+cp -R "$work/wheel/quadedge.libs" "$out/"
+quadedge="$out/quadedge/bin/quadedge"
+chmod +x "$quadedge"
 
-# Under the names that carry the versions: run.sh takes whatever is newer, these or the machine's own.
-for library in libOpenCL.so.1 libtbb.so.12 libstdc++.so.6 libgcc_s.so.1; do
-  file="$(ldd "$out/bin/device_check" | awk -v name="$library" '$1 == name { print $3 }')"
-  [ -n "$file" ] || file="$(ldd "$(ldd "$out/bin/device_check" | awk '/libtbb/ { print $3 }')" |
-    awk -v name="$library" '$1 == name { print $3 }')"
-  real="$(realpath "$file")"
+# What the wheel expects of every machine with Python, and a loader, under the names that carry the versions: run.sh
+# takes whatever is newer, these or the machine's own.
+{
+  ldd "$quadedge" "$out"/quadedge/bin/*.so | sed -n 's|.* => \(/[^ ]*\) .*|\1|p' | grep -v "^$out/" |
+    grep -vE '/(libc|libm|libdl|librt|libpthread)\.so'
+  ldconfig -p | sed -n 's|.*libOpenCL\.so\.1 .*x86-64.*=> ||p' | head -n 1
+} | sort -u | while read -r file; do
+  real="$(realpath "$file")" name="$(basename "$file")"
   cp "$real" "$out/lib/"
-  [ "$(basename "$real")" = "$library" ] || ln -s "$(basename "$real")" "$out/lib/$library"
+  [ "$(basename "$real")" = "$name" ] || ln -s "$(basename "$real")" "$out/lib/$name"
 done
 
-export DEVICE_KIT_DATA="$out/data" DEVICE_KIT_DEVICE=cpu
-frames="$build/bench/device_kit/kit_frames"
-"$frames" presets "$out/data/presets"
+# copy_frames NAME TARGET: the first frames of a sequence, in its own layout.
+copy_frames() {
+  local camera image
+  case "$1" in
+    kitti06)
+      mkdir -p "$2"/image_{0,1}
+      cp "$data/$path/calib.txt" "$2/"
+      head -n "$frames" "$data/$path/times.txt" >"$2/times.txt"
+      for image in $(find "$data/$path/image_0" -name '*.png' -printf '%f\n' | sort | head -n "$frames"); do
+        for camera in 0 1; do cp "$data/$path/image_$camera/$image" "$2/image_$camera/"; done
+      done
+      ;;
+    flight)
+      for camera in cam0 cam1; do
+        mkdir -p "$2/mav0/$camera/data"
+        cp "$data/$path/mav0/$camera/sensor.yaml" "$2/mav0/$camera/"
+        head -n "$((frames + 1))" "$data/$path/mav0/$camera/data.csv" >"$2/mav0/$camera/data.csv"
+        for image in $(sed '1d;s/.*,//;s/\r//' "$2/mav0/$camera/data.csv"); do
+          cp "$data/$path/mav0/$camera/data/$image" "$2/mav0/$camera/data/"
+        done
+      done
+      ;;
+  esac
+}
+
+echo "$frames" >"$out/frames"
 while read -r name path; do
-  if [ "$path" != - ] && [ ! -d "${QUADEDGE_DATA:-/nowhere}/$path" ]; then
-    echo "device_kit: without $name: QUADEDGE_DATA has no $path" >&2
-    continue
+  if [ "$name" != room ]; then
+    if [ ! -d "${data:-/nowhere}/$path" ]; then
+      echo "device_kit: without $name: no folder ${data:-DATA}/$path" >&2
+      continue
+    fi
+    copy_frames "$name" "$out/data/$name"
   fi
-  mkdir "$out/data/$name"
-  if [ "$path" = - ]; then "$frames" "$name" "$out/data/$name"; else
-    "$frames" "$name" "$out/data/$name" "$QUADEDGE_DATA/$path"
-  fi
-  "$out/bin/device_check" record /dev/null "$name"
+  track=(run "$out/data/$name")
+  [ "$name" != room ] || track=(demo --frames "$frames")
+  "$quadedge" "${track[@]}" --device cpu --output "$work/$name" --quiet >"$work/log" || { cat "$work/log" >&2; exit 1; }
+  cp "$work/$name/trajectory.txt" "$out/data/$name.txt"
 done <<'END'
 room -
 kitti06 kitti_odometry/sequences/06
 flight euroc_mh_01_easy
 END
-
-git -C "$repository" describe --always --dirty=+ --abbrev=12 --exclude='*' >"$out/commit" 2>/dev/null ||
-  echo unknown >"$out/commit"
-"$out/bin/device_check" name /dev/null >"$out/recorded_on"
+sed -n '/^  "device": {/,/}/s/.*"name": "\(.*\)",/\1/p' "$work/room/report.json" >"$out/recorded_on"
+sed -n 's/^  "commit": "\(.*\)",/\1/p' "$work/room/report.json" >"$out/commit"
 cp "$repository/scripts/device_kit_run.sh" "$out/run.sh"
 cp "$repository/LICENSE" "$out/"
 size_mb="$(du -sm --apparent-size "$out" | cut -f 1)"
-echo "$out: $size_mb MiB; needs the C library $(objdump -T "$out"/bin/* "$out"/lib/* 2>/dev/null |
-  grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -1)"
+echo "$out: $size_mb MiB; needs the C library $(find "$out" -type f \( -name 'quadedge' -o -name '*.so*' \) -print0 |
+  xargs -0 objdump -T 2>/dev/null | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)"
 if [ "$size_mb" -gt "$limit_mb" ]; then
   echo "device_kit: more than $limit_mb MiB" >&2
   exit 1

@@ -6,8 +6,8 @@ build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl
   libswscale-dev"
 python_packages="python3-dev python3-venv"  # for `pip install .`, besides those above
 wheel_packages="dpkg-dev nasm zlib1g-dev"  # for build_wheel.sh, besides those above
-test_packages="catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base oclgrind clang clang-19
-  debootstrap libclc-19 clang-format p7zip-full munge slurmctld slurmd slurm-client"
+test_packages="catch2 libbenchmark-dev libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base
+  oclgrind clang debootstrap clang-format p7zip-full munge slurmctld slurmd slurm-client"
 
 # install_missing PACKAGE...: asks dpkg first: a machine with all packages needs neither network nor root.
 install_missing() {

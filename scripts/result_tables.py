@@ -5,7 +5,8 @@
     scripts/result_tables.py --check    changes nothing; exit code 1 if a table differs from the JSON
 
 A block is enclosed by <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py writes the JSON files, except
-doc/results/peers.json, which is written by hand and names the source of its figures.
+doc/results/peers.json, which is written by hand and names the source of its figures; scripts/peers.py enters the
+times of libviso2.
 """
 
 import argparse

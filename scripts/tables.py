@@ -155,7 +155,8 @@ def beside(results):
         return f"{number(row['rpe_rotation_deg'], 2)} / {number(1e3 * row['rpe_translation_m'], 2)}" if judged else "-"
 
     rows = [[named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
-             error(found.get("opencv"))] for title, found in by_title.items()]
+             error(found.get("opencv"))] for title, found in by_title.items()
+            if not any(other.startswith(f"{title}, from frame") for other in by_title)]
     for title, timed in others["frames_per_second"].items():
         own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
                if row["title"].startswith(title) and row.get("preset", "default") == "default"]

@@ -2,15 +2,16 @@
 # Installs missing packages, builds, and runs the tests. QUADEDGE_DATA names the folder of recorded data; without it,
 # tests that need recorded data print a message and pass.
 #   scripts/test.sh [--all] [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edge_detection
-# --all also runs the slow tests: attacks, oclgrind, sanitizers, clang-tidy, packages, the wheel and the device kit, and
-# treats compiler warnings as errors. Without it, what scripts/run.sh has built is not built again.
+# --all also builds the programs in bench/ and runs the slow tests: attacks, oclgrind, sanitizers, clang-tidy, tools in
+# scripts/, packages, the wheel and the device kit, and treats compiler warnings as errors. Without it, what
+# scripts/run.sh has built is not built again.
 # --all-runtimes first installs Intel's OpenCL for CPUs from PyPI into the virtual environment and runs the tests of
 # kernels, pipeline and recorded data on it as well (tests/run_other_runtime.sh).
 set -euo pipefail
 all_runtimes=false slow=(--label-exclude slow) strict=()
 while :; do
   case "${1:-}" in
-    --all) slow=() strict=(-DQUADEDGE_WARNINGS_AS_ERRORS=ON) ;;
+    --all) slow=() strict=(-DQUADEDGE_WARNINGS_AS_ERRORS=ON -DQUADEDGE_BENCHMARKS=ON) ;;
     --all-runtimes) all_runtimes=true ;;
     *) break ;;
   esac

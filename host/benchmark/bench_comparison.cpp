@@ -67,66 +67,54 @@ void require_equal(const Result& before, const Result& after, const char* pointe
                   after.json.at(key).dump() + ", and was " + before.json.at(key).dump());
 }
 
-/// Collects figures of both results.
-class Figures {
- public:
-  Figures(const Result& before, const Result& after, double noise_percent, BenchComparison& result)
-      : before_(before), after_(after), noise_(noise_percent), result_(result) {}
-
-  void time(const std::string& name, const std::string& pointer, bool judged) {
-    add(name, figure(before_, pointer), figure(after_, pointer), judged, result_.drift);
-  }
-  void size(const std::string& name, const std::string& pointer) {
-    add(name, figure(before_, pointer), figure(after_, pointer), true, 1);
-  }
-  /// Adds the medians of every stage of a table.
-  void stages(const std::string& label, const std::string& table, double frame_ms) {
-    std::set<std::string> names;
-    for (const Json* json : {&before_.json, &after_.json}) {
-      if (!json->contains(table)) continue;
-      for (const auto& [stage, unused] : json->at(table).items()) {
-        (void)unused;
-        if (!names.insert(stage).second) continue;
-        const std::string pointer = "/" + table + "/" + stage + "/median";
-        const double before = value(before_, pointer);
-        add(label + " " + stage + " [ms]", before, value(after_, pointer), before >= kSmallShare * frame_ms,
-            result_.drift);
-      }
-    }
-  }
-
- private:
-  /// NaN for a stage that is missing in one of the results.
-  static double value(const Result& result, const std::string& pointer) {
-    const bool there = result.json.contains(Json::json_pointer(pointer));
-    return there ? figure(result, pointer) : std::numeric_limits<double>::quiet_NaN();
-  }
-  void add(const std::string& name, double before, double after, bool judged, double drift) {
-    ComparedFigure compared;
-    compared.name = name;
-    compared.before = before;
-    compared.after = after;
-    compared.change_percent = before == 0 && after == 0 ? 0 : 100 * (after / drift / before - 1);
-    compared.judged = judged && !std::isnan(compared.change_percent);
-    compared.worse = compared.judged && compared.change_percent > noise_;
-    result_.figures.push_back(compared);
-  }
-
-  const Result& before_;
-  const Result& after_;
-  double noise_;
-  BenchComparison& result_;
+/// A figure that every result has. Times are corrected for the machine's drift.
+struct Row {
+  const char* name;
+  const char* pointer;
+  bool is_judged, is_time;
 };
 
-void compare_lost_frames(const Result& before, const Result& after, BenchComparison& result) {
-  ComparedFigure lost;
-  lost.name = "lost frames";
-  lost.before = figure(before, "/frames_lost");
-  lost.after = figure(after, "/frames_lost");
-  lost.change_percent = std::numeric_limits<double>::quiet_NaN();
-  lost.judged = true;
-  lost.worse = lost.after > lost.before;
-  result.figures.push_back(lost);
+constexpr Row kRows[] = {
+    {"frame, median [ms]", "/latency_ms/median", true, true},
+    {"frame, p90 [ms]", "/latency_ms/p90", true, true},
+    {"frame, p99 [ms]", "/latency_ms/p99", false, true},
+    {"frame, max [ms]", "/latency_ms/max", false, true},
+    {"first frame [ms]", "/latency_ms/first", false, true},
+    {"edge detection, one image [ms]", "/edge_detection_ms/median", true, true},
+    {"start-up [ms]", "/start_ms/total", false, true},
+    {"kernel build [ms]", "/start_ms/kernel_build", false, true},
+    {"host memory, peak [MB]", "/memory_mb/host_peak", true, false},
+    {"device memory, peak [MB]", "/memory_mb/device_peak", true, false},
+    {"to the device, per frame [MB]", "/moved_mb_per_frame/to_device", true, false},
+    {"to the host, per frame [MB]", "/moved_mb_per_frame/to_host", true, false},
+};
+
+ComparedFigure compared(const std::string& name, double before, double after, bool judged, double noise, double drift) {
+  ComparedFigure figure{name, before, after};
+  figure.change_percent = before == 0 && after == 0 ? 0 : 100 * (after / drift / before - 1);
+  figure.judged = judged && !std::isnan(figure.change_percent);
+  figure.worse = figure.judged && figure.change_percent > noise;
+  return figure;
+}
+
+/// The medians of all stages of a table.
+void compare_stages(const Result& before, const Result& after, const std::string& table, double noise,
+                    BenchComparison& result) {
+  std::set<std::string> names;
+  for (const Json* json : {&before.json, &after.json}) {
+    if (!json->contains(table)) continue;
+    for (const auto& item : json->at(table).items()) names.insert(item.key());
+  }
+  const double small = kSmallShare * figure(before, "/latency_ms/median");
+  for (const auto& name : names) {
+    const std::string pointer = "/" + table + "/" + name + "/median";
+    const auto value = [&](const Result& of) {  // NaN for a stage that is missing in one of the results
+      return of.json.contains(Json::json_pointer(pointer)) ? figure(of, pointer)
+                                                           : std::numeric_limits<double>::quiet_NaN();
+    };
+    const std::string label = (table == "kernels_ms" ? "kernels " : "host ") + name + " [ms]";
+    result.figures.push_back(compared(label, value(before), value(after), value(before) >= small, noise, result.drift));
+  }
 }
 
 void note_differences(const Json& before, const Json& after, BenchComparison& result) {
@@ -161,23 +149,18 @@ BenchComparison compare_benchmarks(const std::string& old_file, const std::strin
       constexpr const char* kYardstick = "/baseline/opencv_sift_both_ms";
       result.drift = positive_figure(after, kYardstick) / positive_figure(before, kYardstick);
     }
-    const double frame_ms = positive_figure(before, "/latency_ms/median");
-    Figures figures(before, after, noise_percent, result);
-    figures.time("frame, median [ms]", "/latency_ms/median", true);
-    figures.time("frame, p90 [ms]", "/latency_ms/p90", true);
-    figures.time("frame, p99 [ms]", "/latency_ms/p99", false);
-    figures.time("frame, max [ms]", "/latency_ms/max", false);
-    figures.time("first frame [ms]", "/latency_ms/first", false);
-    figures.time("edge detection, one image [ms]", "/edge_detection_ms/median", true);
-    figures.stages("host", "stages_ms", frame_ms);
-    figures.stages("kernels", "kernels_ms", frame_ms);
-    figures.time("start-up [ms]", "/start_ms/total", false);
-    figures.time("kernel build [ms]", "/start_ms/kernel_build", false);
-    figures.size("host memory, peak [MB]", "/memory_mb/host_peak");
-    figures.size("device memory, peak [MB]", "/memory_mb/device_peak");
-    figures.size("to the device, per frame [MB]", "/moved_mb_per_frame/to_device");
-    figures.size("to the host, per frame [MB]", "/moved_mb_per_frame/to_host");
-    compare_lost_frames(before, after, result);
+    positive_figure(before, "/latency_ms/median");
+    for (const Row& row : kRows) {
+      result.figures.push_back(compared(row.name, figure(before, row.pointer), figure(after, row.pointer),
+                                        row.is_judged, noise_percent, row.is_time ? result.drift : 1));
+    }
+    compare_stages(before, after, "stages_ms", noise_percent, result);
+    compare_stages(before, after, "kernels_ms", noise_percent, result);
+    ComparedFigure lost{"lost frames", figure(before, "/frames_lost"), figure(after, "/frames_lost")};
+    lost.change_percent = std::numeric_limits<double>::quiet_NaN();
+    lost.judged = true;
+    lost.worse = lost.after > lost.before;
+    result.figures.push_back(lost);
     note_differences(before.json, after.json, result);
   } catch (const Json::exception& error) {
     throw DataError(new_file + " or " + old_file + " is incomplete: " + error.what());

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <thread>
 
-#include "common/run_cost.hpp"
+#include "common/timing.hpp"
 #include "opencl/context.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
-#include "stages/edge_threshold.hpp"
-#include "stages/undistortion.hpp"
+#include "stages/images.hpp"
 
 namespace quadedge::bench {
 namespace {

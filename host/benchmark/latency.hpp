@@ -36,6 +36,11 @@ void measure_edge_detection(const Subject& subject, int repetitions, BenchRecord
 /// nothing on the reference device.
 void measure_kernels(const Subject& subject, BenchRecord& record);
 
+/// Measures two OpenCV computations with `threads` threads on the recorded images of `frame`, alternating,
+/// `repetitions` times each after one warm-up. `progress` is called after each. Restores OpenCV's number of threads.
+Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int threads, int repetitions,
+                              const std::function<void(int done, int total)>& progress);
+
 /// The value of edges.threshold for which the two images of the frame have about `wanted` edges each, by bisection
 /// until the number is met within 1 % or the interval is shorter than 0.01. Returns the smallest threshold if the
 /// images have fewer edges at every threshold. \throws UsageError on the reference device, which would take too long,

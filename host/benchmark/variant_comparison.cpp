@@ -6,8 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "benchmark/frontend_agreement.hpp"
-#include "benchmark/stage_work.hpp"
+#include "frontend/compare_frontends.hpp"
 #include "frontend/prediction.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
@@ -31,7 +30,7 @@ std::vector<std::string> booked_as(const std::string& stage) {
 struct Candidate {
   std::unique_ptr<Device> device;
   std::unique_ptr<frontend::Frontend> frontend;
-  FrontendOutput output;
+  frontend::FrontendOutput output;
   std::vector<double> times;
 };
 
@@ -75,7 +74,7 @@ struct ReferenceCheck::Small {
   SyntheticSequence sequence;
   Config config;
   FramePrefetcher::Frame frames[2];
-  FrontendOutput expected;
+  frontend::FrontendOutput expected;
 
   static SyntheticOptions options() {
     SyntheticOptions options;
@@ -94,7 +93,8 @@ struct ReferenceCheck::Small {
     config.stereo.coarse_ties = 0;
     for (int i = 0; i < 2; ++i) frames[i] = sequence.pair(i);
     Device reference("reference");
-    expected = run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0], frames[1], config);
+    expected = frontend::run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0].view(),
+                                      frames[1].view(), config);
   }
 };
 
@@ -106,7 +106,7 @@ std::string ReferenceCheck::difference(Device& device, const std::map<std::strin
   config.variants = variants;
   const auto frontend = frontend::make_frontend(small_->sequence.rig(), device, config);
   const auto agreeing =
-      agreement(run_frontend(*frontend, small_->frames[0], small_->frames[1], config), small_->expected);
+      agreement(run_frontend(*frontend, small_->frames[0].view(), small_->frames[1].view(), config), small_->expected);
   if (agreeing.good()) return {};
   char text[320];
   std::snprintf(
@@ -132,7 +132,7 @@ std::string StageResult::best() const {
 
 // LONG: four steps on one list of candidates: check, compare, measure, relate.
 StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
-                             const Ceilings& ceilings, const std::function<void(const std::string&)>& progress) {
+                             const std::function<void(const std::string&)>& progress) {
   StageResult result;
   result.stage = stage;
   std::vector<Candidate> candidates;
@@ -142,8 +142,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     progress("checking " + stage + " " + variant.name);
     VariantResult row;
     row.name = variant.name;
-    row.median_ms = row.p10_ms = row.p90_ms = row.ratio_to_default = row.ratio_p90 = row.bandwidth_share =
-        row.arithmetic_share = kNaN;
+    row.median_ms = row.p10_ms = row.p90_ms = row.ratio_to_default = row.ratio_p90 = kNaN;
     Candidate candidate;
     candidate.device = std::make_unique<Device>(input.open_device());
     row.is_default = opencl::choose_variant(stage, *candidate.device->context(), {}).name == variant.name;
@@ -154,7 +153,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
       row.agrees = row.why.empty();
       if (row.agrees) {
         candidate.frontend = frontend::make_frontend(input.rig, *candidate.device, config);
-        candidate.output = run_frontend(*candidate.frontend, input.first, input.second, config);
+        candidate.output = run_frontend(*candidate.frontend, input.first.view(), input.second.view(), config);
       }
     } catch (const DeviceError& error) {
       if (row.is_default) throw;
@@ -182,7 +181,6 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
       if (result.variants[i].agrees) candidates[i].times.push_back(measure_once(stage, input, candidates[i]));
     }
   }
-  const StageWork work = least_work(stage, input.size, input.config);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     auto& row = result.variants[i];
     const bool timed = !candidates[i].times.empty() && std::isfinite(candidates[i].times.front());
@@ -196,8 +194,6 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
       ratios.push_back(candidates[i].times[k] / candidates[by_default].times[k]);
     row.ratio_to_default = report::median(ratios);
     row.ratio_p90 = report::percentile(ratios, 0.9);
-    row.bandwidth_share = work.bytes / (row.median_ms * 1e6) / ceilings.bandwidth_gb_s;
-    row.arithmetic_share = work.operations / (row.median_ms * 1e6) / ceilings.arithmetic_gflop_s;
   }
   return result;
 }

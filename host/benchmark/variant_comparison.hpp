@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/ceilings.hpp"
-#include "benchmark/stage_work.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/device.hpp"
@@ -26,8 +24,6 @@ struct VariantResult {
   double p10_ms = 0, p90_ms = 0;
   double ratio_to_default = 0;  ///< median over the repetitions of the ratio to the default's time
   double ratio_p90 = 0;         ///< 90th percentile of the ratio; below 1, the gain exceeds the noise
-  double bandwidth_share = 0,
-         arithmetic_share = 0;  ///< of the device's ceilings, for the lower bound of the work; NaN without a time
 };
 
 /// All variants of one stage.
@@ -47,7 +43,6 @@ struct VariantInput {
   Config config;                        ///< complete; its variants are used by all other stages
   std::function<Device()> open_device;  ///< with profiling
   int repetitions = 9;
-  FrameSize size;  ///< of the second frame, see count_frame()
 };
 
 /// A small input and its result by the plain C++ reference; used for all stages.
@@ -69,13 +64,9 @@ class ReferenceCheck {
 /// Checks all variants of a stage, then measures them alternately. `progress` is called with the current activity.
 /// \throws DeviceError if the default variant does not run.
 StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
-                             const Ceilings& ceilings, const std::function<void(const std::string&)>& progress);
+                             const std::function<void(const std::string&)>& progress);
 
 /// Names of all stages with variants, in order.
 std::vector<std::string> stages_with_variants();
-
-/// The results as JSON (doc/design.md section 10).
-std::string comparison_json(const DeviceInfo& device, const Ceilings& ceilings, const std::vector<StageResult>& stages,
-                            const std::string& command);
 
 }  // namespace quadedge::bench

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "benchmark/bench_record.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/user_folder.hpp"
@@ -14,6 +15,7 @@ namespace quadedge::bench {
 namespace {
 
 using report::Json;
+using report::to_json;
 
 constexpr const char* kContent = "quadedge kernel variants";
 constexpr int kSchema = 1;
@@ -23,6 +25,31 @@ constexpr int kSchema = 1;
 }
 
 }  // namespace
+
+std::string comparison_json(const DeviceInfo& device, const std::vector<StageResult>& stages,
+                            const std::string& command) {
+  Json json;
+  json["schema"] = kBenchSchema;
+  report::add_origin(json, command);
+  json["device"] = report::to_json(device);
+  json["stages"] = Json::array();
+  for (const auto& stage : stages) {
+    Json rows = Json::array();
+    for (const auto& variant : stage.variants) {
+      rows.push_back({{"name", variant.name},
+                      {"default", variant.is_default},
+                      {"agrees", variant.agrees},
+                      {"why", variant.why},
+                      {"median_ms", to_json(variant.median_ms)},
+                      {"p10_ms", to_json(variant.p10_ms)},
+                      {"p90_ms", to_json(variant.p90_ms)},
+                      {"ratio_to_default", to_json(variant.ratio_to_default)},
+                      {"ratio_p90", to_json(variant.ratio_p90)}});
+    }
+    json["stages"].push_back({{"stage", stage.stage}, {"best", stage.best()}, {"variants", rows}});
+  }
+  return report::json_text(json);
+}
 
 std::string variants_file_name(const DeviceInfo& device) {
   std::string name;

@@ -1,13 +1,18 @@
 #pragma once
-/// \file variants_file.hpp  The fastest kernel variants of a device, as saved by `compare --save`.
+/// \file variants_file.hpp  What `compare` writes: all figures, and the fastest kernel variants of a device.
 
 #include <map>
 #include <string>
 
+#include "benchmark/variant_comparison.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 
 namespace quadedge::bench {
+
+/// The results as JSON (doc/design.md section 10).
+std::string comparison_json(const DeviceInfo& device, const std::vector<StageResult>& stages,
+                            const std::string& command);
 
 /// File name for a device: "variants-NAME.json", where NAME has only letters, digits and "-".
 std::string variants_file_name(const DeviceInfo& device);

@@ -1,9 +1,8 @@
-#include "benchmark/yardsticks.hpp"
-
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/run_cost.hpp"
+#include "benchmark/latency.hpp"
+#include "common/timing.hpp"
 
 namespace quadedge::bench {
 namespace {
