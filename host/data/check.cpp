@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include "data/image_list.hpp"
 #include "data/layout.hpp"
+#include "data/stamps.hpp"
 #include "data/text.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
-#include "quadedge/pi.hpp"
 
 namespace quadedge {
 namespace data {
@@ -99,16 +99,30 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
 }
 
 /// Reads an image file; returns nothing and records an error if it is not as expected.
-std::optional<Image> read_image(const std::string& file, const PinholeCamera& camera, DatasetCheck& check) {
+std::optional<Image> read_image(const std::string& file, const PinholeCamera& camera, int max_value,
+                                DatasetCheck& check) {
   try {
     Image image = read_grey_image(file);
-    const ImageSize found{image.width, image.height}, expected{camera.width, camera.height};
-    if (expected.width == 0 || found == expected) return image;
-    check.errors.push_back(file + ": found " + to_string(found) + " pixels, expected " + to_string(expected));
+    if (camera.width > 0) check_image(image, file, camera, max_value);
+    return image;
   } catch (const DataError& problem) {
     check.errors.push_back(problem.what());
   }
   return std::nullopt;
+}
+
+/// Warns of 16-bit images that hold fewer bits at the lower end, whose contrast is too small for edges.
+void check_range(const Image& image, const std::string& file, DatasetCheck& check) {
+  if (image.max_value <= kMaxValue8) return;
+  const ImageView view = image.view();
+  int largest = 0;
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) largest = std::max(largest, view.value(x, y));
+  constexpr int kSmallPart = 8;
+  if (kSmallPart * largest > image.max_value) return;
+  check.warnings.push_back(file + ": the largest of its 16-bit values is " + std::to_string(largest) +
+                           ", expected values up to " + std::to_string(image.max_value) +
+                           ": pixels of 10, 12 or 14 bits need to be scaled to 16");
 }
 
 /// Reads every image file, including those after a damaged one.
@@ -116,8 +130,9 @@ void read_files(const Dataset& dataset, const std::function<void(const Dataset&,
                 DatasetCheck& check) {
   for (std::size_t i = 0; i < dataset.frames.size(); ++i) {
     const FrameFiles& frame = dataset.frames[i];
-    auto left = read_image(frame.left, dataset.rig.left, check);
-    auto right = read_image(frame.right, dataset.rig.right, check);
+    auto left = read_image(frame.left, dataset.rig.left, dataset.rig.max_value, check);
+    auto right = read_image(frame.right, dataset.rig.right, dataset.rig.max_value, check);
+    if (i == 0 && left) check_range(*left, frame.left, check);
     if (left && right && seen)
       seen(dataset, {static_cast<int>(i), frame.stamp_ns, std::move(*left), std::move(*right)});
   }
@@ -130,6 +145,7 @@ void read_stream(Dataset& dataset, const std::function<void(const Dataset&, cons
   try {
     FramePrefetcher pairs(dataset);
     while (const auto pair = pairs.next()) {
+      if (frames.empty()) check_range(pair->left, dataset.path, check);
       frames.push_back({pair->stamp_ns, dataset.path, dataset.path});
       if (seen) seen(dataset, *pair);
     }
@@ -151,6 +167,7 @@ DatasetCheck read_all(Dataset dataset, const Findings& findings,
   find_gaps(dataset, check);
   check_truth(dataset, check);
   check.warnings.insert(check.warnings.end(), findings.warnings().begin(), findings.warnings().end());
+  check.warnings.insert(check.warnings.end(), of_images.warnings.begin(), of_images.warnings.end());
   check.errors = findings.errors();
   check.errors.insert(check.errors.end(), of_images.errors.begin(), of_images.errors.end());
   return check;

@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "common/disparity_range.hpp"
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
 #include "data/image_file.hpp"
 #include "data/layout.hpp"
+#include "data/stamps.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -111,7 +112,12 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
 
 void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings& findings) {
   check_stamps(dataset, findings);
+  std::vector<std::int64_t> stamps;
+  for (const FrameFiles& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
+  if (const std::string complaint = rate_complaint(stamps); !complaint.empty()) dataset.warnings.push_back(complaint);
   if (!dataset.frames.empty()) cut_frames(dataset, first_frame, last_frame);
+  // After an error, a rig that was not read says nothing more.
+  if (!findings.errors().empty() && dataset.rig.left.width == 0) return;
   findings.attempt([&] {
     check_rig(dataset.rig, calibration_of(dataset).c_str());
     check_disparity_range(dataset.rig, calibration_of(dataset));

@@ -1,5 +1,3 @@
-#include "quadedge/decode_image.hpp"
-
 #include <cstring>
 #include <stdexcept>
 
@@ -9,6 +7,7 @@
 #include "data/samples.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
+#include "quadedge/image.hpp"
 
 namespace quadedge {
 namespace {

@@ -1,15 +1,18 @@
-/// \file euroc.cpp  EuRoC MAV: mav0/{cam0,cam1}/{sensor.yaml,data.csv,data/},
-/// mav0/state_groundtruth_estimate0/data.csv. The recorded images are distorted; the rig describes pinhole images with
-/// the same K, created by two tables.
+/// \file euroc.cpp  EuRoC MAV: mav0/{cam0,cam1}/{sensor.yaml,data.csv,data/}, and ground truth of the body in
+/// mav0/state_groundtruth_estimate0, mocap0 or vicon0. TUM-VI as exported: the same with camchain.yaml beside mav0 or
+/// in dso/, or for DSO: cam0/{images/,times.txt} with camchain.yaml. The recorded images are distorted; the rig
+/// describes pinhole images with the same K, created by two tables.
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
+#include "data/stamps.hpp"
 #include "data/text.hpp"
+#include "data/trajectory_rows.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -17,9 +20,27 @@ namespace {
 /// Published ground truth has a rate of 200 Hz (or one pose per frame), so that the nearest row is at most 2.5 ms away.
 constexpr std::int64_t kTruthToleranceNs = 5'000'000;
 
+/// Times and image files of a camera: of data.csv, or of data/ or images/ with times.txt or times in the names.
+std::vector<std::pair<std::int64_t, std::string>> read_camera(const fs::path& camera) {
+  std::vector<std::pair<std::int64_t, std::string>> list;
+  if (fs::exists(camera / "data.csv")) {
+    list = read_image_list((camera / "data.csv").string());
+    for (auto& entry : list) entry.second = (camera / "data" / entry.second).string();
+    return list;
+  }
+  const fs::path folder = fs::is_directory(camera / "images") ? camera / "images" : camera / "data";
+  CameraImages images = list_images(folder);
+  if (const fs::path times = camera / ".." / "timestamps.txt"; images.stamps_ns.empty() && fs::exists(times))
+    images.stamps_ns = read_time_rows(times.string()).stamps_ns;
+  if (images.stamps_ns.size() != images.files.size())
+    fail(camera.string(), counted(images.stamps_ns.size(), "time") + " for " + counted(images.files.size(), "image"),
+         "data.csv, times.txt, or names that are times");
+  for (std::size_t i = 0; i < images.files.size(); ++i) list.emplace_back(images.stamps_ns[i], images.files[i]);
+  return list;
+}
+
 void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
-  const auto left = read_image_list((folder / "cam0" / "data.csv").string());
-  const auto right = read_image_list((folder / "cam1" / "data.csv").string());
+  const auto left = read_camera(folder / "cam0"), right = read_camera(folder / "cam1");
   const std::map<std::int64_t, std::string> right_by_stamp(right.begin(), right.end());
   std::size_t alone = 0;
   for (const auto& [stamp, name] : left) {
@@ -28,11 +49,11 @@ void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
       ++alone;
       continue;
     }
-    add_frame(dataset, stamp, folder / "cam0" / "data" / name, folder / "cam1" / "data" / partner->second, findings);
+    add_frame(dataset, stamp, name, partner->second, findings);
   }
   if (2 * alone > left.size()) {
     findings.error((folder / "cam1" / "data.csv").string(),
-                   counted(left.size() - alone, "timestamp") + " in common with cam0/data.csv",
+                   counted(left.size() - alone, "timestamp") + " in common with cam0",
                    "the " + std::to_string(left.size()) + " of the left camera");
   } else if (alone > 0 || right.size() != left.size()) {  // the published recordings lack a few images
     const std::string note = std::to_string(alone) + " left and " + std::to_string(right.size() + alone - left.size()) +
@@ -44,26 +65,8 @@ void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
 
 /// Body poses of the ground truth, and the left camera's pose at each frame from the nearest row.
 void read_truth(Dataset& dataset, const Eigen::Isometry3d& body_from_left) {
-  const std::string& file = dataset.truth_file;
   std::map<std::int64_t, Eigen::Isometry3d> rows;
-  constexpr std::size_t kPoseColumns = 8;
-  const std::string expected = "timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z, ...";
-  for (const auto& line : data_lines(file)) {
-    const auto cells = split(line.text, ", \t");
-    if (cells.size() < kPoseColumns) fail(file, line.number, in_quotes(line.text), expected);
-    double v[kPoseColumns];
-    for (std::size_t i = 1; i < kPoseColumns; ++i) v[i] = parse_number(cells[i], file, line.number, expected);
-    const Eigen::Quaterniond rotation(v[4], v[5], v[6], v[7]);
-    constexpr double kTolerance = 1e-3;
-    if (std::abs(rotation.norm() - 1) > kTolerance) {
-      fail(file, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
-           "a unit quaternion q_w q_x q_y q_z");
-    }
-    Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
-    world_from_body.linear() = rotation.normalized().toRotationMatrix();
-    world_from_body.translation() << v[1], v[2], v[3];
-    rows[parse_nanoseconds(cells[0], file, line.number)] = world_from_body;
-  }
+  for (const StampedPose& pose : read_euroc_poses(dataset.truth_file)) rows[pose.stamp_ns] = pose.world_from_left;
   for (const auto& frame : dataset.frames) {
     auto nearest = rows.lower_bound(frame.stamp_ns);
     if (nearest == rows.end() ||
@@ -74,6 +77,33 @@ void read_truth(Dataset& dataset, const Eigen::Isometry3d& body_from_left) {
     if (std::abs(nearest->first - frame.stamp_ns) > kTruthToleranceNs) continue;
     dataset.truth.push_back({frame.stamp_ns, nearest->second * body_from_left});
   }
+}
+
+/// Kalibr's chain of a TUM-VI recording; empty if there is none.
+std::string camera_chain(const fs::path& folder) {
+  for (const fs::path& place : {folder / "camchain.yaml", folder / ".." / "camchain.yaml",
+                                folder / ".." / "dso" / "camchain.yaml", folder / "dso" / "camchain.yaml"})
+    if (fs::exists(place)) return place.lexically_normal().string();
+  return {};
+}
+
+/// Reads the first ground truth that the recording has: an estimate or motion capture of the body's pose. A tracked
+/// marker has a pose of its own in the body.
+void find_truth(Dataset& dataset, const fs::path& folder, const Eigen::Isometry3d& body_from_left) {
+  for (const char* name : {"state_groundtruth_estimate0", "mocap0", "vicon0"}) {
+    const fs::path place = folder / name, sensor = place / "sensor.yaml";
+    if (!fs::exists(place / "data.csv")) continue;
+    dataset.truth_file = (place / "data.csv").string();
+    Eigen::Isometry3d marker_from_left = body_from_left;
+    if (name == std::string("vicon0") && fs::exists(sensor)) {
+      const YamlMap marker(sensor.string(), "the sensor.yaml of a marker");
+      marker_from_left = marker.map("T_BS").transform("data").inverse() * body_from_left;
+    }
+    read_truth(dataset, marker_from_left);
+    return;
+  }
+  if (fs::exists(folder / "leica0" / "data.csv"))
+    dataset.notes.push_back("leica0 holds positions without orientation, which is no ground truth of poses");
 }
 
 }  // namespace
@@ -89,18 +119,17 @@ Dataset read_euroc(const fs::path& root, const DatasetOptions& options, Findings
   dataset.name = folder_name(root);
   if (dataset.name == "mav0") dataset.name = folder_name(fs::absolute(root / ".."));
   findings.attempt([&] { read_frames(dataset, folder, findings); });
-  Eigen::Isometry3d body_from_left = Eigen::Isometry3d::Identity();
   // A user's calibration replaces these files; if they exist, they still determine the frame of the ground truth.
   const fs::path left = folder / "cam0" / "sensor.yaml", right = folder / "cam1" / "sensor.yaml";
-  if (options.calibration.empty() || (fs::exists(left) && fs::exists(right))) {
+  const std::string chain = fs::exists(left) ? "" : camera_chain(folder);
+  if (!chain.empty()) {
+    findings.attempt([&] { set_calibration(dataset, read_calibration(chain)); });
+  } else if (options.calibration.empty() || (fs::exists(left) && fs::exists(right))) {
     findings.attempt([&] { set_calibration(dataset, read_euroc_calibration(left.string(), right.string())); });
   }
+  Eigen::Isometry3d body_from_left = Eigen::Isometry3d::Identity();
   if (dataset.calibration) body_from_left = dataset.calibration->body_from_left.value_or(body_from_left);
-  const fs::path truth = folder / "state_groundtruth_estimate0" / "data.csv";
-  if (fs::exists(truth)) {
-    dataset.truth_file = truth.string();
-    findings.attempt([&] { read_truth(dataset, body_from_left); });
-  }
+  findings.attempt([&] { find_truth(dataset, folder, body_from_left); });
   return dataset;
 }
 

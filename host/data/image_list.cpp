@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
+#include <map>
 #include <set>
 
 #include "data/layout.hpp"
+#include "data/stamps.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
@@ -22,21 +23,6 @@ std::string digits_at(const std::string& text, std::size_t& at) {
   return digits;
 }
 
-/// Timestamp given by a name, if it can be one.
-std::optional<std::int64_t> stamp_of_name(const std::string& stem, const std::string& file) {
-  const bool is_number =
-      !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return is_digit(c) || c == '.'; });
-  const auto points = std::count(stem.begin(), stem.end(), '.');
-  if (!is_number || points > 1 || !is_digit(stem.front())) return std::nullopt;
-  if (points == 1) return parse_seconds(stem, file, 1);
-  switch (stem.size()) {
-    case 19: return parse_nanoseconds(stem, file, 1);
-    case 16: return parse_nanoseconds(stem + "000", file, 1);
-    case 13: return parse_nanoseconds(stem + "000000", file, 1);
-    default: return std::nullopt;
-  }
-}
-
 /// folder/name, or the same file next to the folder; empty if neither exists.
 std::string beside(const fs::path& folder, const char* name) {
   for (const auto& place : {folder / name, folder / ".." / name}) {
@@ -44,6 +30,23 @@ std::string beside(const fs::path& folder, const char* name) {
     if (fs::exists(place, ignored)) return place.string();
   }
   return {};
+}
+
+/// Gives every image its time: by its name where the rows state names, otherwise in order.
+void take_times(const TimeRows& rows, const std::string& file, const fs::path& folder, CameraImages& images) {
+  std::map<std::string, std::int64_t> by_name;
+  for (std::size_t i = 0; i < rows.names.size(); ++i)
+    by_name[fs::path(rows.names[i]).stem().string()] = rows.stamps_ns[i];
+  for (const std::string& image : images.files) {
+    const auto found = by_name.find(fs::path(image).stem().string());
+    if (found != by_name.end()) images.stamps_ns.push_back(found->second);
+  }
+  if (images.stamps_ns.size() == images.files.size()) return;
+  images.stamps_ns = rows.stamps_ns;
+  if (images.stamps_ns.size() != images.files.size()) {
+    fail(file, counted(images.stamps_ns.size(), "time"),
+         "one per image, for the " + counted(images.files.size(), "image") + " in " + folder.string());
+  }
 }
 
 }  // namespace
@@ -70,10 +73,13 @@ std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::str
   for (const auto& line : data_lines(file)) {
     const auto cells = split(line.text, ", \t");
     if (cells.size() != 2) fail(file, line.number, in_quotes(line.text), "timestamp [ns],filename");
-    list.emplace_back(parse_nanoseconds(cells[0], file, line.number), cells[1]);
+    const fs::path name = cells[1], place = name.parent_path();  // some lists state cam0/data/NAME
+    if ((!place.empty() && place.filename() != "data") || place.string().find("..") != std::string::npos)
+      fail(file, line.number, in_quotes(cells[1]), "the name of an image in data/");
+    list.emplace_back(parse_nanoseconds(cells[0], file, line.number), name.filename().string());
     if (!stamps.insert(list.back().first).second)
       fail(file, line.number, "timestamp " + cells[0] + " again", "each timestamp once");
-    if (fs::path(cells[1]).filename() != cells[1] || cells[1] == "..")
+    if (list.back().second == ".." || list.back().second.empty())
       fail(file, line.number, in_quotes(cells[1]), "the name of an image in data/");
   }
   if (list.empty()) fail(file, "no image", "rows of timestamp [ns],filename");
@@ -81,38 +87,23 @@ std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::str
 }
 
 std::vector<std::int64_t> read_times(const std::string& file) {
+  if (fs::path(file).extension() != ".csv") return read_time_rows(file).stamps_ns;
   std::vector<std::int64_t> stamps;
-  if (fs::path(file).extension() == ".csv") {
-    for (const auto& row : read_image_list(file)) stamps.push_back(row.first);
-    return stamps;
-  }
-  for (const auto& line : data_lines(file)) {
-    const auto cells = split(line.text);
-    if (cells.size() != 1) fail(file, line.number, in_quotes(line.text), "one time in seconds");
-    const std::int64_t stamp = parse_seconds(cells[0], file, line.number);
-    if (!stamps.empty() && stamp <= stamps.back())
-      fail(file, line.number, "timestamp " + format_seconds(stamp) + " after " + format_seconds(stamps.back()),
-           "increasing timestamps");
-    stamps.push_back(stamp);
-  }
-  if (stamps.empty()) fail(file, "no timestamps", "one in seconds on every line");
+  for (const auto& row : read_image_list(file)) stamps.push_back(row.first);
   return stamps;
 }
 
-std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns) {
-  std::vector<std::int64_t> periods;
-  for (std::size_t i = 1; i < stamps_ns.size(); ++i) periods.push_back(stamps_ns[i] - stamps_ns[i - 1]);
-  if (periods.empty()) return 0;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+/// Whether a data.csv lists images: an IMU's has other columns.
+bool lists_images(const std::string& file) {
+  const auto lines = data_lines(file);
+  return lines.empty() || split(lines[0].text, ", \t").size() <= 2;
 }
 
-CameraImages list_images(const fs::path& folder) {
+CameraImages list_images(const fs::path& folder, bool needs_stamps) {
   CameraImages images;
   std::vector<std::string> names = image_names(folder);
   const std::string list = beside(folder, "data.csv"), times = beside(folder, "times.txt");
-  if (!list.empty()) {
+  if (needs_stamps && !list.empty() && lists_images(list)) {
     images.stamps_from = list;
     for (const auto& [stamp, name] : read_image_list(list)) {
       images.stamps_ns.push_back(stamp);
@@ -124,20 +115,17 @@ CameraImages list_images(const fs::path& folder) {
   }
   std::sort(names.begin(), names.end(), comes_before);
   for (const auto& name : names) images.files.push_back((folder / name).string());
+  if (!needs_stamps) return images;
   if (!times.empty()) {
     images.stamps_from = times;
-    images.stamps_ns = read_times(times);
-    if (images.stamps_ns.size() != images.files.size()) {
-      fail(times, counted(images.stamps_ns.size(), "time"),
-           "one per image, for the " + counted(images.files.size(), "image") + " in " + folder.string());
-    }
+    take_times(read_time_rows(times), times, folder, images);
     return images;
   }
-  for (const auto& file : images.files) {
-    const auto stamp = stamp_of_name(fs::path(file).stem().string(), file);
-    if (!stamp) return {images.files, {}, {}};
-    images.stamps_ns.push_back(*stamp);
-  }
+  std::vector<std::string> stems;
+  for (const auto& file : images.files) stems.push_back(fs::path(file).stem().string());
+  const auto stamps = stamps_of_names(stems, folder.string());
+  if (!stamps) return images;
+  images.stamps_ns = *stamps;
   images.stamps_from = "the names in " + folder.string();
   return images;
 }

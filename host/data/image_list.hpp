@@ -13,8 +13,8 @@ namespace quadedge::data {
 /// refers to another folder
 std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file);
 
-/// Timestamps [ns] of a file with one row per frame, in its order: seconds, or EuRoC's format if the name ends in .csv.
-/// \throws DataError
+/// Timestamps [ns] of a file with one row per frame, in its order: read_time_rows(), or EuRoC's format if the name ends
+/// in .csv. \throws DataError
 std::vector<std::int64_t> read_times(const std::string& file);
 
 /// The images of one camera.
@@ -26,13 +26,9 @@ struct CameraImages {
 
 /// All images of a folder in natural order of their names ("img9" before "img10"). Timestamps come from data.csv (in
 /// which case only the listed images are used, in its order) or times.txt, in the folder or its parent; otherwise from
-/// the names, if every name is a plausible time: seconds with a decimal point, or integer nanoseconds (19 digits),
-/// microseconds (16) or milliseconds (13). \throws DataError for a folder without images, a list with a missing image,
-/// or a times.txt of another length
-CameraImages list_images(const std::filesystem::path& folder);
-
-/// Median period of timestamps [ns]; 0 for fewer than two.
-std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns);
+/// the names (stamps_of_names()). Without `needs_stamps` none of them is opened. \throws DataError for a folder without
+/// images, a list with a missing image, or a times.txt of another length
+CameraImages list_images(const std::filesystem::path& folder, bool needs_stamps = true);
 
 /// Natural order: digits in names are compared as numbers.
 bool comes_before(const std::string& a, const std::string& b);

@@ -11,10 +11,6 @@
 namespace quadedge::data {
 namespace {
 
-/// The road is visible from about 6 m, cars and kerbs beside the lane from 3 m: 127 to 129 px with KITTI's f and
-/// baseline. Semi-global matching finds 99.9 % of sequence 06 below 116 px.
-constexpr double kNearestRoadDepth = 3.0;  // m
-
 /// Folder of the sequence: `folder` itself, or the one named by --sequence below the root or below sequences/.
 fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
   if (is_kitti_recording(folder)) {

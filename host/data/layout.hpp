@@ -1,6 +1,6 @@
 #pragma once
-/// \file layout.hpp  Common parts of the readers of published layouts: kitti, euroc, eth3d_slam, eth3d_two_view,
-/// middlebury, viso2_quad.
+/// \file layout.hpp  Common parts of the readers of published layouts: kitti, kitti_raw, euroc, eth3d_slam,
+/// eth3d_two_view, middlebury, viso2_quad.
 
 #include <filesystem>
 #include <functional>
@@ -69,9 +69,20 @@ void check_image(const Image& image, const std::string& source, const PinholeCam
 /// Folder and files that a dataset's rig was read from, for messages.
 std::string calibration_of(const Dataset& dataset);
 
+/// The road is visible from about 6 m, cars and kerbs beside the lane from 3 m: 127 to 129 px with KITTI's f and
+/// baseline. Semi-global matching finds 99.9 % of sequence 06 below 116 px.
+constexpr double kNearestRoadDepth = 3.0;  // m
+
 bool is_kitti(const fs::path& folder);
 bool is_kitti_recording(const fs::path& folder);
 Dataset read_kitti_odometry(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_kitti_raw(const fs::path& folder);
+bool is_kitti_raw_drive(const fs::path& folder);
+Dataset read_kitti_raw(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_tartanair(const fs::path& folder);
+Dataset read_tartanair(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_paired_names(const fs::path& folder);
+Dataset read_paired_names(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 bool is_euroc(const fs::path& folder);
 Dataset read_euroc(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 bool is_eth3d_slam(const fs::path& folder);

@@ -14,7 +14,7 @@
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/saved_map.hpp"
+#include "quadedge/map.hpp"
 
 namespace quadedge {
 namespace {

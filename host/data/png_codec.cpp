@@ -22,7 +22,7 @@ using Reason = char[kLongestReason];
 
 void on_warning(png_structp, png_const_charp) {}
 
-void take_bytes(png_structp png, png_bytep target, std::size_t count) {
+void take_png_bytes(png_structp png, png_bytep target, std::size_t count) {
   auto& rest = *static_cast<std::string_view*>(png_get_io_ptr(png));
   if (count > rest.size()) png_error(png, "the file ends early");
   std::memcpy(target, rest.data(), count);
@@ -41,12 +41,12 @@ std::vector<png_bytep> rows_of(const cv::Mat& picture) {
   return rows;
 }
 
-class Decoder {
+class PngDecoder {
  public:
-  explicit Decoder(std::string_view bytes) : rest_(bytes) { png_set_read_fn(png_, &rest_, take_bytes); }
-  ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
+  explicit PngDecoder(std::string_view bytes) : rest_(bytes) { png_set_read_fn(png_, &rest_, take_png_bytes); }
+  ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngDecoder(const PngDecoder&) = delete;
+  PngDecoder& operator=(const PngDecoder&) = delete;
 
   cv::Mat picture() {
     if (!read_header()) throw std::runtime_error(reason_);
@@ -105,7 +105,7 @@ bool encode(png_structp png, png_infop info, const cv::Mat& picture, png_bytepp 
 
 }  // namespace
 
-cv::Mat decode_png(std::string_view bytes) { return Decoder(bytes).picture(); }
+cv::Mat decode_png(std::string_view bytes) { return PngDecoder(bytes).picture(); }
 
 std::string encode_png(const cv::Mat& picture) {
   std::string bytes;

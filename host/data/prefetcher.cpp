@@ -10,8 +10,8 @@
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
-#include "quadedge/side.hpp"
 
 namespace quadedge {
 namespace data {

@@ -8,12 +8,13 @@
 #include <unistd.h>
 #include <utility>
 
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/picture_pipe.hpp"
 #include "data/source_line.hpp"
 #include "data/split_views.hpp"
+#include "data/stamps.hpp"
 #include "data/text.hpp"
 #include "data/video_file.hpp"
 #include "data/video_stream.hpp"
@@ -150,13 +151,14 @@ std::vector<std::int64_t> stamps_of_images(const StereoSource& source, const Cam
 }
 
 /// The images of a folder, or a single image file.
-CameraImages images_of(const std::string& place) {
-  if (fs::is_directory(place)) return list_images(place);
+CameraImages images_of(const std::string& place, bool needs_stamps) {
+  if (fs::is_directory(place)) return list_images(place, needs_stamps);
   return {{place}, {}, {}};
 }
 
 Dataset open_images(const StereoSource& source, Findings& findings) {
-  const CameraImages left = images_of(source.left), right = images_of(source.right);
+  const bool needs_stamps = source.times.empty();
+  const CameraImages left = images_of(source.left, needs_stamps), right = images_of(source.right, needs_stamps);
   if (left.files.size() > right.files.size()) {
     check_count(source.right, right.files.size(), "images", left.files.size(), source.left);
   }

@@ -15,6 +15,10 @@ constexpr const char* kKittiColumns = "the 3 x 4 matrix world_from_left, row by 
 /// rotation.
 constexpr double kRotationTolerance = 1e-3;
 
+/// Whether the stamps of a TUM file are nanoseconds, as ORB-SLAM3 writes them for EuRoC: no clock shows so many
+/// seconds.
+bool are_nanoseconds(const std::string& word) { return word.find_first_of(".eE") >= 16 && word.size() >= 16; }
+
 StampedPose tum_pose(const data::Line& line, const std::string& path) {
   const auto values = data::parse_row(line, path, 8, kTumColumns);
   const Eigen::Quaterniond rotation(values[7], values[4], values[5], values[6]);
@@ -23,13 +27,42 @@ StampedPose tum_pose(const data::Line& line, const std::string& path) {
                "a unit quaternion qx qy qz qw");
   }
   StampedPose pose;
-  pose.stamp_ns = data::parse_seconds(data::split(line.text)[0], path, line.number);
+  const std::string stamp = data::split(line.text)[0];
+  pose.stamp_ns = are_nanoseconds(stamp) ? data::parse_nanoseconds(stamp.substr(0, stamp.find('.')), path, line.number)
+                                         : data::parse_seconds(stamp, path, line.number);
   pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
   pose.world_from_left.translation() << values[1], values[2], values[3];
   return pose;
 }
 
 }  // namespace
+
+namespace data {
+
+Trajectory read_euroc_poses(const std::string& file) {
+  const std::string expected = "timestamp [ns], p_x, p_y, p_z, q_w, q_x, q_y, q_z, ...";
+  constexpr std::size_t kColumns = 8;
+  Trajectory trajectory;
+  for (const auto& line : data_lines(file)) {
+    const auto cells = split(line.text, ", \t\r");
+    if (cells.size() < kColumns) fail(file, line.number, in_quotes(line.text), expected);
+    double v[kColumns];
+    for (std::size_t i = 1; i < kColumns; ++i) v[i] = parse_number(cells[i], file, line.number, expected);
+    const Eigen::Quaterniond rotation(v[4], v[5], v[6], v[7]);
+    if (std::abs(rotation.norm() - 1) > kRotationTolerance) {
+      fail(file, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
+           "a unit quaternion q_w q_x q_y q_z");
+    }
+    StampedPose pose;
+    pose.stamp_ns = parse_nanoseconds(cells[0].substr(0, cells[0].find('.')), file, line.number);
+    pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
+    pose.world_from_left.translation() << v[1], v[2], v[3];
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+}  // namespace data
 
 Trajectory read_tum(const std::string& path) {
   Trajectory trajectory;
@@ -97,10 +130,21 @@ void write_kitti(const std::string& path, const Trajectory& trajectory) {
 Trajectory read_trajectory(const std::string& path) {
   const auto lines = data::data_lines(path);
   if (lines.empty()) data::fail(path, "no pose", std::string("rows of ") + kTumColumns + " or of " + kKittiColumns);
+  if (lines[0].text.find(',') != std::string::npos) {
+    Trajectory trajectory = data::read_euroc_poses(path);
+    for (std::size_t i = 1; i < trajectory.size(); ++i) {
+      if (trajectory[i].stamp_ns > trajectory[i - 1].stamp_ns) continue;
+      data::fail(path, lines[i].number,
+                 "timestamp " + std::to_string(trajectory[i].stamp_ns) + " after " +
+                     std::to_string(trajectory[i - 1].stamp_ns),
+                 "increasing timestamps");
+    }
+    return trajectory;
+  }
   const std::size_t columns = data::split(lines[0].text).size();
   if (columns == 8) return read_tum(path);
   if (columns == 12) return read_kitti(path);
-  data::fail(path, lines[0].number, std::to_string(columns) + " columns", "8 (TUM) or 12 (KITTI)");
+  data::fail(path, lines[0].number, std::to_string(columns) + " columns", "8 (TUM), 12 (KITTI), or EuRoC's CSV");
 }
 
 }  // namespace quadedge

@@ -9,6 +9,9 @@
 
 namespace quadedge::data {
 
+/// Poses of a CSV file as EuRoC, TUM-VI and VINS-Fusion write it: timestamp [ns], position, quaternion w x y z, and
+/// columns that are not used. \throws DataError
+Trajectory read_euroc_poses(const std::string& file);
 /// First line of a TUM file: a comment with column names and units.
 std::string tum_header();
 /// The comment that precedes the first pose of a segment other than the first.

@@ -1,5 +1,6 @@
 #include "data/yaml_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -26,6 +27,7 @@ void check_keys(const YAML::Node& node, const std::string& file, int levels = 2)
 YamlMap::YamlMap(const std::string& file, const std::string& what) : file_(file), what_(what) {
   std::string text = read_text(file);
   if (text.rfind("%YAML:", 0) == 0) text[0] = '#';  // not a valid YAML directive, which would be "%YAML 1.0"
+  if (text.rfind('{', 0) == 0) std::replace(text.begin(), text.end(), '\t', ' ');  // JSON may be indented with tabs
   try {
     node_ = YAML::Load(text);
     check_keys(node_, file);
@@ -59,6 +61,25 @@ YamlMap YamlMap::map(const std::string& key) const {
   return {node, file_, what_, name(key) + "."};
 }
 
+std::vector<YamlMap::Item> YamlMap::items(const std::string& key) const {
+  const YAML::Node list = entry(key);
+  if (!list.IsSequence()) complain(key, "no list", "a list of maps");
+  std::vector<Item> items;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const bool is_named = list[i].IsSequence() && list[i].size() == 2 && list[i][0].IsScalar();
+    const YAML::Node inner = is_named ? list[i][1] : list[i];
+    if (!inner.IsMap()) complain(key, "an item without entries", "a list of maps");
+    const std::string label = is_named ? list[i][0].Scalar() : std::to_string(i);
+    items.emplace_back(label, YamlMap(inner, file_, what_, name(key) + "[" + label + "]."));
+  }
+  return items;
+}
+
+double YamlMap::number(const std::string& key) const {
+  const std::string text = word(key);
+  return parse_number(text, file_, line(key), name(key));
+}
+
 std::string YamlMap::word(const std::string& key) const {
   const YAML::Node word = entry(key);
   return word.IsScalar() ? word.Scalar() : std::string();
@@ -89,6 +110,54 @@ std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) 
   return values;
 }
 
+YamlMatrix YamlMap::matrix(const std::string& key) const {
+  const YAML::Node node = entry(key);
+  const std::string expected = name(key) + ": numbers";
+  YamlMatrix matrix;
+  if (node.IsMap()) {
+    const YamlMap inner = map(key);
+    const ImageSize shape = inner.size("cols", "rows");
+    matrix.rows = static_cast<std::size_t>(shape.height);
+    matrix.columns = static_cast<std::size_t>(shape.width);
+    matrix.values = inner.numbers("data", matrix.rows * matrix.columns);
+  } else if (node.IsSequence() && node.size() > 0 && node[0].IsSequence()) {
+    matrix.rows = node.size();
+    matrix.columns = node[0].size();
+    for (const YAML::Node& row : node) {
+      if (!row.IsSequence() || row.size() != matrix.columns) complain(key, "rows of unequal length", expected);
+      add_numbers(row, expected, matrix.values);
+    }
+  } else if (node.IsSequence()) {
+    add_numbers(node, expected, matrix.values);
+  } else {
+    for (const std::string& token : split(node.IsScalar() ? node.Scalar() : std::string()))
+      matrix.values.push_back(parse_number(token, file_, line(key), expected));
+  }
+  return matrix;
+}
+
+std::vector<double> YamlMap::matrix(const std::string& key, std::size_t rows, std::size_t columns) const {
+  const std::string shape = std::to_string(rows) + " x " + std::to_string(columns);
+  YamlMatrix found = matrix(key);
+  if (found.rows > 0 && (found.rows != rows || found.columns != columns))
+    complain(key, "a matrix of " + std::to_string(found.rows) + " x " + std::to_string(found.columns), shape);
+  if (found.values.size() != rows * columns)
+    complain(key, counted(found.values.size(), "number"), shape + " numbers, row by row");
+  return std::move(found.values);
+}
+
+Eigen::Matrix3d YamlMap::rotation(const std::string& key) const {
+  const auto values = matrix(key, 3, 3);
+  return nearest_rotation(Eigen::Map<const Eigen::Matrix3d>(values.data()).transpose(),
+                          file_ + ":" + std::to_string(line(key)) + " (" + name(key) + ")");
+}
+
+Eigen::Vector3d YamlMap::vector(const std::string& key) const {
+  const auto values = matrix(key).values;
+  if (values.size() != 3) complain(key, counted(values.size(), "number"), "3");
+  return {values[0], values[1], values[2]};
+}
+
 ImageSize YamlMap::checked_size(double columns, double rows, const std::string& key) const {
   for (const double side : {columns, rows}) {
     if (side >= 1 && side <= kLargestImageSide && side == std::floor(side)) continue;
@@ -104,30 +173,14 @@ ImageSize YamlMap::size(const std::string& key) const {
 }
 
 ImageSize YamlMap::size(const std::string& columns, const std::string& rows) const {
-  const auto side = [&](const std::string& key) {
-    const std::string text = word(key);  // complains about a missing entry, which has no line
-    return parse_number(text, file_, line(key), name(key));
-  };
-  const double width = side(columns), height = side(rows);
+  const double width = number(columns), height = number(rows);
   return checked_size(width, height, columns);
 }
 
 Eigen::Isometry3d YamlMap::transform(const std::string& key) const {
-  const YAML::Node list = entry(key);
-  const std::string expected = name(key) + ": a 4 x 4 matrix, row by row";
-  std::vector<double> values;
-  if (!list.IsSequence()) complain(key, "no list", expected);
-  if (list.size() > 0 && list[0].IsSequence()) {
-    for (const YAML::Node& row : list) {
-      if (!row.IsSequence() || row.size() != 4) complain(key, "a row without four numbers", expected);
-      add_numbers(row, expected, values);
-    }
-  } else {
-    add_numbers(list, expected, values);
-  }
-  if (values.size() != 16) complain(key, std::to_string(values.size()) + " numbers", expected);
+  const auto values = matrix(key, 4, 4);
   if (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1)
-    complain(key, "a last row other than 0 0 0 1", expected);
+    complain(key, "a last row other than 0 0 0 1", name(key) + ": a 4 x 4 matrix, row by row");
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 3; ++i) {

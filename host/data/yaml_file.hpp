@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <utility>
 #include <vector>
 #include <yaml-cpp/yaml.h>
 
@@ -10,13 +11,24 @@
 
 namespace quadedge::data {
 
+/// Numbers row by row, and their shape where the file states one.
+struct YamlMatrix {
+  std::vector<double> values;
+  std::size_t rows = 0, columns = 0;  ///< 0 x 0: a plain list
+};
+
 /// A map of a YAML file.
 class YamlMap {
  public:
+  using Item = std::pair<std::string, YamlMap>;
+
   /// Reads a file that contains a map. `what`: expected content, for messages ("a Kalibr camera chain"). A first line
   /// "%YAML:1.0", as written by OpenCV, is skipped. \throws DataError for a file that is not YAML, is not a map, or
   /// contains an entry twice
   YamlMap(const std::string& file, const std::string& what);
+  /// A map that another reader has made of the file.
+  YamlMap(const YAML::Node& node, std::string file, std::string what, std::string prefix = "")
+      : node_(node), file_(std::move(file)), what_(std::move(what)), prefix_(std::move(prefix)) {}
 
   const std::string& file() const { return file_; }
   /// The same map with another expected content.
@@ -30,23 +42,32 @@ class YamlMap {
 
   // All of these \throw DataError if an entry is missing or of another kind.
   YamlMap map(const std::string& key) const;
+  /// The maps of a list, each with its position, or with what stands before it in [name, map].
+  std::vector<Item> items(const std::string& key) const;
   std::string word(const std::string& key) const;
+  double number(const std::string& key) const;
+  /// The number, or `otherwise` if there is no such entry.
+  double number_or(const std::string& key, double otherwise) const { return has(key) ? number(key) : otherwise; }
   std::vector<double> numbers(const std::string& key) const;
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
+  /// A list, a list of rows, OpenCV's or ROS's {rows, cols, data}, or numbers in a line.
+  YamlMatrix matrix(const std::string& key) const;
+  /// The same, of this shape or a plain list of as many numbers.
+  std::vector<double> matrix(const std::string& key, std::size_t rows, std::size_t columns) const;
+  /// The nearest rotation to a 3 x 3 matrix. \throws DataError for one that is not orthonormal
+  Eigen::Matrix3d rotation(const std::string& key) const;
+  Eigen::Vector3d vector(const std::string& key) const;
   /// "[columns, rows]"
   ImageSize size(const std::string& key) const;
   /// Columns and rows in separate entries.
   ImageSize size(const std::string& columns, const std::string& rows) const;
-  /// A 4 x 4 matrix: sixteen numbers in one list, or four lists of four. Its 3 x 3 part is replaced by the nearest
-  /// rotation.
+  /// A 4 x 4 matrix. Its 3 x 3 part is replaced by the nearest rotation.
   Eigen::Isometry3d transform(const std::string& key) const;
 
   /// \throws DataError about an existing entry.
   [[noreturn]] void complain(const std::string& key, const std::string& found, const std::string& expected) const;
 
  private:
-  YamlMap(const YAML::Node& node, std::string file, std::string what, std::string prefix)
-      : node_(node), file_(std::move(file)), what_(std::move(what)), prefix_(std::move(prefix)) {}
   YAML::Node entry(const std::string& key) const;
   void add_numbers(const YAML::Node& list, const std::string& expected, std::vector<double>& values) const;
   ImageSize checked_size(double columns, double rows, const std::string& key) const;

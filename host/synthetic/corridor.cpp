@@ -1,6 +1,6 @@
 /// \file corridor.cpp  The scene "corridor". Its frame: x right, y down, z along the corridor; the origin is the start
 /// of the path "ellipse", at the height of a handheld camera.
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/cladding.hpp"
 #include "synthetic/hash.hpp"
 #include "synthetic/scene_builder.hpp"

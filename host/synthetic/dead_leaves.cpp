@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/gradient_noise.hpp"
 #include "synthetic/hash.hpp"
 

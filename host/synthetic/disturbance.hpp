@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "quadedge/camera.hpp"
-#include "quadedge/side.hpp"
 #include "synthetic/path.hpp"
 #include "synthetic/render.hpp"
 #include "synthetic/shapes.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/cladding.hpp"
 #include "synthetic/hash.hpp"
 #include "synthetic/scene_builder.hpp"

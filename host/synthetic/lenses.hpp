@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "quadedge/lens.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge::synthetic {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/hash.hpp"
 
 namespace quadedge::synthetic {

@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "common/lens_mapping.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge::synthetic {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "quadedge/lens.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/shapes.hpp"
 
 namespace quadedge::synthetic {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/hash.hpp"
 
 namespace quadedge::synthetic {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "synthetic/hash.hpp"
 #include "synthetic/scene_builder.hpp"
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <sstream>
 
-#include "common/rounded_transform.hpp"
+#include "common/calibration.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "synthetic/disturbance.hpp"
 #include "synthetic/hash.hpp"
 #include "synthetic/lenses.hpp"

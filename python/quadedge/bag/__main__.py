@@ -32,6 +32,13 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--left", default="", metavar="TOPIC",
                         help="image topic of the left camera; by default found by its name")
     parser.add_argument("--right", default="", metavar="TOPIC", help="image topic of the right camera")
+    parser.add_argument("--left-info", default="", metavar="TOPIC",
+                        help="camera_info of the left camera; by default the one beside its images")
+    parser.add_argument("--right-info", default="", metavar="TOPIC", help="camera_info of the right camera")
+    parser.add_argument("--rectified", action="store_true", default=None,
+                        help="the images are rectified: P of camera_info describes them, not K and D")
+    parser.add_argument("--sort-stamps", action="store_true",
+                        help="take the images in the order of their stamps; by default one that goes back is refused")
     parser.add_argument("--calibration", metavar="FILE[,FILE]",
                         help="calibration to use instead of the recorded camera_info; one file, or left and right")
     parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
@@ -86,12 +93,18 @@ def _run_program(recording: Recording, options: argparse.Namespace, more: list[s
 
 
 def _run(options: argparse.Namespace, more: list[str]) -> int:
-    recording = open_bag(options.bag, left=options.left, right=options.right, calibration=options.calibration,
-                         tolerance_ns=round(options.tolerance * 1e6))
+    recording = open_bag(options.bag, left=options.left, right=options.right, left_info=options.left_info,
+                         right_info=options.right_info, calibration=options.calibration,
+                         tolerance_ns=round(options.tolerance * 1e6), sort_stamps=options.sort_stamps,
+                         rectified=options.rectified)
     print(f"recording  {recording.name}\nleft       {recording.topics.left}\nright      {recording.topics.right}\n"
           f"frames     {recording.pairing}", flush=True)
     if options.output is None:
+        next(iter(recording))  # images and camera_info that a run would refuse are refused here, too
+        if recording.has_calibration:
+            recording.rig  # noqa: B018
         return 0
+    recording.rig  # noqa: B018  before the program starts: its messages would name a temporary file
     code = _run_program(recording, options, more)
     if code in (0, _TOO_FEW_TRACKED):
         file = write_mcap(Path(options.output) / "odometry", read_frames(options.output),

@@ -4,7 +4,7 @@ import json
 import tempfile
 from pathlib import Path
 
-from .. import Rig
+from .. import DataError, Rig
 
 
 def _field(message, name: str) -> list[float]:
@@ -31,18 +31,28 @@ def _as_file(message, rectified: bool) -> str:
     })  # fmt: skip
 
 
-def write_calibration(folder: Path, left, right, rectified: bool) -> tuple[Path, Path]:
-    """Writes the CameraInfo messages of both cameras as two calibration files of ROS.
+def write_calibration(folder: Path, infos: tuple, rectified: bool) -> tuple[Path, Path]:
+    """Writes the CameraInfo messages of the left and right camera as two calibration files of ROS.
 
     rectified: True if the images are those of the projection matrix, not those recorded by the camera.
     """
     files = (folder / "left camera_info.yaml", folder / "right camera_info.yaml")
-    for file, message in zip(files, (left, right)):
+    for file, message in zip(files, infos):
         file.write_text(_as_file(message, rectified))
     return files
 
 
-def rig_of(left, right, rectified: bool, max_value: int) -> Rig:
-    """The rig described by two CameraInfo messages. max_value: of a saturated pixel."""
+def rig_of(infos: tuple, names: list[str], rectified: bool, max_value: int) -> Rig:
+    """The rig described by two CameraInfo messages. max_value: of a saturated pixel.
+
+    names: of the messages, for error messages. Raises DataError for a rig that a stereo camera cannot be.
+    """
     with tempfile.TemporaryDirectory() as folder:
-        return Rig.from_file(write_calibration(Path(folder), left, right, rectified), max_value=max_value)
+        files = write_calibration(Path(folder), infos, rectified)
+        try:
+            return Rig.from_file(files, max_value=max_value)
+        except DataError as error:
+            text = str(error)
+            for file, name in zip(files, names):
+                text = text.replace(str(file), name)
+            raise DataError(text) from None

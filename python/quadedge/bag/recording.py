@@ -38,14 +38,17 @@ class Recording:
     name: its paths. topics: the topics of both cameras. pairing: which images form pairs, and which were dropped.
     """
 
-    def __init__(self, paths: Sequence[Path], left: str, right: str, calibration, tolerance_ns: int):
+    def __init__(self, paths: Sequence[Path], topics: StereoTopics, calibration, tolerance_ns: int,
+                 sort_stamps: bool, rectified: bool | None):
         self.name = ", ".join(str(path) for path in paths)
         self._paths = paths
+        self._sort_stamps = sort_stamps
         self._calibration = calibration
         self._recorded_stamps = False
         with self._reader() as reader:
             kinds = {connection.topic: connection.msgtype for connection in reader.connections}
-            self.topics: StereoTopics = find_topics(kinds, self.name, left, right)
+            self.topics: StereoTopics = find_topics(kinds, self.name, topics)
+            self.rectified: bool = self.topics.names_rectified if rectified is None else rectified
             self._infos = self._first_infos(reader)
             left_ns, right_ns = self._stamps(reader)
         self._left_ns = left_ns
@@ -97,7 +100,20 @@ class Recording:
             recorded[topic].append(recorded_ns)
         self._recorded_stamps = not any(stamps[self.topics.left]) and not any(stamps[self.topics.right])
         chosen = recorded if self._recorded_stamps else stamps
+        if not self._sort_stamps:
+            for topic, list_ns in chosen.items():
+                self._refuse_falling(topic, list_ns)
         return chosen[self.topics.left], chosen[self.topics.right]
+
+    def _refuse_falling(self, topic: str, stamps_ns: list[int]) -> None:
+        """Raises DataError for a stamp below an earlier one: a clock that was set, or recordings that were merged."""
+        last = 0
+        for number, stamp in enumerate(stamps_ns):
+            if 0 < stamp < last:
+                raise DataError(f"{self.name}: found stamp {stamp} ns after {last} ns in message {number} of {topic}, "
+                                "expected increasing stamps: was a clock set, or a simulation restarted? "
+                                "--sort-stamps (sort_stamps=True) takes the images in the order of their stamps")
+            last = max(last, stamp)
 
     @property
     def stamps_ns(self) -> list[int]:
@@ -113,19 +129,25 @@ class Recording:
                             "images, or a calibration file")
         return self._infos[self.topics.left_info], self._infos[self.topics.right_info]
 
+    @property
+    def has_calibration(self) -> bool:
+        """True if there is a rig: from a given calibration, or from camera_info of both cameras."""
+        return self._calibration is not None or len(self._infos) == 2
+
     @cached_property
     def rig(self) -> Rig:
         """The rig from the calibration given to open_bag(), or from camera_info. Raises DataError without either."""
         max_value = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
         if self._calibration is not None:
             return Rig.from_file(self._calibration, max_value=max_value)
-        return rig_of(*self._camera_infos(), self.topics.rectified, max_value)
+        infos, topics = self._camera_infos(), (self.topics.left_info, self.topics.right_info)
+        return rig_of(infos, [f"{self.name}: {topic}" for topic in topics], self.rectified, max_value)
 
     def write_calibration(self, folder: Path) -> str:
         """The calibration as ``quadedge run --calibration`` takes it; camera_info is written to files in ``folder``."""
         given = self._calibration
         if given is None:
-            given = write_calibration(folder, *self._camera_infos(), self.topics.rectified)
+            given = write_calibration(folder, self._camera_infos(), self.rectified)
         return ",".join(map(str, given)) if isinstance(given, (tuple, list)) else str(given)
 
     def __len__(self) -> int:
@@ -156,15 +178,20 @@ class Recording:
                         grey_image(right, f"{self.name}: {self.topics.right} at {stamp_ns} ns"))
 
 
-def open_bag(path: str | PathLike | Sequence[str | PathLike], *, left: str = "", right: str = "", calibration=None,
-             tolerance_ns: int = TOLERANCE_NS) -> Recording:
+def open_bag(path: str | PathLike | Sequence[str | PathLike], *, left: str = "", right: str = "", left_info: str = "",
+             right_info: str = "", calibration=None, tolerance_ns: int = TOLERANCE_NS, sort_stamps: bool = False,
+             rectified: bool | None = None) -> Recording:
     """Opens a stereo recording: one or several ``.bag`` files of ROS 1, a ROS 2 folder, or an ``.mcap`` file.
 
     left, right: image topics, of type ``sensor_msgs/Image`` or ``CompressedImage``; by default found by their names.
-    calibration: files as for Rig.from_file(), instead of the recorded camera_info. tolerance_ns: largest difference
-    between the stamps of a pair [ns]; images without a partner are dropped and counted in ``Recording.pairing``.
+    left_info, right_info: their topics of ``sensor_msgs/CameraInfo``, by default beside the images. calibration: files
+    as for Rig.from_file(), instead of the recorded camera_info. tolerance_ns: largest difference between the stamps of
+    a pair [ns]; images without a partner are dropped and counted in ``Recording.pairing``. sort_stamps: takes images in
+    the order of their stamps; by default a stamp that goes back is refused. rectified: whether the images are those of
+    the projection matrix P, not those of K and D; by default only if their topics say so.
 
     Raises DataError for a path that is not a readable recording or has no stereo topics, ImportError without rosbags.
     """
     paths = [path] if isinstance(path, (str, PathLike)) else list(path)
-    return Recording([Path(one) for one in paths], left, right, calibration, tolerance_ns)
+    topics = StereoTopics(left, right, left_info, right_info)
+    return Recording([Path(one) for one in paths], topics, calibration, tolerance_ns, sort_stamps, rectified)

@@ -10,7 +10,8 @@ CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 
 # Parts of topic names that distinguish left from right.
 _SIDES = (("left", "right"), ("cam0", "cam1"), ("cam_0", "cam_1"), ("camera0", "camera1"), ("camera_0", "camera_1"),
-          ("infra1", "infra2"), ("image_0", "image_1"))
+          ("infra1", "infra2"), ("image_0", "image_1"), ("fisheye1", "fisheye2"), ("camera1", "camera2"),
+          ("stereo_l", "stereo_r"), ("Infrared_1", "Infrared_2"), ("Fisheye_1", "Fisheye_2"))
 _NO_GREY = re.compile(r"depth|disparity|compressedDepth|theora|mask|label")
 
 
@@ -24,8 +25,8 @@ class StereoTopics:
     right_info: str = ""
 
     @property
-    def rectified(self) -> bool:
-        """True if the images are rectified, as named by image_proc."""
+    def names_rectified(self) -> bool:
+        """True if the topics' names say, as those of image_proc, that the images are rectified."""
         return "rect" in "/".join(self.left.split("/")[-2:])
 
 
@@ -39,12 +40,13 @@ def _partner(topic: str, kinds: dict[str, str]) -> str:
 
 
 def _info_of(topic: str, kinds: dict[str, str]) -> str:
-    """The camera_info topic beside an image topic or one level above (``image_raw/compressed``)."""
+    """The camera_info topic beside an image topic or above (``image_raw/compressed``; realsense-viewer's info/)."""
     folder = topic
     while "/" in folder.strip("/"):
         folder = folder.rsplit("/", 1)[0]
-        if kinds.get(folder + "/camera_info") == CAMERA_INFO:
-            return folder + "/camera_info"
+        for name in ("/camera_info", "/info/camera_info"):
+            if kinds.get(folder + name) == CAMERA_INFO:
+                return folder + name
     return ""
 
 
@@ -58,12 +60,22 @@ def _listing(kinds: dict[str, str]) -> str:
     return ", ".join(f"{topic} ({kind})" for topic, kind in sorted(kinds.items())) or "nothing"
 
 
-def find_topics(kinds: dict[str, str], name: str, left: str = "", right: str = "") -> StereoTopics:
+def _with_infos(left: str, right: str, given: StereoTopics, kinds: dict[str, str], name: str) -> StereoTopics:
+    """Completes a pair of image topics by those of camera_info: the given ones, or those beside the images."""
+    for topic in (given.left_info, given.right_info):
+        if topic and kinds.get(topic) != CAMERA_INFO:
+            raise DataError(f"{name}: found no camera_info topic {topic}, expected one; there are {_listing(kinds)}")
+    return StereoTopics(left, right, given.left_info or _info_of(left, kinds),
+                        given.right_info or _info_of(right, kinds))
+
+
+def find_topics(kinds: dict[str, str], name: str, given: StereoTopics = StereoTopics("", "")) -> StereoTopics:
     """Finds the two cameras among the topics of a recording.
 
-    kinds: message type by topic. name: of the recording, for error messages. left, right: the topics chosen by the
-    user, both or neither. Raises DataError if there is no pair of cameras or more than one.
+    kinds: message type by topic. name: of the recording, for error messages. given: the topics chosen by the user;
+    of the images both or neither. Raises DataError if there is no pair of cameras or more than one.
     """
+    left, right = given.left, given.right
     if bool(left) != bool(right):
         raise DataError(f"{name}: found one image topic, expected both, left and right, or neither")
     if left:
@@ -71,7 +83,7 @@ def find_topics(kinds: dict[str, str], name: str, left: str = "", right: str = "
             if kinds.get(topic) not in IMAGES:
                 found = f"the topic {topic} of {kinds[topic]}" if topic in kinds else f"no topic {topic}"
                 raise DataError(f"{name}: found {found}, expected an image topic; there are {_listing(kinds)}")
-        return StereoTopics(left, right, _info_of(left, kinds), _info_of(right, kinds))
+        return _with_infos(left, right, given, kinds, name)
     images = {topic: kind for topic, kind in kinds.items() if kind in IMAGES and not _NO_GREY.search(topic)}
     pairs = [(topic, other) for topic in images if (other := _partner(topic, images))]
     if not pairs:
@@ -83,4 +95,4 @@ def find_topics(kinds: dict[str, str], name: str, left: str = "", right: str = "
         choices = "; ".join(f"{one} with {other}" for one, other in sorted(pairs))
         raise DataError(f"{name}: found several pairs of cameras ({choices}), expected one; choose it with --left and "
                         "--right (left=, right=)")
-    return StereoTopics(*chosen, _info_of(chosen[0], kinds), _info_of(chosen[1], kinds))
+    return _with_infos(*chosen, given, kinds, name)

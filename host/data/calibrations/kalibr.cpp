@@ -1,10 +1,10 @@
-/// \file calibration_kalibr.cpp  Kalibr's camera chain, camchain.yaml: cam0, cam1 ... with T_cn_cnm1, the transform of
+/// \file kalibr.cpp  Kalibr's camera chain, camchain.yaml: cam0, cam1 ... with T_cn_cnm1, the transform of
 /// points from the previous camera to this one, or T_cam_imu (from the IMU to the camera), or T_imu_cam, which OpenVINS
 /// writes instead. The first two cameras are used, left first.
 
 #include <sstream>
 
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
@@ -30,9 +30,9 @@ void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& ov
 
 }  // namespace
 
-StereoCalibration read_kalibr_chain(const YamlMap& chain) {
+StatedCalibration read_kalibr_chain(const YamlMap& chain) {
   const YamlMap left = chain.map("cam0"), right = chain.map("cam1");
-  StereoCalibration calibration;
+  StatedCalibration calibration;
   calibration.left = read_named_lens(left, "distortion_coeffs");
   calibration.right = read_named_lens(right, "distortion_coeffs");
   const auto left_from_imu = camera_from_imu(left), right_from_imu = camera_from_imu(right);

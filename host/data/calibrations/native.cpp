@@ -1,38 +1,33 @@
-/// \file calibration_native.cpp  The program's own calibration format: ten entries, exact numbers.
+/// \file native.cpp  The program's own calibration format: ten entries, exact numbers.
 
 #include <charconv>
 
-#include "common/rounded_transform.hpp"
+#include "common/calibration.hpp"
 #include "data/atomic_file.hpp"
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 
 namespace quadedge {
 namespace data {
 namespace {
 
-constexpr LensModel kModels[] = {LensModel::radial_tangential, LensModel::equidistant, LensModel::field_of_view,
-                                 LensModel::double_sphere, LensModel::omnidirectional};
+constexpr LensModel kModels[] = {LensModel::radial_tangential, LensModel::equidistant,      LensModel::field_of_view,
+                                 LensModel::double_sphere,     LensModel::extended_unified, LensModel::omnidirectional};
 
-Lens read_lens(const YamlMap& file, const std::string& side) {
+StatedLens read_lens(const YamlMap& file, const std::string& side) {
   const std::string model = file.word(side + "model");
-  Lens lens;
+  StatedLens stated(file.file(), side + "intrinsics", side + "coefficients");
+  Lens& lens = stated.lens;
   const auto* found =
       std::find_if(std::begin(kModels), std::end(kModels), [&](LensModel each) { return model == to_string(each); });
   if (found == std::end(kModels))
-    file.complain(side + "model", in_quotes(model), "radtan, equidistant, fov, double-sphere or omni");
+    file.complain(side + "model", in_quotes(model), "radtan, equidistant, fov, double-sphere, eucm or omni");
   lens.model = *found;
   const ImageSize size = file.size(side + "size");
   const auto k = file.numbers(side + "intrinsics", 4);
   lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
   lens.parameters = file.numbers(side + "coefficients");
-  check_lens(lens, file.file(), side + "intrinsics", side + "coefficients");
-  return lens;
-}
-
-Eigen::Vector3d read_vector(const YamlMap& file, const std::string& key) {
-  const auto values = file.numbers(key, 3);
-  return {values[0], values[1], values[2]};
+  return stated;
 }
 
 /// The shortest decimal number that reads back as the same double.
@@ -58,12 +53,12 @@ std::string lens_lines(const Lens& lens, const std::string& side) {
 
 }  // namespace
 
-StereoCalibration read_native_calibration(const YamlMap& file) {
-  StereoCalibration calibration;
+StatedCalibration read_native_calibration(const YamlMap& file) {
+  StatedCalibration calibration;
   calibration.left = read_lens(file, "left_");
   calibration.right = read_lens(file, "right_");
-  calibration.right_from_left.linear() = rotation_of_vector(read_vector(file, "rotation"), file.file() + " (rotation)");
-  calibration.right_from_left.translation() = read_vector(file, "translation");
+  calibration.right_from_left.linear() = rotation_of_vector(file.vector("rotation"), file.file() + " (rotation)");
+  calibration.right_from_left.translation() = file.vector("translation");
   return calibration;
 }
 

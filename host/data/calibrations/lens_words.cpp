@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -15,7 +15,8 @@ std::size_t leading_numbers(const std::string& camera_model, const YamlMap& came
   if (camera_model == "pinhole") return 0;
   if (camera_model == "omni") return 1;  // xi
   if (camera_model == "ds") return 2;    // xi alpha
-  camera.complain("camera_model", in_quotes(camera_model), "pinhole, omni or ds");
+  if (camera_model == "eucm") return 2;  // alpha beta
+  camera.complain("camera_model", in_quotes(camera_model), "pinhole, omni, ds or eucm");
 }
 
 LensModel distortion_of(const std::string& word, const YamlMap& camera) {
@@ -27,11 +28,13 @@ LensModel distortion_of(const std::string& word, const YamlMap& camera) {
 
 }  // namespace
 
-Lens read_named_lens(const YamlMap& camera, const std::string& coefficients) {
+StatedLens read_named_lens(const YamlMap& camera, const std::string& coefficients) {
   const std::string model = camera.word("camera_model");
   const std::size_t leading = leading_numbers(model, camera);
-  const std::string word = camera.word("distortion_model");
-  Lens lens;
+  // Kalibr writes no distortion model behind ds and eucm in some versions.
+  const std::string word = leading == 2 && !camera.has("distortion_model") ? "none" : camera.word("distortion_model");
+  StatedLens stated(camera.file(), camera.name("intrinsics"), camera.name(coefficients));
+  Lens& lens = stated.lens;
   lens.model = distortion_of(word, camera);
   const auto intrinsics = camera.numbers("intrinsics", leading + 4);
   const ImageSize size = camera.size("resolution");
@@ -43,13 +46,12 @@ Lens read_named_lens(const YamlMap& camera, const std::string& coefficients) {
     if (!radial) camera.complain("distortion_model", in_quotes(word), "radtan or none behind camera_model omni");
     lens.model = LensModel::omnidirectional;
     lens.parameters.insert(lens.parameters.begin(), intrinsics[0]);
-  } else if (model == "ds") {
-    if (word != "none") camera.complain("distortion_model", in_quotes(word), "none behind camera_model ds");
-    lens.model = LensModel::double_sphere;
+  } else if (model == "ds" || model == "eucm") {
+    if (word != "none") camera.complain("distortion_model", in_quotes(word), "none behind camera_model " + model);
+    lens.model = model == "ds" ? LensModel::double_sphere : LensModel::extended_unified;
     lens.parameters = {intrinsics[0], intrinsics[1]};
   }
-  check_lens(lens, camera.file(), camera.name("intrinsics"), camera.name(coefficients));
-  return lens;
+  return stated;
 }
 
 }  // namespace quadedge::data

@@ -1,0 +1,71 @@
+/// \file basalt.cpp  Basalt's calibration, JSON: value0 with lists of T_imu_cam (poses of the cameras in the IMU frame:
+/// px py pz [m], qx qy qz qw), intrinsics (camera_type and its parameters) and resolution. The first two cameras are
+/// used, left first.
+
+#include "data/calibrations/forms.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// Basalt's models, with the names of their parameters in the order of StereoCalibration's.
+struct Model {
+  const char* name;
+  LensModel model;
+  std::vector<const char*> parameters;
+};
+
+const std::vector<Model>& models() {
+  static const std::vector<Model> all = {
+      {"pinhole", LensModel::radial_tangential, {}},
+      {"pinhole-radtan8", LensModel::radial_tangential, {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"}},
+      {"kb4", LensModel::equidistant, {"k1", "k2", "k3", "k4"}},
+      {"ds", LensModel::double_sphere, {"xi", "alpha"}},
+      {"eucm", LensModel::extended_unified, {"alpha", "beta"}},
+  };
+  return all;
+}
+
+StatedLens read_lens(const YamlMap& camera, ImageSize size) {
+  const std::string type = camera.word("camera_type");
+  const YamlMap numbers = camera.map("intrinsics");
+  for (const Model& model : models()) {
+    if (type != model.name) continue;
+    StatedLens stated(camera.file(), numbers.name("fx"), camera.name("intrinsics"));
+    stated.lens.model = model.model;
+    stated.lens.camera = {numbers.number("fx"), numbers.number("fy"), numbers.number("cx"),
+                          numbers.number("cy"), size.width,           size.height};
+    for (const char* name : model.parameters) stated.lens.parameters.push_back(numbers.number(name));
+    return stated;
+  }
+  camera.complain("camera_type", in_quotes(type), "pinhole, pinhole-radtan8, kb4, ds or eucm");
+}
+
+Eigen::Isometry3d read_pose(const YamlMap& pose) {
+  const Eigen::Quaterniond turn(pose.number("qw"), pose.number("qx"), pose.number("qy"), pose.number("qz"));
+  if (std::abs(turn.norm() - 1) > 1e-3) pose.complain("qw", "a quaternion of length " + format_exact(turn.norm()), "1");
+  Eigen::Isometry3d result(turn.normalized());
+  result.translation() << pose.number("px"), pose.number("py"), pose.number("pz");
+  return result;
+}
+
+}  // namespace
+
+StatedCalibration read_basalt(const YamlMap& calibration) {
+  const YamlMap value = calibration.map("value0").as("Basalt's calibration of two cameras");
+  const auto cameras = value.items("intrinsics"), poses = value.items("T_imu_cam");
+  const YamlMatrix sizes = value.matrix("resolution");
+  if (cameras.size() < 2 || poses.size() < 2 || sizes.values.size() < 4)
+    value.complain("intrinsics", counted(cameras.size(), "camera"), "two, each with T_imu_cam and resolution");
+  const auto size = [&](std::size_t camera) {
+    return ImageSize{static_cast<int>(sizes.values[2 * camera]), static_cast<int>(sizes.values[2 * camera + 1])};
+  };
+  StatedCalibration stated;
+  stated.left = read_lens(cameras[0].second, size(0));
+  stated.right = read_lens(cameras[1].second, size(1));
+  stated.body_from_left = read_pose(poses[0].second);
+  stated.right_from_left = read_pose(poses[1].second).inverse() * *stated.body_from_left;
+  return stated;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,88 @@
+/// \file camera_info.cpp  ROS camera_info of both cameras, from calibration files or as `rostopic echo` and `ros2 topic
+/// echo` print it: the recording camera (K, D), the rotation that rectifies its images (R), and the rectified camera
+/// (P, whose fourth column is -fx' times its distance from the reference camera).
+
+#include "data/calibrations/forms.hpp"
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// Names of the entries in files, in ROS 1 messages and in ROS 2 messages.
+struct Names {
+  const char *width, *height, *k, *d, *r, *p;
+};
+constexpr Names kNames[] = {
+    {"image_width", "image_height", "camera_matrix", "distortion_coefficients", "rectification_matrix",
+     "projection_matrix"},
+    {"width", "height", "K", "D", "R", "P"},
+    {"width", "height", "k", "d", "r", "p"},
+};
+
+/// Images that show a part of the sensor, or every n-th pixel, as ROS's image_geometry takes them.
+void apply_roi_and_binning(const YamlMap& camera, PinholeCamera& lens) {
+  if (camera.has("roi")) {
+    const YamlMap roi = camera.map("roi");
+    lens.cx -= roi.number_or("x_offset", 0);
+    lens.cy -= roi.number_or("y_offset", 0);
+    if (roi.number_or("width", 0) > 0) {
+      const ImageSize size = roi.size("width", "height");
+      lens.width = size.width;
+      lens.height = size.height;
+    }
+  }
+  const double columns = std::max(1.0, camera.number_or("binning_x", 1)),
+               rows = std::max(1.0, camera.number_or("binning_y", 1));
+  lens.fx /= columns;
+  lens.cx /= columns;
+  lens.fy /= rows;
+  lens.cy /= rows;
+  lens.width = static_cast<int>(lens.width / columns);
+  lens.height = static_cast<int>(lens.height / rows);
+}
+
+StatedLens read_lens(const YamlMap& camera, const Names& names) {
+  StatedLens stated(camera.file(), names.k, names.d);
+  Lens& lens = stated.lens;
+  const ImageSize size = camera.size(names.width, names.height);
+  lens.camera.width = size.width;
+  lens.camera.height = size.height;
+  set_intrinsics(camera, names.k, lens.camera);
+  const std::string model = camera.word("distortion_model");
+  lens.model = model_of_word(camera, "distortion_model", model);
+  if (model != "none" && !model.empty()) lens.parameters = camera.matrix(names.d).values;
+  if (lens.model == LensModel::equidistant)
+    while (lens.parameters.size() > 4 && lens.parameters.back() == 0) lens.parameters.pop_back();
+  apply_roi_and_binning(camera, lens.camera);
+  return stated;
+}
+
+Rectification read_rectification(const YamlMap& camera, const Names& names) {
+  return {camera.rotation(names.r), projection_offset(camera, names.p)};
+}
+
+const Names& names_of(const YamlMap& camera) {
+  return kNames[camera.has("camera_matrix") ? 0 : camera.has("K") ? 1 : 2];
+}
+
+}  // namespace
+
+LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word) {
+  if (word == "plumb_bob" || word == "rational_polynomial" || word == "none" || word.empty())
+    return LensModel::radial_tangential;
+  if (word == "equidistant" || word == "fisheye") return LensModel::equidistant;
+  camera.complain(key, in_quotes(word), "plumb_bob, rational_polynomial, equidistant or none");
+}
+
+StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right) {
+  const Names &left_names = names_of(left), &right_names = names_of(right);
+  StatedCalibration stated;
+  stated.left = read_lens(left, left_names);
+  stated.right = read_lens(right, right_names);
+  stated.right_from_left =
+      right_from_left_of(read_rectification(left, left_names), read_rectification(right, right_names));
+  return stated;
+}
+
+}  // namespace quadedge::data

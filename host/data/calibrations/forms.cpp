@@ -1,0 +1,313 @@
+#include "data/calibrations/forms.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/core/persistence.hpp>
+#include <sstream>
+
+#include "common/calibration.hpp"
+#include "data/file_list.hpp"
+#include "data/text.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace data {
+namespace {
+
+template <StatedCalibration (*Read)(const YamlMap&)>
+StatedCalibration of_map(const std::vector<CalibrationText>& texts) {
+  return Read(texts[0].entries());
+}
+
+template <StatedCalibration (*Read)(const YamlMap&, const YamlMap&)>
+StatedCalibration of_maps(const std::vector<CalibrationText>& texts) {
+  return Read(texts[0].entries(), texts[1].entries());
+}
+
+template <StatedCalibration (*Read)(const CalibrationText&)>
+StatedCalibration of_text(const std::vector<CalibrationText>& texts) {
+  return Read(texts[0]);
+}
+
+StatedCalibration read_kitti_pair(const std::vector<CalibrationText>& texts) {
+  const YamlMap& cameras = texts[0].entries();
+  const bool has_grey = cameras.has("P_rect_00") && cameras.has("P_rect_01");
+  return read_kitti_cameras(cameras, has_grey ? "00" : "02", has_grey ? "01" : "03");
+}
+
+/// For files of one camera that no form combines: what is missing is the transform.
+[[noreturn]] StatedCalibration refuse_single_cameras(const std::vector<CalibrationText>& texts) {
+  fail(
+      texts[0].file + (texts.size() > 1 ? ", " + texts[1].file : ""),
+      "the intrinsics of single cameras, without the transform between them",
+      "a file that holds it as well: VINS-Fusion's configuration (body_T_cam0, body_T_cam1, cam0_calib, cam1_calib), a "
+      "Kalibr chain (T_cn_cnm1), or OpenCV's stereo calibration (R, T)");
+}
+
+bool is_camera_info(const CalibrationText& text) {
+  return text.has("camera_matrix") || (text.has("K") && text.has("P")) || (text.has("k") && text.has("p"));
+}
+
+/// OpenCV's XML as YAML.
+YAML::Node node_of(const cv::FileNode& from) {
+  YAML::Node node;
+  if (from.isMap()) {
+    for (const std::string& key : from.keys()) {
+      if (node[key].IsDefined()) throw cv::Exception(0, "a second entry " + key, "", "", 0);
+      node[key] = node_of(from[key]);
+    }
+  } else if (from.isSeq()) {
+    for (const cv::FileNode& item : from) node.push_back(node_of(item));
+  } else {
+    node = from.isString() ? from.string() : format_exact(from.real());
+  }
+  return node;
+}
+
+std::string metres(const Eigen::Vector3d& position) {
+  std::ostringstream text;
+  text << "(" << position.x() << ", " << position.y() << ", " << position.z() << ") m";
+  return text.str();
+}
+
+std::string first_entries(const CalibrationText& text) {
+  constexpr std::size_t kShown = 6;
+  if (!text.map) {
+    const auto lines = data_lines(text.file);
+    return lines.empty() ? "nothing" : "a text that begins with " + in_quotes(lines[0].text);
+  }
+  const auto keys = text.map->keys();
+  std::string list;
+  for (std::size_t i = 0; i < std::min(keys.size(), kShown); ++i) list += (i ? ", " : "") + keys[i];
+  return "the entries " + in_quotes(list) + (keys.size() > kShown ? " and others" : "");
+}
+
+[[noreturn]] void fail_unknown(const std::vector<CalibrationText>& texts) {
+  std::string expected;
+  for (const CalibrationForm& form : calibration_forms()) {
+    if (form.contents[0] == '\0') continue;
+    expected +=
+        (expected.empty() ? "" : "; ") + std::string(form.contents) + (form.has_two_files ? " (two files)" : "");
+  }
+  std::string found = first_entries(texts[0]);
+  if (texts.size() > 1) found += ", and in " + texts[1].file + " " + first_entries(texts[1]);
+  fail(texts[0].file, found, "one of these forms: " + expected);
+}
+
+/// \throws DataError for a baseline that a stereo camera cannot have: zero, tens of metres, or with the right camera on
+/// the left.
+void check_baseline(const StereoCalibration& calibration) {
+  const Eigen::Vector3d right = calibration.right_from_left.inverse().translation();  // in the left camera frame
+  const std::string found = "a right camera at " + metres(right) + " from the left one";
+  constexpr double kShortest = 1e-6, kLongest = 30;  // m
+  if (!right.allFinite() || !(right.norm() > kShortest)) fail(calibration.files, found, "a baseline above zero");
+  if (right.norm() > kLongest) fail(calibration.files, found, "metres: millimetres, perhaps");
+  if (right.x() < 0 && -right.x() >= std::abs(right.y())) {
+    fail(calibration.files, found + ", which is on its left",
+         "x above zero: the cameras are exchanged or a transform is inverted");
+  }
+}
+
+/// \throws DataError that names the entries, for values that no camera has or that are invalid for the lens model.
+void check_lens(const StatedLens& stated) {
+  const Lens& lens = stated.lens;
+  if (const auto complaint = complaint_about(lens.camera))
+    fail(stated.file + " (" + stated.camera_entry + ")", complaint->found, complaint->expected);
+  const auto& k = lens.parameters;
+  const std::string where = stated.file + " (" + stated.coefficients_entry + ")";
+  const auto require = [&](bool good, const std::string& found, const std::string& expected) {
+    if (!good) fail(where, found, expected);
+  };
+  const auto count_is = [&](std::initializer_list<std::size_t> allowed, const char* expected) {
+    require(std::find(allowed.begin(), allowed.end(), k.size()) != allowed.end(),
+            std::to_string(k.size()) + " numbers for the lens model " + to_string(lens.model), expected);
+  };
+  for (const double value : k)
+    require(std::abs(value) <= kLargestCoefficient, "a coefficient " + format_exact(value), "numbers up to 1e5");
+  switch (lens.model) {
+    case LensModel::radial_tangential:
+      count_is({0, 4, 5, 8, 12, 14}, "0, 4, 5, 8, 12 or 14 coefficients");
+      if (k.size() == 14) {
+        require(std::abs(k[12]) < 1 && std::abs(k[13]) < 1,
+                "a sensor tilted by " + format_exact(k[12]) + " and " + format_exact(k[13]), "radians, below 1");
+      }
+      break;
+    case LensModel::equidistant: count_is({4}, "4 coefficients"); break;
+    case LensModel::field_of_view:
+      count_is({1}, "the one parameter w");
+      require(k[0] > 0 && k[0] < kPi, "w = " + format_exact(k[0]), "radians, above 0 and below pi");
+      break;
+    case LensModel::double_sphere:
+      count_is({2}, "xi and alpha");
+      require(k[0] > -1 && k[1] >= 0 && k[1] <= 1, "xi = " + format_exact(k[0]) + ", alpha = " + format_exact(k[1]),
+              "xi above -1 and alpha from 0 to 1");
+      break;
+    case LensModel::extended_unified:
+      count_is({2}, "alpha and beta");
+      require(k[0] >= 0 && k[0] <= 1 && k[1] > 0, "alpha = " + format_exact(k[0]) + ", beta = " + format_exact(k[1]),
+              "alpha from 0 to 1 and beta above 0");
+      break;
+    case LensModel::omnidirectional:
+      count_is({1, 5, 6, 9, 13, 15}, "xi and 0, 4, 5, 8, 12 or 14 coefficients");
+      require(k[0] >= 0, "xi = " + format_exact(k[0]), "0 or more");
+      break;
+  }
+}
+
+}  // namespace
+
+const std::vector<CalibrationForm>& calibration_forms() {
+  using Text = const CalibrationText&;
+  static const std::vector<CalibrationForm> forms = {
+      {"euroc", "EuRoC's sensor.yaml (T_BS)", true,
+       [](Text text) { return text.has("T_BS") || text.has("sensor_type"); }, of_maps<read_euroc_sensors>},
+      {"ros", "ROS camera_info, as files or as `rostopic echo` prints it (camera_matrix or K, D, R, P)", true,
+       is_camera_info, of_maps<read_camera_infos>},
+      {"kalibr", "a Kalibr camera chain (cam0, cam1)", false, [](Text text) { return text.has("cam0"); },
+       of_map<read_kalibr_chain>},
+      {"orb-slam", "ORB-SLAM2 or ORB-SLAM3 settings (Camera1.fx or Camera.fx)", false,
+       [](Text text) { return text.has("Camera1.fx") || (text.has("Camera.fx") && !text.has("Camera.setup")); },
+       of_map<read_orb_slam_settings>},
+      {"stella-vslam", "stella_vslam's configuration (Camera: setup: stereo)", false,
+       [](Text text) { return text.has("Camera.setup") || (text.has("Camera") && !text.has("value0")); },
+       of_map<read_stella_vslam>},
+      {"vins-fusion", "VINS-Fusion's configuration (body_T_cam0, cam0_calib)", false,
+       [](Text text) { return text.has("cam0_calib") || text.has("body_T_cam0"); }, of_map<read_vins_fusion>},
+      {"basalt", "Basalt's calibration (value0: T_imu_cam, intrinsics)", false,
+       [](Text text) { return text.has("value0"); }, of_map<read_basalt>},
+      {"depthai", "DepthAI's calibration of an OAK camera (cameraData)", false,
+       [](Text text) { return text.has("cameraData"); }, of_map<read_depthai>},
+      {"zed", "a ZED camera's SNxxxx.conf ([LEFT_CAM_HD], [STEREO])", false,
+       [](Text text) { return text.text.find("[LEFT_CAM_") != std::string::npos; }, of_text<read_zed>},
+      {"realsense", "what `rs-enumerate-devices -c` prints", false, is_realsense, of_text<read_realsense>},
+      {"kitti", "KITTI's calib_cam_to_cam.txt or KITTI-360's perspective.txt (P_rect_00)", false,
+       [](Text text) { return text.has("P_rect_00") || text.has("P_rect_02"); }, read_kitti_pair},
+      {"matlab", "MATLAB's stereoParameters as text (CameraParameters1, TranslationOfCamera2)", false, is_matlab,
+       of_text<read_matlab>},
+      {"stereo-dso", "Stereo DSO's camera.txt (with the baseline in its fifth line)", false, is_dso_camera,
+       of_text<read_stereo_dso>},
+      {"native", "a file written by `quadedge check --write-calibration` (left_model ...)", false,
+       [](Text text) { return text.has("left_model"); }, of_map<read_native_calibration>},
+      {"opencv", "OpenCV's stereo calibration in one or two files (M1 D1 M2 D2 R T, or K1 or cameraMatrix1 ...)", false,
+       is_opencv_stereo, read_opencv_stereo},
+      {"single", "", false,
+       [](Text text) { return text.has("model_type") || text.has("projection_parameters") || is_dso_camera(text); },
+       refuse_single_cameras},
+  };
+  return forms;
+}
+
+CalibrationText read_calibration_text(const std::string& file) {
+  CalibrationText text{file, read_text(file), {}};
+  const std::size_t first = text.text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text.text[first] == '<') {
+    try {
+      cv::FileStorage storage(text.text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+      if (!storage.isOpened() || !storage.root().isMap()) return text;
+      text.map.emplace(node_of(storage.root()), file, "OpenCV's stereo calibration");
+    } catch (const cv::Exception& problem) {
+      fail(file, "text that cv::FileStorage does not read (" + problem.err + ")", "OpenCV's stereo calibration");
+    }
+  } else if (!is_realsense(text) && !is_matlab(text) && !is_dso_camera(text) &&
+             (first == std::string::npos || text.text[first] != '[')) {
+    text.map.emplace(file, "a calibration");
+  }
+  return text;
+}
+
+StereoCalibration judged(const StatedCalibration& stated, const std::string& format, const std::string& files) {
+  check_lens(stated.left);
+  check_lens(stated.right);
+  StereoCalibration calibration;
+  calibration.left = stated.left.lens;
+  calibration.right = stated.right.lens;
+  calibration.right_from_left = stated.right_from_left;
+  calibration.body_from_left = stated.body_from_left;
+  calibration.format = format;
+  calibration.files = files;
+  check_baseline(calibration);
+  calibration.right_from_left = rounded_transform(calibration.right_from_left);
+  for (const StatedCalibration& other : stated.other_sizes)
+    calibration.other_sizes.push_back(judged(other, format, files));
+  return calibration;
+}
+
+Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where) {
+  const double angle = vector.norm();
+  if (!(angle <= 1.001 * kPi))
+    fail(where, "a rotation by " + format_exact(angle) + " rad", "a vector of at most pi: degrees, perhaps");
+  return rotation_by(vector);
+}
+
+void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result) {
+  const auto k = camera.matrix(key, 3, 3);
+  if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1)
+    camera.complain(key, "a matrix with skew or another last row", "fx 0 cx 0 fy cy 0 0 1");
+  result.fx = k[0];
+  result.fy = k[4];
+  result.cx = k[2];
+  result.cy = k[5];
+}
+
+Eigen::Isometry3d right_from_left_of(const Rectification& left, const Rectification& right) {
+  Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
+  const Eigen::Matrix3d right_from_rectified = right.rectified_from_camera.transpose();
+  right_from_left.linear() = right_from_rectified * left.rectified_from_camera;
+  right_from_left.translation() =
+      right_from_rectified * (right.rectified_from_reference - left.rectified_from_reference);
+  return right_from_left;
+}
+
+Eigen::Vector3d projection_offset(const YamlMap& camera, const std::string& key) {
+  const auto p = camera.matrix(key, 3, 4);
+  if (!(p[0] > 0 && p[5] > 0)) camera.complain(key, "no focal length", "fx' and fy' above zero");
+  if (p[1] != 0 || p[4] != 0) camera.complain(key, "skew", "0 beside fx' and fy', as rectified images have it");
+  if (p[8] != 0 || p[9] != 0 || p[10] != 1)
+    camera.complain(key, "a last row other than 0 0 1", "that of a rectified camera");
+  return {(p[3] - p[2] * p[11]) / p[0], (p[7] - p[6] * p[11]) / p[5], p[11]};
+}
+
+void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize right, const std::string& images) {
+  const auto size_of = [](const PinholeCamera& camera) { return ImageSize{camera.width, camera.height}; };
+  if (left == right && size_of(calibration.left.camera) != left) {
+    for (StereoCalibration& other : calibration.other_sizes) {
+      if (size_of(other.left.camera) != left || size_of(other.right.camera) != right) continue;
+      StereoCalibration chosen = std::move(other);
+      calibration = std::move(chosen);
+      return;
+    }
+  }
+  const auto set = [&](PinholeCamera& camera, ImageSize size, const char* which) {
+    if (camera.width == 0) {
+      camera.width = size.width;
+      camera.height = size.height;
+    }
+    if (size_of(camera) == size) return;
+    std::string expected = to_string(size_of(camera));
+    for (const StereoCalibration& other : calibration.other_sizes)
+      expected += " or " + to_string(size_of(other.left.camera));
+    fail(images, std::string(which) + " images of " + to_string(size) + " pixels",
+         expected + ", as " + calibration.files + " says");
+  };
+  set(calibration.left.camera, left, "left");
+  set(calibration.right.camera, right, "right");
+}
+
+}  // namespace data
+
+StereoCalibration read_calibration(const std::string& files) {
+  std::vector<data::CalibrationText> texts;
+  for (const std::string& file : data::file_list(files)) texts.push_back(data::read_calibration_text(file));
+  for (const data::CalibrationForm& form : data::calibration_forms()) {
+    if (!std::all_of(texts.begin(), texts.end(), form.recognise)) continue;
+    if (form.has_two_files && texts.size() < 2) {
+      data::fail(texts[0].file, "the calibration of one camera (" + std::string(form.contents) + ")",
+                 "those of both cameras: LEFT,RIGHT");
+    }
+    return data::judged(form.read(texts), form.name, files);
+  }
+  data::fail_unknown(texts);
+}
+
+}  // namespace quadedge

@@ -1,0 +1,119 @@
+#pragma once
+/// \file forms.hpp  The forms of calibration files: how each is recognised and read, and what all of them are judged
+/// by. Every form has a file of its name beside this one; the table in forms.cpp lists them.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/image_file.hpp"
+#include "data/yaml_file.hpp"
+#include "quadedge/calibration.hpp"
+
+namespace quadedge::data {
+
+/// The content of a calibration file.
+struct CalibrationText {
+  std::string file, text;
+  std::optional<YamlMap> map;  ///< the entries of YAML, JSON, OpenCV's XML, or lines of NAME: NUMBERS
+
+  bool has(const char* key) const { return map && map->has(key); }
+  const YamlMap& entries() const { return *map; }  ///< for forms that are recognised by an entry
+};
+
+/// A lens as a form states it, with the names of its entries for messages.
+struct StatedLens {
+  StatedLens() = default;
+  StatedLens(std::string in_file, std::string camera, std::string coefficients)
+      : file(std::move(in_file)), camera_entry(std::move(camera)), coefficients_entry(std::move(coefficients)) {}
+
+  Lens lens;
+  std::string file, camera_entry, coefficients_entry;
+};
+
+/// What a form states: lengths in metres, angles in radians, the left camera first.
+struct StatedCalibration {
+  StatedLens left, right;
+  Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> body_from_left;
+  std::vector<StatedCalibration> other_sizes;  ///< the same cameras at other image sizes
+};
+
+/// A form of calibration files.
+struct CalibrationForm {
+  const char* name;      ///< StereoCalibration::format
+  const char* contents;  ///< for messages and the page: "a Kalibr camera chain (cam0, cam1)"
+  bool has_two_files;    ///< one file for each camera
+  bool (*recognise)(const CalibrationText& text);
+  /// \throws DataError
+  StatedCalibration (*read)(const std::vector<CalibrationText>& texts);
+};
+
+/// All forms, in the order in which they are tried.
+const std::vector<CalibrationForm>& calibration_forms();
+
+StatedCalibration read_euroc_sensors(const YamlMap& left, const YamlMap& right);
+StatedCalibration read_kalibr_chain(const YamlMap& chain);
+StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right);
+StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts);
+StatedCalibration read_orb_slam_settings(const YamlMap& settings);
+StatedCalibration read_stella_vslam(const YamlMap& settings);
+StatedCalibration read_vins_fusion(const YamlMap& configuration);
+StatedCalibration read_basalt(const YamlMap& calibration);
+StatedCalibration read_depthai(const YamlMap& device);
+StatedCalibration read_zed(const CalibrationText& text);
+StatedCalibration read_realsense(const CalibrationText& text);
+StatedCalibration read_matlab(const CalibrationText& text);
+StatedCalibration read_stereo_dso(const CalibrationText& text);
+/// Cameras `left` and `right` of KITTI's calib_cam_to_cam.txt or KITTI-360's perspective.txt: "00" and "01" are grey,
+/// "02" and "03" colour. Rectified images first; the images as recorded have another size.
+StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& left, const std::string& right);
+StatedCalibration read_native_calibration(const YamlMap& file);
+
+bool is_opencv_stereo(const CalibrationText& text);
+bool is_realsense(const CalibrationText& text);
+bool is_matlab(const CalibrationText& text);
+bool is_dso_camera(const CalibrationText& text);
+
+/// Reads a text and its entries, if it has any. \throws DataError as read_text()
+CalibrationText read_calibration_text(const std::string& file);
+
+/// Judges what a form states: numbers of the lenses, baseline, units; rounds the transform (see StereoCalibration).
+/// \throws DataError
+StereoCalibration judged(const StatedCalibration& stated, const std::string& format, const std::string& files);
+
+/// The sensor.yaml files of both cameras of a EuRoC recording. \throws DataError
+StereoCalibration read_euroc_calibration(const std::string& left, const std::string& right);
+
+/// Reads a lens in Kalibr's and EuRoC's notation: entries camera_model, distortion_model, intrinsics, `coefficients`
+/// (key of the distortion coefficients) and resolution. \throws DataError
+StatedLens read_named_lens(const YamlMap& camera, const std::string& coefficients);
+
+/// The model that a camera_info message calls `word`. \throws DataError that names `key`
+LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word);
+
+/// Rows of a 3 x 3 matrix. \throws DataError for numbers that are not those of fx 0 cx 0 fy cy 0 0 1
+void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result);
+
+/// What a rectifying calibration states of a camera: the rotation of its images, and the position of the rectified
+/// camera in units of the baseline's.
+struct Rectification {
+  Eigen::Matrix3d rectified_from_camera = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d rectified_from_reference = Eigen::Vector3d::Zero();  ///< m, the fourth column of K [I | t]
+};
+
+/// The transform between two cameras whose rectified images share one orientation.
+Eigen::Isometry3d right_from_left_of(const Rectification& left, const Rectification& right);
+
+/// The fourth column of a projection matrix K [I | t] as t [m]. \throws DataError for another matrix
+Eigen::Vector3d projection_offset(const YamlMap& camera, const std::string& key);
+
+/// Rotation of a rotation vector (axis times radians). \throws DataError that names `where`, for more than a half turn,
+/// which suggests degrees
+Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where);
+
+/// Sets the sizes of the recorded images if the calibration does not contain them, or takes its cameras of that size
+/// where it holds several. \throws DataError that names `images`, if the calibration contains other sizes
+void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize right, const std::string& images);
+
+}  // namespace quadedge::data

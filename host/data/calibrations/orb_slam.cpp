@@ -1,0 +1,96 @@
+/// \file orb_slam.cpp  Settings of ORB-SLAM2 and ORB-SLAM3. Flat entries: Camera1.fx or Camera.fx, Camera2.fx;
+/// Stereo.T_c1_c2 or Tlr, the pose of the right camera in the left one's frame [m]; for rectified images Stereo.b [m]
+/// or Camera.bf [px m]; LEFT.K, LEFT.D, LEFT.R, LEFT.P for images that the program rectifies.
+
+#include "data/calibrations/forms.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+ImageSize size_in(const YamlMap& settings) {
+  for (const char* prefix : {"Camera.", "LEFT."})
+    if (settings.has(std::string(prefix) + "width"))
+      return settings.size(std::string(prefix) + "width", std::string(prefix) + "height");
+  return {};
+}
+
+StatedLens read_lens(const YamlMap& settings, const std::string& prefix, bool is_rectified) {
+  StatedLens stated(settings.file(), prefix + "fx", prefix + "k1");
+  Lens& lens = stated.lens;
+  const ImageSize size = size_in(settings);
+  lens.camera = {settings.number(prefix + "fx"),
+                 settings.number(prefix + "fy"),
+                 settings.number(prefix + "cx"),
+                 settings.number(prefix + "cy"),
+                 size.width,
+                 size.height};
+  if (is_rectified || !settings.has(prefix + "k1")) return stated;
+  const std::string type = settings.has("Camera.type") ? settings.word("Camera.type") : "PinHole";
+  if (type == "KannalaBrandt8")
+    lens.model = LensModel::equidistant;
+  else if (type != "PinHole" && type != "Pinhole")
+    settings.complain("Camera.type", in_quotes(type), "PinHole, Rectified or KannalaBrandt8");
+  const bool is_fisheye = lens.model == LensModel::equidistant;
+  for (const char* name : {"k1", "k2", is_fisheye ? "k3" : "p1", is_fisheye ? "k4" : "p2"})
+    lens.parameters.push_back(settings.number(prefix + name));
+  if (!is_fisheye && settings.has(prefix + "k3")) lens.parameters.push_back(settings.number(prefix + "k3"));
+  return stated;
+}
+
+/// LEFT.K, LEFT.D, LEFT.R, LEFT.P of ORB-SLAM2: what camera_info calls K, D, R, P.
+StatedLens read_recording_lens(const YamlMap& settings, const std::string& side) {
+  StatedLens stated(settings.file(), side + "K", side + "D");
+  const ImageSize size = settings.size(side + "width", side + "height");
+  stated.lens.camera.width = size.width;
+  stated.lens.camera.height = size.height;
+  set_intrinsics(settings, side + "K", stated.lens.camera);
+  stated.lens.parameters = settings.matrix(side + "D").values;
+  return stated;
+}
+
+}  // namespace
+
+StatedCalibration read_orb_slam_settings(const YamlMap& settings) {
+  StatedCalibration stated;
+  if (settings.has("LEFT.K")) {
+    stated.left = read_recording_lens(settings, "LEFT.");
+    stated.right = read_recording_lens(settings, "RIGHT.");
+    const auto rectification = [&](const std::string& side) {
+      return Rectification{settings.rotation(side + "R"), projection_offset(settings, side + "P")};
+    };
+    stated.right_from_left = right_from_left_of(rectification("LEFT."), rectification("RIGHT."));
+    return stated;
+  }
+  const std::string left = settings.has("Camera1.fx") ? "Camera1." : "Camera.";
+  for (const char* transform : {"Stereo.T_c1_c2", "Tlr"}) {
+    if (!settings.has(transform)) continue;
+    stated.left = read_lens(settings, left, false);
+    stated.right = read_lens(settings, "Camera2.", false);
+    // Tlr has three rows in some settings.
+    const YamlMatrix rows = settings.matrix(transform);
+    if (rows.rows == 3) {
+      const auto t = settings.matrix(transform, 3, 4);
+      const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> matrix(t.data());
+      Eigen::Isometry3d left_from_right = Eigen::Isometry3d::Identity();
+      left_from_right.linear() = matrix.leftCols<3>();
+      left_from_right.translation() = matrix.col(3);
+      stated.right_from_left = left_from_right.inverse();
+    } else {
+      stated.right_from_left = settings.transform(transform).inverse();
+    }
+    return stated;
+  }
+  stated.left = stated.right = read_lens(settings, left, true);
+  if (settings.has("Stereo.b")) {
+    stated.right_from_left.translation().x() = -settings.number("Stereo.b");
+  } else if (settings.has("Camera.bf")) {
+    stated.right_from_left.translation().x() = -settings.number("Camera.bf") / stated.left.lens.camera.fx;
+  } else {
+    fail(settings.file(), "no pose of the right camera",
+         "Stereo.T_c1_c2 or Tlr, or for rectified images Stereo.b or Camera.bf: are these settings of one camera?");
+  }
+  return stated;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,65 @@
+/// \file stella_vslam.cpp  Configuration of stella_vslam and OpenVSLAM: Camera (fx fy cx cy, cols, rows,
+/// focal_x_baseline [px m]) describes the rectified images, StereoRectifier (K_left, D_left, R_left ...) the cameras,
+/// if the program rectifies. Maps, or flat entries such as Camera.fx.
+
+#include "data/calibrations/forms.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// The entries below a heading, nested or flat.
+struct Section {
+  YamlMap map;
+  std::string prefix;
+  std::string key(const std::string& name) const { return prefix + name; }
+};
+
+Section section(const YamlMap& settings, const std::string& name) {
+  if (settings.has(name)) return {settings.map(name), ""};
+  return {settings, name + "."};
+}
+
+StatedLens read_recording_lens(const Section& rectifier, const std::string& side, ImageSize size) {
+  StatedLens stated(rectifier.map.file(), rectifier.key("K_" + side), rectifier.key("D_" + side));
+  stated.lens.camera.width = size.width;
+  stated.lens.camera.height = size.height;
+  set_intrinsics(rectifier.map, rectifier.key("K_" + side), stated.lens.camera);
+  stated.lens.parameters = rectifier.map.matrix(rectifier.key("D_" + side)).values;
+  if (rectifier.map.has(rectifier.key("model")) && rectifier.map.word(rectifier.key("model")) == "fisheye")
+    stated.lens.model = LensModel::equidistant;
+  return stated;
+}
+
+}  // namespace
+
+StatedCalibration read_stella_vslam(const YamlMap& settings) {
+  const Section camera = section(settings, "Camera"), rectifier = section(settings, "StereoRectifier");
+  const YamlMap& map = camera.map;
+  if (const std::string setup = map.has(camera.key("setup")) ? map.word(camera.key("setup")) : ""; setup != "stereo")
+    fail(map.file(), "setup " + in_quotes(setup), "setup: stereo");
+  const ImageSize size = map.size(camera.key("cols"), camera.key("rows"));
+  const double focal = map.number(camera.key("fx"));
+  Rectification left, right;
+  right.rectified_from_reference.x() = -map.number(camera.key("focal_x_baseline")) / focal;
+  StatedCalibration stated;
+  if (rectifier.map.has(rectifier.key("K_left"))) {
+    stated.left = read_recording_lens(rectifier, "left", size);
+    stated.right = read_recording_lens(rectifier, "right", size);
+    left.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_left"));
+    right.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_right"));
+  } else {
+    stated.left = StatedLens(map.file(), map.name(camera.key("fx")), map.name(camera.key("fx")));
+    stated.left.lens.camera = {focal,
+                               map.number(camera.key("fy")),
+                               map.number(camera.key("cx")),
+                               map.number(camera.key("cy")),
+                               size.width,
+                               size.height};
+    stated.right = stated.left;
+  }
+  stated.right_from_left = right_from_left_of(left, right);
+  return stated;
+}
+
+}  // namespace quadedge::data
