@@ -12,9 +12,8 @@
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/stereo_source.hpp"
-#include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
-#include "report/whole_results.hpp"
+#include "report/member_results.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;

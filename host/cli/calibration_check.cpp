@@ -1,24 +1,24 @@
 #include "cli/calibration_check.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <set>
 
 #include "common/disparity_range.hpp"
-#include "rig_check/rig_monitor.hpp"
+#include "rig/rig_monitor.hpp"
 
 namespace quadedge::cli {
 
 void check_numbers(const StereoRig& rig, DatasetCheck& check) {
-  for (const auto& finding : rig_check::implausible_numbers(rig))
-    check.warnings.push_back(rig_check::sentence(finding));
+  for (const auto& finding : rig::implausible_numbers(rig)) check.warnings.push_back(rig::warning(finding).text);
 }
 
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
-  const auto [evidence, fit, findings] = rig_check::RigMonitor::examine(
+  const auto [evidence, fit, findings] = rig::RigMonitor::examine(
       dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(dataset.rig));
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
   char text[160];
-  if (evidence.is_searched()) {
+  if (evidence.is_searched() && std::isfinite(evidence.searched_residual)) {
     std::snprintf(text, sizeof text,
                   "epipolar residual %.2f px, %.0f %% of corners found, %.0f %% of these on their line",
                   evidence.searched_residual, 100 * evidence.found_ratio, 100 * evidence.on_line_ratio);
@@ -26,7 +26,7 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
   } else {
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
-  for (const auto& finding : findings) check.warnings.push_back(frame + rig_check::sentence(finding));
+  for (const auto& finding : findings) check.warnings.push_back(frame + rig::warning(finding).text);
 }
 
 void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {

@@ -7,7 +7,7 @@
 #include "cli/batch_run.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/folder_lock.hpp"
+#include "cli/output_folder.hpp"
 #include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -165,19 +165,29 @@ class BatchCommand : public Command {
     summary.command = command_line();
     summary.input = input_;
     summary.config = method_.config();
+    remove_summary();
     data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
-    data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
+    // Page and tables are an extra: without Python, the message of make_page() is enough.
+    const int page = make_page({batch_.output, "--output", (output() / "report.html").string(), "--markdown",
+                                (output() / "summary.md").string(), "--quiet"},
+                               interruption);
     print_summary(summary);
-    // The page is an extra: without Python, the message of make_page() is enough.
-    const int page =
-        make_page({batch_.output, "--output", (output() / "report.html").string(), "--quiet"}, interruption);
     const bool made = page == 0 || page == static_cast<int>(ExitCode::usage);
     return made ? summary.exit_code : report::worse_exit_code(summary.exit_code, page);
   }
 
   void print_summary(const report::BatchSummary& summary) const {
-    std::printf("%s", report::summary_markdown(summary).c_str());
-    std::printf("\nresults in %s\n", batch_.output.c_str());
+    const std::string tables = (output() / "summary.md").string();
+    if (fs::is_regular_file(tables)) {
+      std::printf("%s\n", data::read_bytes(tables).c_str());
+    } else {
+      const auto done = std::count_if(summary.rows.begin(), summary.rows.end(),
+                                      [](const auto& row) { return row.status == report::MemberStatus::done; });
+      std::printf("%d of %s done, %d of %s tracked\n", static_cast<int>(done),
+                  data::counted(summary.rows.size(), "sequence").c_str(), summary.tracked,
+                  data::counted(summary.frames, "frame").c_str());
+    }
+    std::printf("results in %s\n", batch_.output.c_str());
     std::fflush(stdout);  // before the complaints below
     for (const auto& row : summary.rows) {
       if (row.status == report::MemberStatus::done) continue;

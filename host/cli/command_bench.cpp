@@ -4,7 +4,6 @@
 
 #include "benchmark/latency.hpp"
 #include "benchmark/variants_file.hpp"
-#include "benchmark/yardsticks.hpp"
 #include "cli/bench_options.hpp"
 #include "cli/bench_tables.hpp"
 #include "cli/command.hpp"

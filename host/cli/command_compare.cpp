@@ -36,8 +36,6 @@ void print_stage(const bench::StageResult& stage) {
     print_number(variant.p90_ms, " %9.3f", "         -");
     print_number(variant.ratio_to_default, " %7.2f", "       -");
     print_number(variant.ratio_p90, " %7.2f", "       -");
-    print_number(100 * variant.bandwidth_share, " %8.1f %%", "        -  ");
-    print_number(100 * variant.arithmetic_share, " %8.1f %%", "        -  ");
     const char* mark = !variant.runs         ? "  CANNOT RUN: "
                        : !variant.agrees     ? "  REFUSED: "
                        : variant.why.empty() ? ""
@@ -84,25 +82,20 @@ class CompareCommand : public Command {
     config = with_disparity_range(config, source->rig());
     const bench::ReferenceCheck check(config);
     if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
-    const bench::Ceilings ceilings = bench::measure_ceilings(*device.context());
-    std::printf("%s\nceilings: %.1f GB/s (copy), %.1f GFLOP/s (multiply-add)\n", info.name.c_str(),
-                ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
-    std::printf("\n%-20s %-10s %-8s %12s %9s %9s %7s %7s %10s %10s\n", "stage", "variant", "", "median", "p10", "p90",
-                "ratio", "p90", "bandwidth", "arithmetic");
+    std::printf("%s\n\n%-20s %-10s %-8s %12s %9s %9s %7s %7s\n", info.name.c_str(), "stage", "variant", "", "median",
+                "p10", "p90", "ratio", "p90");
 
-    const bench::FrameSize size =
-        bench::count_frame(*frontend::make_frontend(source->rig(), device, config), *first, *second, config);
     const bench::VariantInput input{source->rig(), *first, *second, config, [&] { return method_.open_device(true); },
-                                    repetitions_,  size};
+                                    repetitions_};
     StatusLine status(quiet_);
     std::vector<bench::StageResult> results;
     for (const auto& stage : stages) {
-      results.push_back(bench::compare_variants(stage, input, check, ceilings, [&](const std::string& what) {
+      results.push_back(bench::compare_variants(stage, input, check, [&](const std::string& what) {
         if (status.due()) status.show(what);
       }));
       print_stage(results.back());
     }
-    if (!json_.empty()) data::write_atomically(json_, bench::comparison_json(info, ceilings, results, command_line()));
+    if (!json_.empty()) data::write_atomically(json_, bench::comparison_json(info, results, command_line()));
     if (save_) save(file, info, results);
     return exit_code(results);
   }

@@ -49,7 +49,7 @@ class VariantsCommand : public Command {
   VariantsCommand()
       : Command("variants", "list the kernel variants that --variant can choose",
                 "  quadedge variants\n"
-                "  quadedge demo --variant undistortion=item16") {}
+                "  quadedge demo --variant patches=lanes") {}
   void declare(Options&) override {}
   int run() override {
     std::printf("%-14s %-16s %10s  %-10s %s\n", "stage", "variant", "local size", "default", "about");

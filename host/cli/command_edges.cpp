@@ -7,11 +7,11 @@
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/dataset.hpp"
-#include "quadedge/detect_edges.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/match_stereo.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
-#include "report/edges_csv.hpp"
+#include "report/result_rows.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::cli {

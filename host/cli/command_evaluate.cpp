@@ -9,7 +9,7 @@
 #include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "evaluation/step_judgement.hpp"
+#include "evaluation/motion_errors.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"

@@ -26,7 +26,7 @@ ncc_min = 0.5
 A file may also set all other options of its command, under their names without dashes. The command line overrides the
 environment (`QUADEDGE_DEVICE`), which overrides the file. Unknown keys, duplicate keys, values of the wrong type and
 values out of range are errors that name the file, the line and the key. Every run writes its effective configuration to
-`config.toml`; `quadedge::read_config()` and `write_config()` (quadedge/config_file.hpp) do the same in your own
+`config.toml`; `quadedge::read_config()` and `write_config()` (quadedge/config.hpp) do the same in your own
 programs. [config/paper.toml](../config/paper.toml) has the values of the method as the paper describes it.
 
 Basic constants, shown by `--help`, are in **bold**; `--help-all` shows all constants. Angles are in degrees. The last

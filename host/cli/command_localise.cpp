@@ -8,14 +8,15 @@
 #include "cli/interruption.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
 #include "quadedge/error.hpp"
-#include "report/append_file.hpp"
 #include "report/config_toml.hpp"
-#include "report/localisation_files.hpp"
+#include "report/json.hpp"
+#include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -26,11 +27,11 @@ class LocationFiles {
   explicit LocationFiles(const std::string& folder)
       : trajectory_(folder + "/trajectory.txt"), rows_(folder + "/locations.csv") {
     trajectory_.append(data::tum_header());
-    rows_.append(report::csv_heading(report::locations_csv_columns()));
+    rows_.append(report::locations_row(0, {}).heading());
   }
   void add(int number, const Localisation& frame) {
     if (frame.map_from_left) trajectory_.append(data::tum_row({frame.stamp_ns, *frame.map_from_left}));
-    rows_.append(report::csv_row(report::locations_csv_columns(), {number, frame}));
+    rows_.append(report::locations_row(number, frame).line());
   }
 
  private:
@@ -80,13 +81,15 @@ class LocaliseCommand : public Command {
       locate(map, *source, interruption, record);
     } catch (const DataError& error) {
       if (record.frames.empty()) throw;
-      end_with_error(error, *source, record);
+      record.ended_early = error.what();
+      end_with_error(error, record.frames.size(), output_, {[&] { write_results(*source, record); }});
     }
     if (interruption.signal() != 0) record.ended_early = "interrupted";
     write_results(*source, record);
     print(record);
     if (interruption.signal() != 0) interruption.end_process();
-    return exit_code(record);
+    return exit_code("located", record.located(), record.frames.size(), min_located_,
+                     report::lost_reasons(record.frames));
   }
 
  private:
@@ -111,18 +114,6 @@ class LocaliseCommand : public Command {
       progress.update(record.input.name + " frame", number + 1, record.input.frames, std::to_string(lost) + " lost");
       if (interruption.signal() != 0) break;
     }
-  }
-
-  /// The recording ended with an error: keeps what is finished. \throws DataError with what happened.
-  [[noreturn]] void end_with_error(const DataError& error, const FrameSource& source,
-                                   report::LocalisationRecord& record) const {
-    record.ended_early = error.what();
-    try {
-      write_results(source, record);
-    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
-    }
-    throw DataError(record.ended_early + "\n" + data::counted(record.frames.size(), "finished frame") + " in " +
-                    output_);
   }
 
   /// Compares with the ground truth, if any, up to a rigid motion, and writes localisation.json.
@@ -150,16 +141,6 @@ class LocaliseCommand : public Command {
     std::printf("latency    median %.1f ms\n", report::median_latency_ms(record.frames));
     if (record.accuracy) print_evaluation(*record.accuracy);
     std::printf("\nresults in %s\n", output_.c_str());
-  }
-
-  int exit_code(const report::LocalisationRecord& record) const {
-    const auto frames = static_cast<double>(record.frames.size());
-    if (frames > 0 && 100.0 * record.located() >= min_located_ * frames) return static_cast<int>(ExitCode::done);
-    const std::string lost = report::lost_reasons(record.frames);
-    std::fprintf(stderr, "quadedge: located %d of %s, fewer than --min-tracked %g %%%s%s\n", record.located(),
-                 data::counted(record.frames.size(), "frame").c_str(), min_located_,
-                 lost.empty() ? "" : "; lost: ", lost.c_str());
-    return static_cast<int>(ExitCode::too_few_tracked);
   }
 
   std::string map_, frames_, output_;

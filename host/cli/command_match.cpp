@@ -12,7 +12,7 @@
 #include "quadedge/match_stereo.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
-#include "report/edges_csv.hpp"
+#include "report/result_rows.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::cli {

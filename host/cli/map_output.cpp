@@ -1,13 +1,17 @@
 #include "cli/map_output.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "cli/output_folder.hpp"
-#include "motion/disparity_offset.hpp"
+#include "common/timing.hpp"
+#include "data/atomic_file.hpp"
+#include "odometry/disparity_offset.hpp"
 #include "quadedge/error.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
+#include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -54,7 +58,7 @@ MapOutput::MapOutput(const MapFiles& files, const Config& config) : files_(files
 void MapOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   if (!map_ || !map_->add(frame.view(), result, odometry)) return;
   const StereoRig& rig = odometry.rig();
-  if (map_->views().size() == 1) rig_ = motion::with_disparity_offset(rig, 0);
+  if (map_->views().size() == 1) rig_ = odometry::with_disparity_offset(rig, 0);
   if (files_.colmap.empty()) return;
   const int number = map_->views().back().frame;
   write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);
@@ -71,6 +75,33 @@ void MapOutput::write() {
   if (!files_.ply.empty()) write_ply(files_.ply, points);
   if (!files_.colmap.empty()) write_colmap(files_.colmap + "/sparse/0", rig_, *map_);
   facts_ = report::MapFacts{points.size(), map_->views().size(), map_->dropped()};
+}
+
+void LoopOutput::add(const FrameResult& result) {
+  const auto start = Clock::now();
+  map_.add(result);
+  const double ms = milliseconds_since(start);
+  total_ms_ += ms;
+  latencies_ms_.push_back(result.timing.latency_ms + ms);
+}
+
+report::LoopFacts LoopOutput::write(const std::string& folder, const std::string& saved_map) const {
+  const Trajectory trajectory = map_.trajectory();
+  write_tum(folder + "/trajectory_map.txt", trajectory);
+  data::write_atomically(folder + "/loops.csv", report::loops_csv(map_.closures()));
+  if (!saved_map.empty()) write_map(saved_map, map_.saved());
+  report::LoopFacts facts;
+  facts.compared = map_.closures().size();
+  facts.kept = static_cast<std::size_t>(
+      std::count_if(map_.closures().begin(), map_.closures().end(),
+                    [](const Closure& closure) { return closure.verdict == ClosureVerdict::kept; }));
+  facts.segments = map_.segments();
+  facts.frames = trajectory.size();
+  facts.key_rigs = map_.key_rigs();
+  facts.megabytes = static_cast<double>(map_.bytes()) / 1e6;
+  facts.total_ms = total_ms_;
+  facts.latency = report::latency_summary(latencies_ms_);
+  return facts;
 }
 
 }  // namespace quadedge::cli

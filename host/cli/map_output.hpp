@@ -1,9 +1,11 @@
 #pragma once
-/// \file map_output.hpp  The map that a run writes.
+/// \file map_output.hpp  The maps that a run writes: the edges in space, and with --loops the corrected trajectory, the
+/// closures and the places.
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "quadedge/dataset.hpp"
@@ -45,6 +47,24 @@ class MapOutput {
   std::unique_ptr<EdgeMap> map_;  ///< null if no map is requested
   StereoRig rig_;
   std::optional<report::MapFacts> facts_;
+};
+
+/// The map of places beside the odometry of a run, with --loops.
+class LoopOutput {
+ public:
+  explicit LoopOutput(StereoOdometry& odometry) : map_(odometry) {}
+
+  /// Takes in the frame that was tracked last.
+  void add(const FrameResult& result);
+  const Map& map() const { return map_; }
+  /// Writes trajectory_map.txt and loops.csv and, unless its name is empty, a map file. \throws DataError. \returns
+  /// what they hold
+  report::LoopFacts write(const std::string& folder, const std::string& saved_map) const;
+
+ private:
+  Map map_;
+  double total_ms_ = 0;
+  std::vector<double> latencies_ms_;  ///< of all frames, with the time of the map
 };
 
 }  // namespace quadedge::cli

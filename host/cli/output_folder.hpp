@@ -1,11 +1,30 @@
 #pragma once
-/// \file output_folder.hpp  The folder that a run writes to.
+/// \file output_folder.hpp  The folder that a run writes to, and the lock that keeps others out of it.
 
 #include <string>
-
-#include "cli/folder_lock.hpp"
+#include <utility>
 
 namespace quadedge::cli {
+
+/// A lock that ends with its object or its process. An exclusive lock removes its file.
+class FolderLock {
+ public:
+  /// `shared`: other processes may hold it shared as well. `what`: the folder, for the message. \throws UsageError when
+  /// another process holds it, DataError when the file cannot be created. On file systems without locks it does
+  /// nothing.
+  FolderLock(std::string file, bool shared, const std::string& what);
+  ~FolderLock();
+  FolderLock(FolderLock&& other) noexcept
+      : name_(std::move(other.name_)), shared_(other.shared_), file_(std::exchange(other.file_, -1)) {}
+  FolderLock& operator=(FolderLock&&) = delete;
+
+ private:
+  bool is_removed() const;
+
+  std::string name_;
+  bool shared_;
+  int file_ = -1;
+};
 
 /// Creates the folder, checks that it can be written, and locks it. A folder with results is refused without
 /// `force`; with it, the old results (and nothing else) are removed, so that no stale file stays among the new ones.

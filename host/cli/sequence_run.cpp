@@ -6,25 +6,22 @@
 
 #include "benchmark/variants_file.hpp"
 #include "cli/console.hpp"
-#include "cli/loop_output.hpp"
+#include "cli/map_output.hpp"
 #include "cli/output_folder.hpp"
-#include "common/run_cost.hpp"
+#include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencl/context.hpp"
-#include "quadedge/config_file.hpp"
+#include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "reference/undistortion.hpp"
-#include "report/append_file.hpp"
 #include "report/config_toml.hpp"
 #include "report/drawing.hpp"
-#include "report/errors_csv.hpp"
-#include "report/frames_csv.hpp"
 #include "report/json.hpp"
-#include "report/poses_csv.hpp"
+#include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -35,23 +32,25 @@ class GrowingFiles {
   explicit GrowingFiles(const std::string& folder)
       : tum_(folder + "/trajectory.txt"),
         kitti_(folder + "/trajectory_kitti.txt"),
-        frames_(folder + "/frames.csv", report::frames_csv_columns()),
-        poses_(folder + "/poses.csv", report::poses_csv_columns()) {
+        frames_(folder + "/frames.csv"),
+        poses_(folder + "/poses.csv") {
     tum_.append(data::tum_header());
+    frames_.append(report::frames_row(0, {}).heading());
+    poses_.append(report::poses_row(0, {}).heading());
   }
   void add(const FrameResult& result) {
     const StampedPose pose{result.stamp_ns, result.pose_or_prediction(), result.segment};
     if (result.segment != segment_) tum_.append(data::tum_segment(segment_ = result.segment));
     if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
     kitti_.append(data::kitti_row(pose));
-    frames_.add(result);
-    poses_.add(result);
+    frames_.append(report::frames_row(number_, result).line());
+    poses_.append(report::poses_row(number_, result).line());
+    ++number_;
   }
 
  private:
-  int segment_ = 0;
-  report::AppendFile tum_, kitti_;
-  report::FrameRows frames_, poses_;
+  int segment_ = 0, number_ = 0;
+  report::AppendFile tum_, kitti_, frames_, poses_;
 };
 
 /// Whether this frame is one of `count` that are spread evenly over the frames after the first.
@@ -266,26 +265,6 @@ void write_results(const FrameSource& source, const SequenceRunOptions& options,
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
 }
 
-/// The recording ended with an error: keeps what is finished. \throws DataError with what happened.
-[[noreturn]] void end_with_error(const DataError& error, const FrameSource& source, const SequenceRunOptions& options,
-                                 MapOutput& map, report::RunRecord& run) {
-  if (run.frames.empty()) throw error;
-  run.ended_early = error.what();
-  const auto attempt = [](const auto& part) {
-    try {
-      part();
-    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
-    }
-  };
-  attempt([&] {
-    map.write();
-    run.map = map.facts();
-  });
-  attempt([&] { write_results(source, options, run); });
-  throw DataError(run.ended_early + "\n" + data::counted(run.frames.size(), "finished frame") + " in " +
-                  options.output);
-}
-
 /// Prints the summary of an interrupted run and ends the process by the signal.
 [[noreturn]] void end_by_signal(const Interruption& interruption, const FrameSource& source,
                                 const SequenceRunOptions& options, const report::RunRecord& run) {
@@ -317,7 +296,14 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   try {
     track_frames(source, method, options, interruption, map, run);
   } catch (const DataError& error) {
-    end_with_error(error, source, options, map, run);
+    if (run.frames.empty()) throw;
+    run.ended_early = error.what();
+    end_with_error(error, run.frames.size(), options.output,
+                   {[&] {
+                      map.write();
+                      run.map = map.facts();
+                    },
+                    [&] { write_results(source, options, run); }});
   }
   if (run.frames.empty()) end_if_interrupted(interruption, source);
   map.write();
@@ -334,13 +320,26 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
 }
 
 int exit_code(const report::RunRecord& run, double min_tracked) {
-  const double tracked = run.frames.empty() ? 0 : 100.0 * run.tracked() / static_cast<double>(run.frames.size());
-  if (tracked >= min_tracked) return static_cast<int>(ExitCode::done);
-  const std::string lost = report::lost_reasons(run.frames);
-  std::fprintf(stderr, "quadedge: tracked %d of %s, fewer than --min-tracked %g %%%s%s\n", run.tracked(),
-               data::counted(run.frames.size(), "frame").c_str(), min_tracked,
-               lost.empty() ? "" : "; lost: ", lost.c_str());
+  return exit_code("tracked", run.tracked(), run.frames.size(), min_tracked, report::lost_reasons(run.frames));
+}
+
+int exit_code(const char* verb, int done, std::size_t frames, double min_tracked, const std::string& lost) {
+  if (frames > 0 ? 100.0 * done >= min_tracked * static_cast<double>(frames) : min_tracked == 0)
+    return static_cast<int>(ExitCode::done);
+  std::fprintf(stderr, "quadedge: %s %d of %s, fewer than --min-tracked %g %%%s%s\n", verb, done,
+               data::counted(frames, "frame").c_str(), min_tracked, lost.empty() ? "" : "; lost: ", lost.c_str());
   return static_cast<int>(ExitCode::too_few_tracked);
+}
+
+void end_with_error(const DataError& error, std::size_t frames, const std::string& folder,
+                    std::initializer_list<std::function<void()>> parts) {
+  for (const auto& part : parts) {
+    try {
+      part();
+    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
+    }
+  }
+  throw DataError(std::string(error.what()) + "\n" + data::counted(frames, "finished frame") + " in " + folder);
 }
 
 }  // namespace quadedge::cli

@@ -1,12 +1,15 @@
 #pragma once
 /// \file sequence_run.hpp  Tracks a whole sequence and writes its output folder; shared by `run` and `demo`.
 
+#include <functional>
+#include <initializer_list>
 #include <string>
 
 #include "cli/frame_source.hpp"
 #include "cli/interruption.hpp"
 #include "cli/map_output.hpp"
 #include "cli/method_options.hpp"
+#include "quadedge/error.hpp"
 #include "report/run_record.hpp"
 
 namespace quadedge::cli {
@@ -35,5 +38,12 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
 
 /// Exit code of a finished run: too_few_tracked below `min_tracked` percent (with a message on stderr), else done.
 int exit_code(const report::RunRecord& run, double min_tracked);
+/// The same for `done` frames of all. `verb`: what was done with them, for the message; `lost`: why others were not.
+int exit_code(const char* verb, int done, std::size_t frames, double min_tracked, const std::string& lost);
+
+/// A recording ended with `error` after some frames: calls each of `parts`, which write what is finished, and ignores
+/// that a disk is full. \throws DataError with what happened and where the frames are.
+[[noreturn]] void end_with_error(const DataError& error, std::size_t frames, const std::string& folder,
+                                 std::initializer_list<std::function<void()>> parts);
 
 }  // namespace quadedge::cli

@@ -1,9 +1,16 @@
 #include "evaluation/matching_observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "evaluation/pools.hpp"
+#include "common/disparity_range.hpp"
+#include "common/epipolar_geometry.hpp"
+#include "common/matching_constants.hpp"
+#include "evaluation/cues.hpp"
+#include "evaluation/filter_table.hpp"
 #include "pose/quads.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge::evaluation {
 namespace {
@@ -38,6 +45,18 @@ MatchClass classify(const TruePositions& truth, std::size_t i, double x, double 
   if (is_veridical(truth, i, x, y, tolerance)) return MatchClass::correct;
   return std::hypot(x - truth.x[i], y - truth.y[i]) <= tolerance.wrong ? MatchClass::inaccurate : MatchClass::wrong;
 }
+
+/// Adds the NCC or SIFT distance of the lists, as used by `filter`.
+template <class Filter>
+void collect_similarity(Filter filter, const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue) {
+  if (filter == Filter::nearly_best_ncc || filter == Filter::nearly_best_sift) {
+    collect_ratios(lists, judge, filter == Filter::nearly_best_ncc, cue);
+  } else {
+    collect_scores(lists, judge, cue);
+  }
+}
+
+double direction_difference_deg(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)) * 180 / kPi; }
 
 }  // namespace
 
@@ -82,7 +101,7 @@ void MatchingObserver::edges(const EdgeSet& left, const EdgeSet& right) {
   left_ = left;
   right_ = right;
   stereo_truth_ = true_right_positions(rig_, current().truth, left.positions());
-  stereo_pools_ = stereo_pools(rig_, left, right, stereo_truth_, config_.stereo.min_epipolar_angle, tolerance_);
+  stereo_pools_ = stereo_pools(rig_, left, right, stereo_truth_, kMinEpipolarAngleDeg, tolerance_);
   EdgeCensus& census = measured_.census;
   census.edges = static_cast<std::int64_t>(left.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -196,7 +215,7 @@ void MatchingObserver::measure_quads(const TemporalMatches& matches) {
     if (search_->quad_pools.all[i] != 0) measured.quads_all.add_edge(candidates[i], true_candidates[i]);
     if (search_->quad_pools.paired[i] != 0) measured.quads_paired.add_edge(candidates[i], true_candidates[i]);
   }
-  const auto quads = pose::build_quads(rig_, base.edges, current().edges, matches, pose::QuadLimits(config_));
+  const auto quads = pose::build_quads(rig_, base.edges, current().edges, matches, pose::QuadLimits());
   std::vector<std::size_t> usable;  // quads with ground truth
   std::vector<std::uint8_t> veridical_quad;
   for (std::size_t q = 0; q < quads.size(); ++q) {
@@ -205,8 +224,101 @@ void MatchingObserver::measure_quads(const TemporalMatches& matches) {
     veridical_quad.push_back(veridical[match]);
   }
   measured.pairs =
-      measure_pairs(quads, usable, veridical_quad, config_.pose, config_.seed,
+      measure_pairs(quads, usable, veridical_quad, config_.seed,
                     current().truth.world_from_left->inverse() * *base.truth.world_from_left, search_->cues);
+}
+
+/// Collects the cue of the filter that follows `filter`.
+void MatchingObserver::collect_stereo(StereoFilter filter, const CandidateLists& candidates) {
+  CueDistribution* found = find_cue(measured_.cues, CueTable::stereo, order_of(next(filter)));
+  if (found == nullptr) return;
+  const CandidateTruth judge{stereo_truth_, stereo_pools_, tolerance_, right_.x, right_.y};
+  const auto geometry = make_epipolar_geometry(rig_, config_.stereo);
+  const auto line_of = [&](std::size_t row) { return epipolar_line(geometry, left_.x[row], left_.y[row]); };
+  if (filter == StereoFilter::baseline) {
+    collect_unfiltered(
+        judge, rig_.right.height, config_.seed,
+        [&](std::size_t row, std::size_t target) {
+          const auto line = line_of(row);
+          return static_cast<double>(
+              std::abs((right_.y[target] - line.y) * line.ex - (right_.x[target] - line.x) * line.ey));
+        },
+        *found);
+  } else if (filter == StereoFilter::epipolar_distance) {
+    collect_geometry(
+        candidates, judge,
+        [&](std::size_t row, std::size_t target) {
+          const auto line = line_of(row);
+          return static_cast<double>((right_.x[target] - line.x) * line.ex + (right_.y[target] - line.y) * line.ey);
+        },
+        *found);
+  } else if (filter == StereoFilter::disparity) {
+    collect_geometry(
+        candidates, judge,
+        [&](std::size_t row, std::size_t target) {
+          return line_angle_deg(left_.direction[row], right_.direction[target]);
+        },
+        *found);
+  } else {
+    collect_similarity(next(filter), candidates, judge, *found);
+  }
+}
+
+/// The same for the temporal search in progress.
+void MatchingObserver::collect_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates) {
+  const CueTable table = side == Side::left ? CueTable::temporal_left : CueTable::temporal_right;
+  CueDistribution* found = find_cue(search_->cues, table, order_of(next(filter)));
+  if (found == nullptr) return;
+  const auto s = static_cast<std::size_t>(index_of(side));
+  const EdgePositionsView now = current().edges.positions(side);
+  const EdgePositions& expected = search_->expected[s];
+  const CandidateTruth judge{search_->later[s], search_->pools[s], tolerance_, now.x, now.y};
+  if (filter == TemporalFilter::baseline) {
+    collect_unfiltered(
+        judge, camera(side).height, config_.seed,
+        [&](std::size_t row, std::size_t target) {
+          return static_cast<double>(std::hypot(now.x[target] - expected.x[row], now.y[target] - expected.y[row]));
+        },
+        *found);
+  } else if (filter == TemporalFilter::displacement) {
+    collect_geometry(
+        candidates, judge,
+        [&](std::size_t row, std::size_t target) {
+          return direction_difference_deg(expected.direction[row], now.direction[target]);
+        },
+        *found);
+  } else {
+    collect_similarity(next(filter), candidates, judge, *found);
+  }
+}
+
+MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config,
+                                 const MatchingOptions& options) {
+  if (device.is_reference())
+    throw UsageError("evaluate matching needs an OpenCL device, because the reference has no taps");
+  config.odometry.key_rig = false;  // the tables refer to consecutive frames
+  MatchingObserver observer(source.rig(), with_disparity_range(config, source.rig()), options.tolerance,
+                            options.distributions);
+  StereoOdometry odometry(source.rig(), device, config);
+  odometry.set_tap(&observer);
+  MatchingResult result;
+  result.name = source.name();
+  const int count = options.frames > 0 ? std::min(options.frames, source.frames()) : source.frames();
+  const int drawn = std::min(options.draw_frame, count - 1);
+  for (int number = 0; number < count; ++number) {
+    TrueFrame frame = source.load(number);
+    observer.begin(number, std::move(frame.truth));
+    FrameMatching measured = observer.end(odometry.track(frame.frame.view()));
+    add(result.cues, measured.cues);
+    measured.cues = {};
+    result.frames.push_back(std::move(measured));
+    if (number == drawn) {
+      result.drawn =
+          DrawnFrame{number, std::move(frame.frame.left), std::move(frame.frame.right), observer.final_matches()};
+    }
+    if (options.progress) options.progress(number + 1, count);
+  }
+  return result;
 }
 
 }  // namespace quadedge::evaluation

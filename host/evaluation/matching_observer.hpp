@@ -1,13 +1,17 @@
 #pragma once
-/// \file matching_observer.hpp  Evaluates the results of the pipeline's filters while it runs.
+/// \file matching_observer.hpp  Evaluates the results of the pipeline's filters while it runs over a pair or a
+/// sequence.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "evaluation/edge_truth.hpp"
 #include "evaluation/matching_result.hpp"
+#include "evaluation/matching_source.hpp"
 #include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
 #include "quadedge/tap.hpp"
 
 namespace quadedge::evaluation {
@@ -79,5 +83,20 @@ class MatchingObserver : public Tap {
   std::map<int, Search> searches_;  ///< of the current frame, by number
   Search* search_ = nullptr;        ///< the search in progress
 };
+
+/// Options of evaluate_matching().
+struct MatchingOptions {
+  int frames = 0;  ///< number of frames to use from each source; 0: all
+  MatchingTolerance tolerance;
+  bool distributions = false;  ///< whether to collect distributions of the cues
+  int draw_frame = -1;         ///< frame to keep for drawing (the last one if there are fewer frames); -1: none
+  std::function<void(int done, int total)> progress;
+};
+
+/// Tracks the frames of a source with a tap on the pipeline. If the configuration does not limit the disparity, the
+/// source's limit applies. \throws UsageError for the reference device, whose stages have no taps; DataError;
+/// DeviceError
+MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config,
+                                 const MatchingOptions& options = {});
 
 }  // namespace quadedge::evaluation

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/cue_distribution.hpp"
+#include "evaluation/cues.hpp"
 #include "evaluation/filter_table.hpp"
 #include "evaluation/quad_pairs.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/odometry.hpp"
-#include "quadedge/side.hpp"
 
 namespace quadedge::evaluation {
 

@@ -6,18 +6,13 @@
 #include <random>
 
 #include "common/numeric.hpp"
-#include "evaluation/draw.hpp"
+#include "evaluation/cues.hpp"
 #include "pose/two_quads.hpp"
 
 namespace quadedge::evaluation {
 namespace {
 
-double median(std::vector<double> values) {
-  if (values.size() < kFewestMotions) return kNan;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median(std::vector<double> values) { return values.size() < kFewestMotions ? kNan : upper_median(values); }
 
 /// Angle between two lines from the cosine of their directions [deg].
 double line_angle(double cosine) { return std::acos(std::min(1.0, std::abs(cosine))) * kDegreesPerRadian; }
@@ -54,11 +49,11 @@ std::array<double, 5> constraint_values(const pose::OrientedPair& previous, cons
 }
 
 PairMeasurement measure_pairs(const pose::QuadObservations& quads, const std::vector<std::size_t>& usable,
-                              const std::vector<std::uint8_t>& veridical, const PoseConfig& config, std::uint64_t seed,
+                              const std::vector<std::uint8_t>& veridical, std::uint64_t seed,
                               const Eigen::Isometry3d& current_from_previous, std::vector<CueDistribution>& cues) {
   PairMeasurement measured;
   if (usable.size() >= 2) {
-    const pose::ConstraintLimits limits(config);
+    const pose::ConstraintLimits limits;
     std::array<Motions, kConstraintNames.size()> motions;
     std::mt19937_64 random(seed);
     for (int n = 0; n < kDrawnPairs; ++n) {

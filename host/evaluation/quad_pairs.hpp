@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "evaluation/cue_distribution.hpp"
-#include "pose/constraints.hpp"
+#include "evaluation/cues.hpp"
 #include "pose/quads.hpp"
+#include "pose/two_quads.hpp"
 
 namespace quadedge::evaluation {
 
@@ -46,7 +46,7 @@ struct PairMeasurement {
 /// \param current_from_previous the true motion
 /// \param cues receives the distributions of the constraints
 PairMeasurement measure_pairs(const pose::QuadObservations& quads, const std::vector<std::size_t>& usable,
-                              const std::vector<std::uint8_t>& veridical, const PoseConfig& config, std::uint64_t seed,
+                              const std::vector<std::uint8_t>& veridical, std::uint64_t seed,
                               const Eigen::Isometry3d& current_from_previous, std::vector<CueDistribution>& cues);
 inline constexpr int kDrawnPairs = 200000;
 /// Maximum and minimum number of motions for a median.

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 
 #include "common/numeric.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
-#include "report/frames_csv.hpp"
+#include "report/json_values.hpp"
+#include "report/rows.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::report {
 namespace {
+
+constexpr int kSummarySchema = 1;  // grows when a key changes its meaning
 
 constexpr std::array<ErrorStatistics PoseErrors::*, 4> kErrors = {
     &PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m, &PoseErrors::rpe_rotation_deg,
@@ -83,16 +85,6 @@ LatencySummary summary_of(const std::vector<double>& values, const std::vector<d
 
 }  // namespace
 
-const char* to_string(MemberStatus status) {
-  switch (status) {
-    case MemberStatus::done: return "done";
-    case MemberStatus::too_few_tracked: return "too few tracked";
-    case MemberStatus::failed: return "failed";
-    case MemberStatus::missing: return "not run";
-  }
-  return "";
-}
-
 int worse_exit_code(int a, int b) {
   constexpr std::array<ExitCode, 6> kFromBadToWorse = {ExitCode::done, ExitCode::too_few_tracked, ExitCode::usage,
                                                        ExitCode::data, ExitCode::device,          ExitCode::internal};
@@ -101,10 +93,6 @@ int worse_exit_code(int a, int b) {
            kFromBadToWorse.begin();
   };
   return rank(a) >= rank(b) ? a : b;
-}
-
-std::string member_folder(const std::string& output, const std::string& name) {
-  return (std::filesystem::path(output) / "sequences" / name).string();
 }
 
 std::optional<TrajectoryEvaluation> pooled_accuracy(const std::vector<const TrajectoryEvaluation*>& parts) {
@@ -134,7 +122,7 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
     std::vector<double> frame_latencies;
     if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
       try {
-        frame_latencies = read_frames_csv(folder + "/frames.csv").numbers("latency_ms");
+        frame_latencies = CsvTable(folder + "/frames.csv", "a frames.csv of `quadedge run`").numbers("latency_ms");
       } catch (const DataError& problem) {
         row = damaged(row, problem.what());
       }
@@ -158,6 +146,56 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
     summary.average = average(parts);
   }
   return summary;
+}
+
+std::string summary_json(const BatchSummary& summary) {
+  Json json;
+  json["schema"] = kSummarySchema;
+  add_origin(json, summary.command);
+  json["input"] = summary.input;
+  if (summary.config) add_configuration(json, *summary.config);
+  json["exit_code"] = summary.exit_code;
+  json["min_tracked_percent"] = summary.min_tracked;
+  json["sequences"] = Json::array();
+  for (const auto& row : summary.rows) {
+    Json entry = {
+        {"name", row.member.name},       {"status", to_string(row.status)}, {"exit_code", row.member.exit_code},
+        {"message", row.member.message}, {"path", row.member.path},         {"format", row.member.format},
+        {"jobs", row.member.jobs}};
+    if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
+      entry["device"] = row.device;
+      entry["frames"] = row.frames;
+      entry["frames_tracked"] = row.tracked;
+      entry["tracked_fraction"] = row.frames > 0 ? Json(static_cast<double>(row.tracked) / row.frames) : Json(nullptr);
+      entry["key_rigs"] = row.key_rigs;
+      entry["segments"] = row.segments;
+      if (row.accuracy) entry["accuracy"] = to_json(*row.accuracy);
+      entry["latency_ms"] = to_json(row.latency);
+    }
+    json["sequences"].push_back(std::move(entry));
+  }
+  Json& all = json["all"];
+  all["frames"] = summary.frames;
+  all["frames_tracked"] = summary.tracked;
+  all["tracked_fraction"] =
+      summary.frames > 0 ? Json(static_cast<double>(summary.tracked) / summary.frames) : Json(nullptr);
+  if (summary.pooled) all["pooled"] = to_json(*summary.pooled);
+  if (summary.average) all["average"] = to_json(*summary.average);
+  all["latency_ms"] = to_json(summary.latency);
+  return json_text(json);
+}
+
+SummarisedBatch summarised_batch(const std::string& output) {
+  const std::string file = output + "/summary.json";
+  const Json json = read_json(file, "the summary of a batch");
+  SummarisedBatch batch;
+  try {
+    for (const auto& entry : json.at("sequences")) batch.names.push_back(entry.at("name"));
+    batch.min_tracked = json.at("min_tracked_percent");
+  } catch (const Json::exception& problem) {
+    data::fail(file, problem.what(), "the summary of a batch");
+  }
+  return batch;
 }
 
 }  // namespace quadedge::report

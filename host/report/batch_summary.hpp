@@ -7,24 +7,9 @@
 
 #include "quadedge/config.hpp"
 #include "quadedge/evaluation.hpp"
-#include "report/member_record.hpp"
-#include "report/run_record.hpp"
+#include "report/member_results.hpp"
 
 namespace quadedge::report {
-
-/// How a sequence of a batch ended.
-enum class MemberStatus { done, too_few_tracked, failed, missing };
-const char* to_string(MemberStatus status);
-
-/// One sequence.
-struct SummaryRow {
-  MemberRecord member;
-  MemberStatus status = MemberStatus::missing;
-  int frames = 0, tracked = 0, key_rigs = 0, segments = 0;
-  std::string device;
-  LatencySummary latency;                        ///< [ms]; NaN where the run failed
-  std::optional<TrajectoryEvaluation> accuracy;  ///< only with ground truth
-};
 
 /// A batch.
 struct BatchSummary {
@@ -43,13 +28,6 @@ struct BatchSummary {
   double min_tracked = 0;  ///< share of the frames below which too few are tracked [percent]
 };
 
-/// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts
-/// as too_few_tracked, one whose results are damaged as failed.
-SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked);
-
-/// The row of a sequence whose results are damaged, with the reader's complaint.
-SummaryRow damaged(SummaryRow row, const std::string& complaint);
-
 /// Summarises the results in OUT/sequences/NAME.
 BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked);
 
@@ -58,8 +36,6 @@ int worse_exit_code(int a, int b);
 
 /// summary.json: all figures, unrounded.
 std::string summary_json(const BatchSummary& summary);
-/// summary.md: the paper's Table 4 (origin-aligned), the SE(3)-aligned errors, tracked frames and latencies, failures.
-std::string summary_markdown(const BatchSummary& summary);
 
 /// What OUT/summary.json states about the batch.
 struct SummarisedBatch {
@@ -71,8 +47,5 @@ SummarisedBatch summarised_batch(const std::string& output);
 
 /// Figures over several sequences, every pose with the same weight; nothing without sequences.
 std::optional<TrajectoryEvaluation> pooled_accuracy(const std::vector<const TrajectoryEvaluation*>& parts);
-
-/// Folder of a sequence's results within a batch.
-std::string member_folder(const std::string& output, const std::string& name);
 
 }  // namespace quadedge::report

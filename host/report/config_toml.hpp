@@ -1,10 +1,10 @@
 #pragma once
-/// \file config_toml.hpp  The parts of quadedge/config_file.hpp that the command line shares.
+/// \file config_toml.hpp  The parts of quadedge/config.hpp that the command line shares.
 
 #include <string>
 
 #include "data/toml_file.hpp"
-#include "quadedge/config_file.hpp"
+#include "quadedge/config.hpp"
 
 namespace quadedge::report {
 

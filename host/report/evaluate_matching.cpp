@@ -1,6 +1,6 @@
 #include "quadedge/evaluate_matching.hpp"
 
-#include "evaluation/matching_evaluation.hpp"
+#include "evaluation/matching_observer.hpp"
 #include "report/matching_json.hpp"
 
 namespace quadedge {

@@ -1,7 +1,9 @@
-/// \file json.cpp  Results of runs and trajectories; written with json_values.hpp.
 #include "report/json.hpp"
 
+#include <map>
+
 #include "report/json_values.hpp"
+#include "report/statistics.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -46,6 +48,12 @@ Json loops_json(const LoopFacts& loops) {
           {"segments", loops.segments}, {"frames", loops.frames},
           {"key_rigs", loops.key_rigs}, {"megabytes", loops.megabytes},
           {"total_ms", loops.total_ms}, {"latency_ms", to_json(loops.latency)}};
+}
+
+std::map<LocalisationStatus, int> counts_of(const std::vector<Localisation>& frames) {
+  std::map<LocalisationStatus, int> counts;
+  for (const Localisation& frame : frames) ++counts[frame.status];
+  return counts;
 }
 
 }  // namespace
@@ -171,6 +179,39 @@ std::string trace_json(const RunRecord& run) {
   add_origin(trace["otherData"], run.command);
   trace["traceEvents"] = std::move(events);
   return json_text(trace);
+}
+
+std::string lost_reasons(const std::vector<Localisation>& frames) { return lost_reasons(counts_of(frames)); }
+
+double median_latency_ms(const std::vector<Localisation>& frames) {
+  std::vector<double> values;
+  for (std::size_t i = frames.size() > 1 ? 1 : 0; i < frames.size(); ++i) values.push_back(frames[i].latency_ms);
+  return median(values);
+}
+
+std::string localisation_json(const LocalisationRecord& record) {
+  Json json;
+  json["schema"] = kReportSchema;
+  add_origin(json, record.command);
+  json["device"] = to_json(record.device);
+  json["map"] = {{"path", record.map_file}, {"key_rigs", record.key_rigs}};
+  json["input"] = {{"path", record.input.path},
+                   {"format", record.input.format},
+                   {"name", record.input.name},
+                   {"frames", record.frames.size()}};
+  if (!record.ended_early.empty()) json["ended_early"] = record.ended_early;
+  json["frames_located"] = record.located();
+  json["frames"] = Json::object();
+  for (const auto& [status, count] : counts_of(record.frames)) json["frames"][to_string(status)] = count;
+  json["latency_ms"] = {{"median", to_json(median_latency_ms(record.frames))}};
+  if (record.accuracy) {
+    json["accuracy"] = {{"origin_aligned", to_json(record.accuracy->origin_aligned)},
+                        {"se3_aligned", to_json(record.accuracy->se3_aligned)},
+                        {"matched_poses", record.accuracy->matched},
+                        {"truth_file", record.truth_file}};
+  }
+  add_configuration(json, record.config);
+  return json_text(json);
 }
 
 }  // namespace quadedge::report

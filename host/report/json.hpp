@@ -1,11 +1,13 @@
 #pragma once
-/// \file json.hpp  The machine-readable results (doc/design.md section 10). All functions return the text of a JSON
-/// document.
+/// \file json.hpp  The machine-readable results of runs, localisations and trajectories (doc/design.md section 10). All
+/// functions return the text of a JSON document.
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "evaluation/step_judgement.hpp"
+#include "evaluation/motion_errors.hpp"
+#include "quadedge/localiser.hpp"
 #include "report/run_record.hpp"
 
 namespace quadedge::report {
@@ -25,5 +27,34 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
 /// Chrome's trace format (chrome://tracing, ui.perfetto.dev): one event per frame, with its stages one after another
 /// inside it.
 std::string trace_json(const RunRecord& run);
+
+/// One localisation of a recording.
+struct LocalisationRecord {
+  std::string command;      ///< its command line
+  std::string ended_early;  ///< as in RunRecord
+  std::string map_file;
+  std::size_t key_rigs = 0;  ///< of the map
+  InputFacts input;
+  DeviceInfo device;
+  Config config;  ///< effective
+  std::vector<Localisation> frames;
+  std::string truth_file;                        ///< empty without ground truth
+  std::optional<TrajectoryEvaluation> accuracy;  ///< only with ground truth
+
+  int located() const {
+    int count = 0;
+    for (const auto& frame : frames) count += frame.status == LocalisationStatus::located ? 1 : 0;
+    return count;
+  }
+};
+
+/// Why frames were lost: "5 unknown place, 2 ambiguous"; empty if there are none.
+std::string lost_reasons(const std::vector<Localisation>& frames);
+
+/// Median time per frame, except the first, which warms up [ms].
+double median_latency_ms(const std::vector<Localisation>& frames);
+
+/// localisation.json.
+std::string localisation_json(const LocalisationRecord& record);
 
 }  // namespace quadedge::report

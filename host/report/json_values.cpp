@@ -2,9 +2,18 @@
 
 #include <ctime>
 
+#include "data/text.hpp"
 #include "report/source_commit.hpp"
 
 namespace quadedge::report {
+
+Json read_json(const std::string& file, const char* expected) {
+  try {
+    return Json::parse(data::read_bytes(file));
+  } catch (const Json::exception& problem) {
+    data::fail(file, std::string("no JSON (") + problem.what() + ")", expected);
+  }
+}
 
 void add_origin(Json& json, const std::string& command) {
   const std::time_t now = std::time(nullptr);

@@ -68,6 +68,9 @@ void add_origin(Json& json, const std::string& command);
 /// Adds `config`, every constant in its section, and `config_changed`, those that are not at their defaults.
 void add_configuration(Json& json, const Config& config);
 
+/// The content of a file. \throws DataError, naming it and what was expected, for a missing or damaged one.
+Json read_json(const std::string& file, const char* expected);
+
 /// Reads values back: null becomes NaN. \throws nlohmann::json::exception for a missing key or another type.
 inline double to_number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();

@@ -28,4 +28,12 @@ struct MatchingFacts {
 /// names with `_all` are of all edges of known truth. A row whose filter is switched off says `off`.
 std::string matching_json(const std::vector<evaluation::MatchingResult>& results, const MatchingFacts& facts);
 
+/// Spearman's rank correlation of the precision of the pairs that fulfil the constraints so far, and of the error of
+/// the motions that they give; one point per frame and constraint. NaN where it does not exist.
+struct MotionCorrelation {
+  int points = 0;
+  double rotation = 0, translation = 0;
+};
+MotionCorrelation motion_correlation(const std::vector<evaluation::MatchingResult>& results);
+
 }  // namespace quadedge::report

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/consistency.hpp"
+#include "evaluation/motion_errors.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/evaluation.hpp"

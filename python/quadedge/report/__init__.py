@@ -7,7 +7,7 @@ processed. Needs jinja2, plotly and matplotlib, but not the compiled part of the
 import importlib.util
 from pathlib import Path
 
-from .page import Page, smallest_loss, write_atomically, write_figures, write_tables
+from .page import Page, smallest_loss, write_atomically, write_figures, write_markdown, write_tables
 from .results import DamagedResults
 
 if importlib.util.find_spec("plotly") is None:  # its JavaScript is read without importing it
@@ -17,13 +17,14 @@ __all__ = ["DamagedResults", "Page", "make_page"]
 
 
 def make_page(results: str | Path, output: str | Path | None = None, *, comparison: str | Path | None = None,
-              csv: str | Path | None = None, latex: str | Path | None = None,
+              markdown: str | Path | None = None, csv: str | Path | None = None, latex: str | Path | None = None,
               figures: str | Path | None = None) -> Path:
     """Makes the page of a run, of a batch, or of a file of `evaluate matching --json`, and returns its path.
 
     results: folder of a run or batch, or the JSON file. output: path of the page; by default `report.html` in the
     folder, or the JSON file's name with .html. comparison: file that `quadedge report --baseline --peer` writes about a
-    batch. csv, latex: folders to write every table to. figures: folder to write every figure to, as SVG and PDF.
+    batch. markdown: file to write the tables of the first section to. csv, latex: folders to write every table to.
+    figures: folder to write every figure to, as SVG and PDF.
 
     Raises DamagedResults for results that cannot be read; a single damaged sequence of a batch is reported on the page.
     Raises OSError for a file that cannot be written.
@@ -47,6 +48,8 @@ def make_page(results: str | Path, output: str | Path | None = None, *, comparis
         run = read_run(results)
         page, text = smallest_loss(lambda detail: run_page(run, detail))
     write_atomically(output, text)
+    if markdown:
+        write_markdown(page, Path(markdown))
     for folder, ending in ((csv, "csv"), (latex, "tex")):
         if folder:
             write_tables(page, Path(folder), ending)

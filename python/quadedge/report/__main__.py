@@ -13,6 +13,7 @@ def main() -> int:
     parser.add_argument("results", help="folder of a run or a batch, or a file of `quadedge evaluate matching --json`")
     parser.add_argument("-o", "--output", help="path of the page")
     parser.add_argument("--comparison", help="file that `quadedge report --baseline --peer` writes about a batch")
+    parser.add_argument("--markdown", metavar="FILE", help="also write the tables of the first section as Markdown")
     parser.add_argument("--csv", metavar="DIR", help="also write every table as CSV")
     parser.add_argument("--latex", metavar="DIR", help="also write every table as LaTeX")
     parser.add_argument("--figures", metavar="DIR", help="also write every figure as SVG and PDF")

@@ -19,7 +19,7 @@ from markupsafe import Markup
 
 from .figure import Figure
 from .plotly_figures import to_plotly
-from .table import Table, to_csv, to_latex
+from .table import Table, to_csv, to_latex, to_markdown
 
 LARGEST_PAGE = 6_000_000  # bytes
 
@@ -212,6 +212,19 @@ def write_tables(page: Page, folder: Path, ending: str) -> None:
     for table in page.tables():
         text = to_csv(table) if ending == "csv" else to_latex(table)
         write_atomically(folder / f"{table.name}.{ending}", text)
+
+
+def write_markdown(page: Page, file: Path) -> None:
+    """Writes what the first section says and tabulates as Markdown."""
+    parts = [f"# {page.title}\n"]
+    for block in page.sections[0].blocks:
+        if block.kind == "table":
+            parts.append(f"## {block.title}\n\n{to_markdown(block)}")
+        elif block.kind == "facts":
+            parts.append("".join(f"- {term}: {text}\n" for term, text in block.entries))
+        elif block.kind == "text":
+            parts.append(f"{block.text}\n")
+    write_atomically(file, "\n".join(parts))
 
 
 def write_figures(page: Page, folder: Path) -> None:

@@ -1,8 +1,9 @@
-"""Tables as data, and their export to CSV and LaTeX."""
+"""Tables as data, and their export to CSV, Markdown and LaTeX."""
 
 import csv
 import io
 import math
+import re
 from dataclasses import dataclass, field
 
 from .numbers import DASH, exists, significant
@@ -74,6 +75,19 @@ def to_csv(table: Table) -> str:
     for row in table.rows:
         writer.writerow([cell.exact() for cell in row])
     return stream.getvalue()
+
+
+def _markdown_row(texts: list[str]) -> str:
+    cells = (re.sub(r"([|*\\`<])", r"\\\1", text).replace("\n", " ") for text in texts)
+    return "| " + " | ".join(cells) + " |"
+
+
+def to_markdown(table: Table) -> str:
+    """The table in Markdown, with rounded values."""
+    rows = [[" ".join(filter(None, (cell.text, cell.beside))) for cell in row] for row in table.rows]
+    rule = "|---" * table.text_columns + "|--:" * (len(table.columns) - table.text_columns) + "|"
+    return "\n".join([_markdown_row(table.full_columns()), rule, *map(_markdown_row, rows)]
+                     + [f"\n{note}" for note in table.notes]) + "\n"
 
 
 _LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{",

@@ -1,11 +1,15 @@
-#include "evaluation/cue_distribution.hpp"
+#include "evaluation/cues.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "common/filter_limits.hpp"
+#include "common/matching_constants.hpp"
+#include "evaluation/filter_table.hpp"
+#include "pose/pose_constants.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/filters.hpp"
+#include "quadedge/tap.hpp"
 
 namespace quadedge::evaluation {
 namespace {
@@ -43,6 +47,26 @@ void add_similarities(CueTable table, double ncc_min, double sift_max, double nc
       make_cue(table, order_of(Filter::nearly_best_ncc), "NCC / best NCC", "", false, {ncc_nearly_best}, kRatio));
   cues.push_back(make_cue(table, order_of(Filter::nearly_best_sift), "best SIFT / SIFT distance", "", false,
                           uses_sift ? std::vector<double>{sift_nearly_best} : std::vector<double>{}, kRatio));
+}
+
+/// Calls `visit(row, candidate, target, veridical)` for every candidate in a row of a pool.
+template <class Visit>
+void visit_candidates(const CandidateLists& lists, const CandidateTruth& judge, const Visit& visit) {
+  const bool refined = lists.x.size() == lists.target.size();
+  for (std::size_t i = 0; i + 1 < lists.first.size(); ++i) {
+    if (judge.pools.all[i] == 0) continue;
+    for (auto k = static_cast<std::size_t>(lists.first[i]); k < static_cast<std::size_t>(lists.first[i + 1]); ++k) {
+      const auto target = static_cast<std::size_t>(lists.target[k]);
+      const double x = refined ? lists.x[k] : judge.target_x[target], y = refined ? lists.y[k] : judge.target_y[target];
+      visit(i, k, target, is_veridical(judge.truth, i, x, y, judge.tolerance));
+    }
+  }
+}
+
+/// Adds a value to the pools to which its row belongs; every paired edge also belongs to the pool `all`.
+void add(double value, bool veridical, bool paired, CueDistribution& cue) {
+  if (paired) (veridical ? cue.veridical : cue.other).add(value);
+  (veridical ? cue.veridical_all : cue.other_all).add(value);
 }
 
 }  // namespace
@@ -91,8 +115,7 @@ std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& confi
       make_cue(table, order_of(StereoFilter::disparity), "disparity", "px", true, disparity, {-20, 480, 500}));
   cues.push_back(make_cue(table, order_of(StereoFilter::orientation), "difference of directions", "deg", true,
                           {stereo.orientation}, {0, 90, 180}));
-  add_similarities<StereoFilter>(table, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
-                                 stereo.sift_nearly_best, cues);
+  add_similarities<StereoFilter>(table, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best, kSiftNearlyBest, cues);
   cues.push_back(make_cue(table, order_of(StereoFilter::similarity), "similarity of representatives", "", false,
                           {static_cast<double>(lowest_similarity(stereo))}, kNcc));
 
@@ -101,18 +124,17 @@ std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& confi
     cues.push_back(make_cue(side, order_of(TemporalFilter::displacement), "distance from the expected position", "px",
                             true, {temporal.radius}, {0, 50, 200}, true));
     cues.push_back(make_cue(side, order_of(TemporalFilter::orientation), "difference of directions", "deg", true,
-                            {temporal.orientation}, {0, 180, 360}));
+                            {kTemporalOrientationDeg}, {0, 180, 360}));
     add_similarities<TemporalFilter>(side, temporal.ncc_min, temporal.sift_max, temporal.ncc_nearly_best,
                                      temporal.sift_nearly_best, cues);
   }
 
-  const auto& pose = config.pose;
   const auto pairs = CueTable::constraints;
-  cues.push_back(make_cue(pairs, 1, "relative difference of |D|", "", true, {pose.length_difference}, {0, 1, 200}));
-  cues.push_back(make_cue(pairs, 2, "difference of cos(D, T1)", "", true, {pose.angle_difference}, {0, 2, 200}));
-  cues.push_back(make_cue(pairs, 3, "difference of cos(D, T2)", "", true, {pose.angle_difference}, {0, 2, 200}));
-  cues.push_back(make_cue(pairs, 4, "difference of T1 . T2", "", true, {pose.tangent_difference}, {0, 2, 200}));
-  cues.push_back(make_cue(pairs, 5, "angle between D and T1", "deg", false, {pose.min_angle}, {0, 90, 90}));
+  cues.push_back(make_cue(pairs, 1, "relative difference of |D|", "", true, {pose::kLengthDifference}, {0, 1, 200}));
+  cues.push_back(make_cue(pairs, 2, "difference of cos(D, T1)", "", true, {pose::kAngleDifference}, {0, 2, 200}));
+  cues.push_back(make_cue(pairs, 3, "difference of cos(D, T2)", "", true, {pose::kAngleDifference}, {0, 2, 200}));
+  cues.push_back(make_cue(pairs, 4, "difference of T1 . T2", "", true, {pose::kTangentDifference}, {0, 2, 200}));
+  cues.push_back(make_cue(pairs, 5, "angle between D and T1", "deg", false, {pose::kMinAngleDeg}, {0, 90, 90}));
   return cues;
 }
 
@@ -140,6 +162,58 @@ CueDistribution* find_cue(std::vector<CueDistribution>& cues, CueTable table, in
     if (cue.table == table && cue.order == order) return &cue;
   }
   return nullptr;
+}
+
+void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value,
+                      CueDistribution& cue) {
+  visit_candidates(lists, judge, [&](std::size_t row, std::size_t, std::size_t target, bool veridical) {
+    add(value(row, target), veridical, judge.pools.paired[row] != 0, cue);
+  });
+}
+
+void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue) {
+  if (lists.cue.size() != lists.target.size()) return;
+  visit_candidates(lists, judge, [&](std::size_t row, std::size_t candidate, std::size_t, bool veridical) {
+    add(lists.cue[candidate], veridical, judge.pools.paired[row] != 0, cue);
+  });
+}
+
+void collect_ratios(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
+                    CueDistribution& cue) {
+  if (lists.cue.size() != lists.target.size()) return;
+  visit_candidates(lists, judge, [&](std::size_t row, std::size_t candidate, std::size_t, bool veridical) {
+    const auto begin = lists.cue.begin() + lists.first[row], end = lists.cue.begin() + lists.first[row + 1];
+    const double own = lists.cue[candidate];
+    const bool paired = judge.pools.paired[row] != 0;
+    if (highest_is_best) {
+      add(own / *std::max_element(begin, end), veridical, paired, cue);
+    } else {
+      const double best = *std::min_element(begin, end);
+      add(own > 0 ? best / own : 1.0, veridical, paired, cue);
+    }
+  });
+}
+
+void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value,
+                        CueDistribution& cue) {
+  if (judge.target_x.empty()) return;
+  const NearbyTargets nearby(judge.target_x, judge.target_y, image_height);
+  // Each kind of row has its own generator, so that their samples are independent.
+  std::mt19937_64 of_paired(seed), of_others(seed + 1);
+  for (std::size_t i = 0; i < judge.pools.all.size(); ++i) {
+    if (judge.pools.all[i] == 0) continue;
+    const bool paired = judge.pools.paired[i] != 0;
+    std::mt19937_64& random = paired ? of_paired : of_others;
+    if (judge.truth.state[i] == Visibility::visible) {
+      nearby.visit(judge.truth.x[i], judge.truth.y[i], judge.tolerance.position,
+                   [&](std::size_t target) { add(value(i, target), true, paired, cue); });
+    }
+    for (int n = 0; n < kDrawnOthers; ++n) {
+      const std::size_t target = draw(random, judge.target_x.size());
+      if (is_veridical(judge.truth, i, judge.target_x[target], judge.target_y[target], judge.tolerance)) continue;
+      add(value(i, target), false, paired, cue);
+    }
+  }
 }
 
 }  // namespace quadedge::evaluation

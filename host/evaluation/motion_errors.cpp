@@ -1,4 +1,4 @@
-#include "evaluation/consistency.hpp"
+#include "evaluation/motion_errors.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -6,9 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "common/angles.hpp"
-#include "evaluation/pose_lookup.hpp"
-#include "pose/rig_uncertainty.hpp"
+#include "common/numeric.hpp"
+#include "pose/uncertain_pose.hpp"
 #include "quadedge/evaluation.hpp"
 
 namespace quadedge::evaluation {
@@ -39,7 +38,8 @@ pose::UncertainPose pose_along(const std::vector<FrameResult>& results, const st
   pose::UncertainPose result;
   for (std::size_t k = length; k-- > 0;) {
     const FrameResult& link = results[static_cast<std::size_t>(chain[k])];
-    pose::UncertainPose step = pose::pose_in_earlier({*link.current_from_reference, *link.relative_covariance});
+    pose::UncertainPose step =
+        pose::pose_in_earlier({*link.current_from_reference, pose::in_other_order(*link.relative_covariance)});
     step.by_rig = link.diagnostics.rig_sensitivity;
     result = result * step;
   }
@@ -114,7 +114,7 @@ Consistency judge_covariances(const std::vector<FrameResult>& results, const Tra
   Consistency sums;
   for (const auto& result : results) {
     if (result.status != FrameStatus::tracked) continue;
-    const Eigen::Matrix<double, 6, 6>& covariance = *result.relative_covariance;
+    const Eigen::Matrix<double, 6, 6> covariance = pose::in_other_order(*result.relative_covariance);
     if (!(covariance.diagonal().minCoeff() > 0)) continue;
     const auto& reference = results.at(static_cast<std::size_t>(result.reference_frame));
     const auto* true_reference = pose_at(truth, reference.stamp_ns, kStampToleranceNs);
@@ -147,6 +147,35 @@ std::vector<StepConsistency> judge_steps(const std::vector<FrameResult>& results
     if (step.edges.poses >= kMinSteps) steps.push_back(step);
   }
   return steps;
+}
+
+StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
+                          const std::vector<std::int64_t>& frames_ns, const StepLimits& limits,
+                          std::int64_t max_stamp_difference_ns) {
+  StepJudgement result;
+  for (std::size_t i = 1; i < frames_ns.size(); ++i) {
+    const auto* true_before = pose_at(truth, frames_ns[i - 1], max_stamp_difference_ns);
+    const auto* true_after = pose_at(truth, frames_ns[i], max_stamp_difference_ns);
+    if (true_before == nullptr || true_after == nullptr) continue;
+    const auto* before = pose_at(estimate, frames_ns[i - 1], max_stamp_difference_ns);
+    const auto* after = pose_at(estimate, frames_ns[i], max_stamp_difference_ns);
+    if (before == nullptr || after == nullptr || before->segment != after->segment) {
+      ++result.lost;
+      continue;
+    }
+    const Eigen::Isometry3d true_step = true_before->world_from_left.inverse() * true_after->world_from_left;
+    const Eigen::Isometry3d step = before->world_from_left.inverse() * after->world_from_left;
+    const Eigen::Isometry3d error = true_step.inverse() * step;
+    const double degrees = Eigen::AngleAxisd(error.linear()).angle() * kDegreesPerRadian;
+    const double allowed = limits.translation_m + limits.translation_ratio * true_step.translation().norm();
+    if (error.translation().norm() < allowed && degrees < limits.rotation_deg) {
+      ++result.right;
+    } else {
+      ++result.wrong;
+      result.wrong_stamps_ns.push_back(frames_ns[i]);
+    }
+  }
+  return result;
 }
 
 }  // namespace quadedge::evaluation

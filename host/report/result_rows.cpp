@@ -1,0 +1,193 @@
+#include "report/result_rows.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "common/numeric.hpp"
+#include "common/timing.hpp"
+#include "data/text.hpp"
+#include "report/run_record.hpp"
+
+namespace quadedge::report {
+namespace {
+
+constexpr int kDecimals = 6;  // of edges
+
+/// Empty for NaN.
+std::string printed(const char* format, double value) {
+  if (!std::isfinite(value)) return {};
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string exact(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? data::format_exact(*value) : std::string();
+}
+
+/// Time that a frame spent in a stage [ms]; NaN where it did not reach it.
+double stage_ms(const FrameResult& result, const std::string& stage) {
+  double sum = kNan;
+  for (const auto& part : result.timing.stages) {
+    if (part.stage == stage) sum = (std::isnan(sum) ? 0 : sum) + part.ms;
+  }
+  return sum;
+}
+
+void add_pose(CsvRow& row, const std::string& prefix, const std::optional<Eigen::Isometry3d>& pose) {
+  const Eigen::Vector3d position = pose ? Eigen::Vector3d(pose->translation()) : Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation(pose ? Eigen::Matrix3d(pose->linear()) : Eigen::Matrix3d::Identity());
+  rotation.normalize();
+  if (rotation.w() < 0) rotation.coeffs() *= -1;
+  const auto add = [&](const char* name, double value) {
+    row.add(prefix + name, pose ? data::format_exact(value) : std::string());
+  };
+  add("x", position.x() + 0.0);  // no negative zero
+  add("y", position.y() + 0.0);
+  add("z", position.z() + 0.0);
+  add("qx", rotation.x());
+  add("qy", rotation.y());
+  add("qz", rotation.z());
+  add("qw", rotation.w());
+}
+
+void add_covariance(CsvRow& row, const std::string& prefix, const std::optional<PoseCovariance>& covariance) {
+  constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "rx", "ry", "rz"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    for (std::size_t j = i; j < kNames.size(); ++j) {
+      row.add(prefix + kNames[i] + "_" + kNames[j],
+              covariance ? data::format_exact((*covariance)(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)))
+                         : std::string());
+    }
+  }
+}
+
+CsvRow error_row(const TrajectoryEvaluation::PerPose& pose) {
+  CsvRow row;
+  row.add("stamp_s", data::format_seconds(pose.stamp_ns));
+  row.add("ape_rotation_deg", exact(pose.ape_rotation_deg));
+  row.add("ape_translation_m", exact(pose.ape_translation_m));
+  row.add("rpe_rotation_deg", exact(pose.rpe_rotation_deg));
+  row.add("rpe_translation_m", exact(pose.rpe_translation_m));
+  return row;
+}
+
+CsvRow loop_row(const Closure& closure) {
+  CsvRow row;
+  row.add("frame", closure.frame);
+  row.add("other", closure.other);
+  row.add("verdict", std::string(to_string(closure.verdict)));
+  row.add("similarity", data::format_exact(closure.similarity));
+  row.add("inliers", closure.inliers);
+  row.add("support", data::format_exact(closure.support));
+  std::optional<Eigen::Isometry3d> motion;
+  if (closure.frame_from_other) motion = closure.frame_from_other->inverse();
+  add_pose(row, "", motion);
+  row.add("deviation", exact(closure.deviation));
+  row.add("distance_m", exact(closure.distance_m));
+  row.add("angle_deg", exact(closure.angle_deg));
+  return row;
+}
+
+template <class Item>
+std::string table(const std::vector<Item>& items, CsvRow (*row)(const Item&)) {
+  std::string text = row({}).heading();
+  for (const Item& item : items) text += row(item).line();
+  return text;
+}
+
+/// Fields of one edge, separated by commas.
+std::string decimals(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ",") + data::format_fixed(value, kDecimals);
+  return text;
+}
+
+}  // namespace
+
+CsvRow frames_row(int number, const FrameResult& result) {
+  CsvRow row;
+  row.add("frame", number);
+  row.add("stamp_s", data::format_seconds(result.stamp_ns));
+  row.add("status", std::string(to_string(result.status)));
+  row.add("segment", result.segment);
+  row.add("key_rig", result.reference_frame);
+  row.add("new_key_rig", result.new_key_rig ? 1 : 0);
+  row.add("edge_threshold", printed("%.4g", result.diagnostics.edge_threshold));
+  row.add("disparity_range", printed("%.4g", result.diagnostics.disparity_range));
+  for (const auto& [name, count] : named_counts(result.counts)) row.add(name, count);
+  row.add("matched_ratio", printed("%.4g", result.diagnostics.rig_evidence.matched_ratio));
+  row.add("epipolar_residual", printed("%.4g", result.diagnostics.rig_evidence.epipolar_residual));
+  row.add("moving_ratio", printed("%.4g", result.diagnostics.moving_ratio));
+  row.add("ambiguous_motion", result.ambiguous_motion ? 1 : 0);
+  row.add("latency_ms", printed("%.3f", result.timing.latency_ms));
+  for (const char* stage : kHostStages) row.add(std::string(stage) + "_ms", printed("%.3f", stage_ms(result, stage)));
+  row.add("warning", joined(result.warnings));
+  row.add("message", result.message);
+  return row;
+}
+
+CsvRow poses_row(int number, const FrameResult& result) {
+  CsvRow row;
+  row.add("frame", number);
+  row.add("stamp_s", data::format_seconds(result.stamp_ns));
+  row.add("status", std::string(to_string(result.status)));
+  row.add("segment", result.segment);
+  row.add("reference_frame", result.reference_frame);
+  add_pose(row, "", result.pose_or_prediction());
+  std::optional<Eigen::Isometry3d> in_reference;
+  if (result.current_from_reference) in_reference = result.current_from_reference->inverse();
+  add_pose(row, "reference_", in_reference);
+  add_covariance(row, "covariance_", result.covariance);
+  add_covariance(row, "reference_covariance_", result.diagnostics.covariance_in_reference);
+  return row;
+}
+
+CsvRow locations_row(int number, const Localisation& frame) {
+  const bool located = frame.map_from_left.has_value();
+  const auto add_located = [&](CsvRow& row, const char* name, const std::string& field) {
+    row.add(name, located ? field : std::string());
+  };
+  CsvRow row;
+  row.add("frame", number);
+  row.add("stamp_s", data::format_seconds(frame.stamp_ns));
+  row.add("status", std::string(to_string(frame.status)));
+  add_located(row, "key_rig", std::to_string(frame.key_rig));
+  add_located(row, "followed", frame.is_followed ? "1" : "0");
+  add_located(row, "inliers", std::to_string(frame.inliers));
+  add_located(row, "support", data::format_exact(frame.support));
+  add_pose(row, "", frame.map_from_left);
+  row.add("latency_ms", data::format_exact(frame.latency_ms));
+  row.add("warning", joined(frame.warnings));
+  row.add("message", frame.message);
+  return row;
+}
+
+std::string errors_csv(const TrajectoryEvaluation& evaluation) { return table(evaluation.per_pose, error_row); }
+
+std::string loops_csv(const std::vector<Closure>& closures) { return table(closures, loop_row); }
+
+std::string edges_csv(const EdgeSet& edges) {
+  std::string text = "x,y,direction_rad,strength\n";
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    text += decimals({edges.x[i], edges.y[i], edges.direction[i], edges.strength[i]}) + "\n";
+  return text;
+}
+
+std::string matches_csv(const StereoMatches& matches, bool depths) {
+  const StereoEdges& edges = matches.edges;
+  std::string text = "left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,ncc,x_m,y_m,z_m\n";
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    text += decimals({edges.left_x[i], edges.left_y[i], edges.left_direction[i], edges.right_x[i], edges.right_y[i],
+                      edges.right_direction[i], edges.ncc[i]}) +
+            ",";
+    const auto& point = matches.points[i];
+    text += depths && point ? decimals({point->position.x(), point->position.y(), point->position.z()}) : ",,";
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace quadedge::report
