@@ -7,11 +7,10 @@
 
 #include "devices.hpp"
 #include "opencl/variants.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
-#include "quadedge/pi.hpp"
 #include "reference/patches.hpp"
-#include "stages/patches.hpp"
-#include "stages/sift.hpp"
+#include "stages/edge_descriptions.hpp"
 
 /// `count` positions in the image and up to `beyond` px outside it, with all directions.
 inline quadedge::EdgePositions random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {
@@ -51,7 +50,7 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
       if (variant.stage != stage) continue;
       const std::map<std::string, std::string> chosen = {{stage, variant.name}};
       stages::Patches patch_stage(context, image.width, image.height, {}, chosen);
-      stages::Sift sift_stage(context, image.width, image.height, {}, chosen);
+      stages::Sift sift_stage(context, image.width, image.height, chosen);
       TestDescriptions found[2];
       for (auto& run : found) {
         opencl::Buffer<cl_char> patches;

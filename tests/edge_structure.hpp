@@ -4,13 +4,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "common/threshold_limits.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
-#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 
 /// The threshold of tests without a threshold stage: the fixed one, or the one for images of normal contrast.
 inline double threshold_of(const quadedge::EdgesConfig& config) {
-  return config.threshold > 0 ? config.threshold : config.threshold_max;
+  return config.threshold > 0 ? config.threshold : quadedge::kThresholdMax;
 }
 
 inline quadedge::reference::ReferenceEdges detect_edges(const quadedge::ImageView& image,

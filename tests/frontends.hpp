@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/frontend.hpp"
+#include "frontend/compare_frontends.hpp"
 #include "matching.hpp"
 #include "quadedge/synthetic.hpp"
 
@@ -44,12 +44,7 @@ struct RenderedScene {
   }
 };
 
-/// A frontend's results for the first two frames.
-struct FrontendResult {
-  EdgeSet left_edges, right_edges;
-  StereoEdges previous, current;
-  TemporalMatches quads;
-};
+using frontend::FrontendOutput;
 
 /// A search within `radius` px of the edges' previous positions in both images.
 inline TemporalSearch search_around(const StereoEdges& previous, float radius, int step = 1) {
@@ -59,21 +54,26 @@ inline TemporalSearch search_around(const StereoEdges& previous, float radius, i
           step};
 }
 
-inline FrontendResult run_frontend(const RenderedScene& scene, const std::string& device_name,
-                                   const Variants& variants = {}, Tap* tap = nullptr, float radius = 12, int step = 1) {
-  Device device(device_name, kept_programs());
+/// What a front end finds in the first two frames, without global search.
+inline FrontendOutput run_frontend(const RenderedScene& scene, Device& device, const Variants& variants = {},
+                                   Tap* tap = nullptr, float radius = 12, int step = 1) {
   Config config = scene.config;
   config.variants = variants;
   const auto frontend = frontend::make_frontend(scene.rig, device, config);
   frontend->set_tap(tap);
   const auto before = frontend->process(scene.frame(0)), now = frontend->process(scene.frame(1));
-  FrontendResult result;
+  FrontendOutput result;
   result.quads = frontend->match(*before, search_around(before->edges, radius, step));
   result.left_edges = frontend->edges(Side::left);
   result.right_edges = frontend->edges(Side::right);
   result.previous = before->edges;
   result.current = now->edges;
   return result;
+}
+inline FrontendOutput run_frontend(const RenderedScene& scene, const std::string& device_name,
+                                   const Variants& variants = {}, Tap* tap = nullptr, float radius = 12, int step = 1) {
+  Device device(device_name, kept_programs());
+  return run_frontend(scene, device, variants, tap, radius, step);
 }
 
 inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {
@@ -90,9 +90,8 @@ inline bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
   return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
          a.scale_drift == b.scale_drift && a.row_first == b.row_first;
 }
-inline bool same_bytes(const FrontendResult& a, const FrontendResult& b) {
-  return same_bytes(a.left_edges, b.left_edges) && same_bytes(a.right_edges, b.right_edges) &&
-         same_bytes(a.previous, b.previous) && same_bytes(a.current, b.current) && same_bytes(a.quads, b.quads);
+inline bool same_bytes(const FrontendOutput& a, const FrontendOutput& b) {
+  return frontend::first_difference(a, b).empty();
 }
 
 }  // namespace matching

@@ -115,8 +115,21 @@ inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig,
   return o;
 }
 
+/// Appends a quad made of four edges. \returns false, and appends nothing, if a stereo edge has no depth or tangent
+inline bool append(quadedge::pose::QuadObservations& quads, const quadedge::StereoRig& rig,
+                   const quadedge::pose::StereoObservation& previous, const quadedge::pose::StereoObservation& current,
+                   float ncc, const quadedge::pose::QuadLimits& limits) {
+  const auto before = quadedge::pose::measure(rig, previous, limits.min_epipolar_angle);
+  const auto after = quadedge::pose::measure(rig, current, limits.min_epipolar_angle);
+  if (!before || !after) return false;
+  const std::size_t row = quads.size();
+  quads.resize(row + 1);
+  quads.set(row, *before, *after, current, ncc, 0, static_cast<std::int32_t>(row), limits);
+  return true;
+}
+
 /// Limits of the default configuration.
-inline quadedge::pose::QuadLimits limits() { return quadedge::pose::QuadLimits(quadedge::Config{}); }
+inline quadedge::pose::QuadLimits limits() { return quadedge::pose::QuadLimits(); }
 
 /// Parameters of the generated quads.
 struct Problem {
@@ -171,8 +184,7 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
         after.right_direction = wrong.right_direction;
       }
       const float ncc = static_cast<float>(random.uniform(0.8, 1.0));
-      if (result.quads.append(problem.rig, before, after, ncc, 0, static_cast<int>(result.quads.size()), quad_limits))
-        result.correct.push_back(correct);
+      if (append(result.quads, problem.rig, before, after, ncc, quad_limits)) result.correct.push_back(correct);
     }
   }
   return result;

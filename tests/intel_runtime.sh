@@ -1,6 +1,5 @@
 # shellcheck shell=bash
-# Intel's OpenCL for CPUs from PyPI, a second implementation beside PoCL. Sourced by run_other_runtime.sh and
-# run_device_kit.sh.
+# Intel's OpenCL for CPUs from PyPI, a second implementation beside PoCL. Sourced by run_other_runtime.sh.
 
 # install_intel_runtime VENV: installs it once per version of requirements_intel.txt.
 install_intel_runtime() {

@@ -3,8 +3,9 @@
 
     lint_structure.py REPOSITORY [--program PROGRAM] [CHECK...]
 
-CHECK is any of: includes lines functions twins references constants; without one, all of them. `functions` needs lizard
-(tests/requirements.txt), `constants` the program. Prints one line per finding; exit code 1 if there is any.
+CHECK is any of: includes lines sizes phrases functions twins references constants; without one, all of them.
+`functions` needs lizard (tests/requirements.txt), `constants` the program. Prints one line per finding; exit code 1 if
+there is any.
 """
 
 import argparse
@@ -16,6 +17,10 @@ from pathlib import Path
 LONGEST_LINE = 120
 LONGEST_FUNCTION = 60
 CODE = {".cpp", ".hpp", ".cl", ".py", ".sh", ".cmake", ".toml", ".txt"}
+SOURCES = (".cpp", ".hpp", ".cl", ".inc", ".py", ".sh")
+SIZED = {"host", "include", "kernels", "python", "bench", "scripts", "tests"}
+STALE_PHRASES = re.compile(
+    r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
 LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
 
 
@@ -85,6 +90,27 @@ def check_lines(tree: Tree) -> list[str]:
     return findings
 
 
+def check_sizes(tree: Tree) -> list[str]:
+    """No folder has more lines of source than the table `sizes` of doc/design.md allows; no source is outside it."""
+    allowed = {row[0].strip("`").rstrip("/"): int(row[1].replace(",", "")) for row in tree.table("sizes")}
+    counted = dict.fromkeys(allowed, 0)
+    findings = []
+    for name in tree.with_suffix(*SOURCES):
+        parents = {str(parent) for parent in Path(name).parents}
+        if parents & allowed.keys():
+            counted[max(parents & allowed.keys(), key=len)] += tree.text(name).count("\n")
+        elif Path(name).parts[0] in SIZED:
+            findings.append(f"{name}: no folder of the table sizes in doc/design.md")
+    return findings + [f"{folder}: {counted[folder]} lines, at most {most}" for folder, most in allowed.items()
+                       if counted[folder] > most]
+
+
+def check_phrases(tree: Tree) -> list[str]:
+    """No page has one of STALE_PHRASES."""
+    return [f"{name}:{number}: {found[0]!r}" for name in tree.with_suffix(".md")
+            for number, line in enumerate(tree.text(name).split("\n"), 1) if (found := STALE_PHRASES.search(line))]
+
+
 def check_functions(tree: Tree) -> list[str]:
     """No function beyond LONGEST_FUNCTION lines, unless a comment "LONG: reason" is before it or in it."""
     import lizard
@@ -111,17 +137,18 @@ def stages(tree: Tree) -> list[str]:
 
 
 def check_twins(tree: Tree, show: bool = True) -> list[str]:
-    """Kernel, stage, reference and test of a stage have its name, except for those in the table."""
+    """Kernel, reference and test of a stage have its name, and a class opens it, except for those in the table."""
     excused = {(row[0].strip("`"), what.strip()) for row in tree.table("twins") for what in row[1].split(",")}
-    places = {"kernel": "kernels/{}.cl", "stage": "host/stages/{}.hpp", "reference": "host/reference/{}.hpp",
+    places = {"kernel": "kernels/{}.cl", "class": 'Stage(context, "{}"', "reference": "host/reference/{}.hpp",
               "test": "tests/test_{}.cpp"}
+    classes = "".join(tree.text(name) for name in tree.files if name.startswith("host/stages/"))
     findings = []
     if show:
         print(f"{'stage':22}" + "".join(f"{what:11}" for what in places))
     for stage in stages(tree):
         row = f"{stage:22}"
         for what, pattern in places.items():
-            there = pattern.format(stage) in tree.files
+            there = pattern.format(stage) in (classes if what == "class" else tree.files)
             row += f"{'yes' if there else ('-' if (stage, what) in excused else 'MISSING'):11}"
             if not there and (stage, what) not in excused:
                 findings.append(f"{pattern.format(stage)} is missing: the {what} of the stage {stage}")
@@ -221,8 +248,8 @@ def main() -> int:
     parser.add_argument("--program")
     options = parser.parse_args()
     tree = Tree(options.repository)
-    checks = {"includes": check_includes, "lines": check_lines, "functions": check_functions, "twins": check_twins,
-              "references": check_references}
+    checks = {"includes": check_includes, "lines": check_lines, "sizes": check_sizes, "phrases": check_phrases,
+              "functions": check_functions, "twins": check_twins, "references": check_references}
     if options.program:
         checks["constants"] = lambda tree: check_constants(tree, options.program)
     findings = []

@@ -19,8 +19,8 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "rig_check", "motion", "odometry", "map",
-           "synthetic", "data", "evaluation", "report", "benchmark", "cli")
+FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "rig", "odometry", "map",
+           "synthetic", "data", "data/calibrations", "evaluation", "report", "benchmark", "cli")
 
 
 def own_names(text: str) -> set[str]:

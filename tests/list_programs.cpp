@@ -1,19 +1,18 @@
 /// \file list_programs.cpp  Prints every program that the stages build, for lint_kernels.sh: options and kernel files,
 /// one program per line. The list comes from the stages themselves, with every variant, so it is complete.
-///   list_programs KERNEL_FOLDER [gpu]    gpu: only those that GPUs run by default
+///   list_programs KERNEL_FOLDER
 
 #include <cstdio>
 #include <map>
 #include <set>
 #include <string>
 
-#include "benchmark/ceilings.hpp"
 #include "frontend/frontend.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/synthetic.hpp"
-#include "stages/long_loop.hpp"
+#include "stages/stage.hpp"
 
 namespace {
 
@@ -47,7 +46,6 @@ std::size_t most_variants() {
 
 int main(int count, char** arguments) {
   const std::string kernels = count > 1 ? arguments[1] : "";
-  const bool of_gpus = count > 2 && std::string(arguments[2]) == "gpu";
   StereoRig rig = SyntheticSequence(SyntheticOptions()).rig();
   const auto pixels = static_cast<std::size_t>(rig.left.width) * static_cast<std::size_t>(rig.left.height);
   // Undistortion kernels are built only for cameras with lens distortion.
@@ -57,17 +55,13 @@ int main(int count, char** arguments) {
                    std::vector<std::uint8_t>(pixels)};  // and mask kernels only with a mask
 
   std::set<std::string> programs;
-  for (std::size_t number = 0; number < (of_gpus ? 1 : most_variants()); ++number) {
+  for (std::size_t number = 0; number < most_variants(); ++number) {
     DeviceOptions options;
     options.kernel_folder = kernels;
     options.profiling = true;
-    if (of_gpus) options.limits.type = "gpu";
     Device device("auto", options);
-    const auto frontend = frontend::make_frontend(rig, device, of_gpus ? every_stage() : config_with(number));
-    if (!of_gpus) {
-      bench::measure_ceilings(*device.context(), 1, 0);
-      stages::long_loop_difference(*device.context());
-    }
+    const auto frontend = frontend::make_frontend(rig, device, config_with(number));
+    stages::long_loop_difference(*device.context());
     for (const auto& program : device.context()->programs()) programs.insert(program);
   }
   for (const auto& program : programs) std::puts(program.c_str());

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "dataset_files.hpp"
-#include "report/batch_summary.hpp"
-#include "report/frames_csv.hpp"
 #include "report/json.hpp"
+#include "report/member_results.hpp"
+#include "report/result_rows.hpp"
 
 /// True pose on the made-up path, ten frames per second.
 inline Eigen::Isometry3d made_up_truth(std::int64_t stamp_ns) {
@@ -51,10 +51,11 @@ inline void write_member(const std::string& output, const std::string& name, con
   dataset_files::write_text(folder + "/report.json", quadedge::report::report_json(run));
   dataset_files::write_text(folder + "/member.json",
                             quadedge::report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
-  quadedge::report::FrameRows frames(folder + "/frames.csv", quadedge::report::frames_csv_columns());
+  quadedge::report::AppendFile frames(folder + "/frames.csv");
+  frames.append(quadedge::report::frames_row(0, {}).heading());
   quadedge::Trajectory estimate, truth;
   for (const auto& frame : run.frames) {
-    frames.add(frame.result);
+    frames.append(quadedge::report::frames_row(0, frame.result).line());
     estimate.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
     truth.push_back({frame.result.stamp_ns, made_up_truth(frame.result.stamp_ns)});
   }

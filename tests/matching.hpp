@@ -15,12 +15,11 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
-#include "quadedge/pi.hpp"
 #include "reference/candidate_filters.hpp"
-#include "stages/device_candidates.hpp"
+#include "stages/candidates.hpp"
 #include "stages/device_edges.hpp"
-#include "stages/device_image.hpp"
-#include "stages/stereo_refinement.hpp"
+#include "stages/images.hpp"
+#include "stages/stereo_matching.hpp"
 
 namespace matching {
 

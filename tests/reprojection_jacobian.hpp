@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "pose/reprojection_residual.hpp"
+#include "pose/residuals.hpp"
 
 namespace quadedge::pose {
 

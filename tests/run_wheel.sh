@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
-# Builds the wheel, installs it where only Python is available, and uses it like a new user: in a root created by
-# debootstrap if permitted, else in a virtual environment, where no library of Debian's OpenCV may be loaded.
-#   run_wheel.sh REPOSITORY BUILD
+# Installs the wheel where only Python is available, and uses it like a new user: in a root created by debootstrap if
+# permitted, else in a virtual environment, where no library of Debian's OpenCV may be loaded.
+#   run_wheel.sh WHEEL_FOLDER WORK
 set -euo pipefail
-repository="$(realpath "$1")" build="$(realpath "$2")"
-here="$repository/tests"
-work="$build/wheel_test" root="$build/wheel_test/root"
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+work="$(realpath -m "$2")" root="$work/root"
 rm -rf "$work/wheels"
 mkdir -p "$work/wheels"
-"$repository/scripts/build_wheel.sh" "$work/wheels" "$build/wheel"
-wheel=("$work"/wheels/quadedge-*-manylinux_2_36_*.whl)
+cp "$1"/quadedge-*-manylinux_2_36_*.whl "$work/wheels/"
+wheel=("$work"/wheels/quadedge-*.whl)
 [ ${#wheel[@]} -eq 1 ]
 limit=$((25 * 1000 * 1000))
 [ "$(stat -c %s "$wheel")" -le $limit ] || { echo "$wheel: more than $limit bytes" >&2; exit 1; }

@@ -15,7 +15,6 @@
 #include "frontends.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/dataset.hpp"
-#include "quadedge/detect_edges.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/match_stereo.hpp"

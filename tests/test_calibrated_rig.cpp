@@ -5,8 +5,8 @@
 #include "common/lens_mapping.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/calibration.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

@@ -3,10 +3,10 @@
 
 #include "calibration_files.hpp"
 #include "common/lens_mapping.hpp"
-#include "data/calibration_formats.hpp"
+#include "data/calibrations/forms.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "reference/undistortion.hpp"
 #include "temporary_folder.hpp"
 
@@ -148,7 +148,7 @@ TEST_CASE("calibration: errors in a Kalibr chain name the file and the entry", "
   damage("  intrinsics:", "  intrinsic:", "no entry cam0.intrinsics");
   damage("cam1:", "cam2:", "no entry cam1");
   damage("  distortion_model: radtan", "  distortion_model: wide", "\"wide\" for cam0.distortion_model");
-  damage("  camera_model: pinhole", "  camera_model: eucm", "\"eucm\" for cam0.camera_model");
+  damage("  camera_model: pinhole", "  camera_model: wide", "\"wide\" for cam0.camera_model");
   damage("1.76187114e-05]", "1.76187114e-05, 0, 0]", "6 numbers for the lens model radtan");
   damage("367.215, 248.375", "367.215", "3 numbers for cam0.intrinsics");
   damage("458.654", "-458.654", "a focal length fx of -458.654");
@@ -181,20 +181,20 @@ TEST_CASE("calibration: errors in OpenCV's stereo files name the file and the ma
                     both = inside + "," + outside;
   write_opencv(Rig(), inside, outside);
   const Damage intrinsics{inside, both}, extrinsics{outside, both};
-  intrinsics("M1:", "K1:", "no entry M1");
+  intrinsics("M1:", "N1:", "no entry M1");
   intrinsics("D2:", "D3:", "no entry D2");
   intrinsics("D2:", "M1:", "a second entry M1");
   intrinsics("   rows: 3\n   cols: 3", "   rows: 9\n   cols: 1", "a matrix of 9 x 1 for M1");
   intrinsics("   cols: 4", "   cols: 3", "D1");
   intrinsics("4.5865", "-4.5865", "a focal length fx of -458.65");
-  intrinsics("---", "distortion_model: fov\n---", "cv::FileStorage");
+  intrinsics("---", "distortion_model: fov\n---", "distortion_model");
   extrinsics("R:", "Q:", "no entry R");
   extrinsics("T:", "S:", "no entry T");
   extrinsics("   rows: 3\n   cols: 1", "   rows: 1\n   cols: 2", "T");
   extrinsics("data: [ 9.99", "data: [ 5.99", "orthonormal");
   extrinsics("data: [ -1.1", "data: [ 1.1", "on its left");
   extrinsics("data: [ -1.1", "data: [ .Nan, -1.1", "T");
-  intrinsics("!!opencv-matrix", "!!opencv-matrix [", "cv::FileStorage");
+  intrinsics("!!opencv-matrix", "!!opencv-matrix [", "not YAML");
   // A rotation vector, in radians and in degrees.
   const auto with_vector = [&](const cv::Vec3d& vector) {
     cv::FileStorage storage(outside, cv::FileStorage::WRITE);
@@ -224,7 +224,7 @@ TEST_CASE("calibration: errors in ROS, EuRoC and native files name the file and 
   ros("data: [457.", "data: [1, 457.", "10 numbers for camera_matrix.data");
   ros_left("camera_name: left", "camera_matrix: 1", "a second entry camera_matrix");
   CHECK_THROWS_WITH(read_calibration((folder / "right.yaml") + "," + (folder / "left.yaml")),
-                    Contains("right.yaml") && Contains("files exchanged"));
+                    Contains("right.yaml") && Contains("exchanged"));
   CHECK_THROWS_WITH(read_calibration(folder / "left.yaml"), Contains("left.yaml") && Contains("of one camera"));
   CHECK_THROWS_WITH(read_calibration((folder / "left.yaml") + "," + (folder / "left.yaml")),
                     Contains("left.yaml") && Contains("a baseline above zero"));

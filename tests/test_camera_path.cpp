@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "quadedge/synthetic.hpp"
 #include "synthetic/disturbance.hpp"
 #include "synthetic/path.hpp"

@@ -3,7 +3,7 @@
 #include "matching.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
-#include "stages/candidate_filters.hpp"
+#include "stages/candidates.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -82,6 +82,9 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
 void check_states(const reference::Candidates& lists, const Verdicts& edges, const FilterLimits& limits,
                   const std::vector<std::uint8_t>& expected, int row_step = 1) {
   CHECK(reference::candidate_filters(lists, edges.a, edges.b, limits, row_step).state == expected);
+  if (limits.sift_max == 0)  // no descriptors are needed
+    CHECK(reference::candidate_filters(lists, {edges.a.patches, {}}, {edges.b.patches, {}}, limits, row_step).state ==
+          expected);
   std::vector<cl_int> living;
   for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
     living.push_back(static_cast<cl_int>(
@@ -112,6 +115,8 @@ TEST_CASE("candidate filters: thresholds and nearly-best filters reject what a h
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f), {0, 0, kNcc, kSift, kSift, 6, 7});
   // The first two filters swapped: a candidate that fails both is assigned to the earlier one.
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f, 3, 4), {0, 0, 3, 4, 3, 5, 6});
+  // Without SIFT.
+  check_states(lists, edges, limits_of(0.6f, 0, 0.9f, 0.5f), {0, 0, kNcc, 6, kNcc, 6, 0});
 }
 
 TEST_CASE("candidate filters: values on a threshold and ties pass", "[filters][matching][device][oclgrind]") {

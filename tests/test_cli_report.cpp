@@ -6,6 +6,7 @@
 #include "dataset_files.hpp"
 #include "made_up_run.hpp"
 #include "program.hpp"
+#include "report/batch_summary.hpp"
 
 using Catch::Matchers::Contains;
 using dataset_files::write_text;

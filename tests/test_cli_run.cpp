@@ -7,7 +7,7 @@
 
 #include "dataset_files.hpp"
 #include "program.hpp"
-#include "report/csv_table.hpp"
+#include "report/rows.hpp"
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -80,14 +80,14 @@ TEST_CASE("run: trajectories begin at the identity, with one row per tracked or 
 TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[cli][device]") {
   const auto rows = read_lines(shared_run().out("poses.csv"));
   REQUIRE(rows.size() == 5);
-  const auto names = report::csv_fields(rows[0]);
+  const auto names = quadedge::report::csv_fields(rows[0]);
   REQUIRE(names.size() == 5 + 7 + 7 + 21 + 21);
   CHECK(names[19] == "covariance_x_x");
   CHECK(names[40] == "reference_covariance_x_x");
   CHECK(names[60] == "reference_covariance_rz_rz");
   const auto tum = read_lines(shared_run().out("trajectory.txt"));
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto values = report::csv_fields(rows[i]);
+    const auto values = quadedge::report::csv_fields(rows[i]);
     REQUIRE(values.size() == names.size());
     std::istringstream pose(tum[i]);
     std::string value;
@@ -144,9 +144,9 @@ TEST_CASE("run: frames.csv has a row per frame whose stage times add up to the l
   const auto& run = shared_run();
   const auto rows = read_lines(run.out("frames.csv"));
   REQUIRE(rows.size() == 5);
-  const auto names = report::csv_fields(rows[0]);
+  const auto names = quadedge::report::csv_fields(rows[0]);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto values = report::csv_fields(rows[i]);
+    const auto values = quadedge::report::csv_fields(rows[i]);
     REQUIRE(values.size() == names.size());
     double latency = 0, stages = 0;
     for (std::size_t column = 0; column < names.size(); ++column) {

@@ -1,10 +1,10 @@
-#include "common/coarse_search.hpp"
+#include "common/disparity_range.hpp"
 #include "common/epipolar_geometry.hpp"
 #include "edge_images.hpp"
 #include "frontend/frontend.hpp"
 #include "matching.hpp"
 #include "reference/coarse_disparity.hpp"
-#include "stages/coarse_disparity.hpp"
+#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

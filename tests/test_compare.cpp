@@ -2,11 +2,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/ceilings.hpp"
-#include "benchmark/frontend_agreement.hpp"
 #include "benchmark/variant_comparison.hpp"
 #include "benchmark/variants_file.hpp"
 #include "devices.hpp"
+#include "frontend/compare_frontends.hpp"
 #include "frontends.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
@@ -55,22 +54,19 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   INFO(result.err << result.out);
   REQUIRE(result.code == 0);
   const Json comparison = Json::parse(read_text(folder / "compare.json"));
-  CHECK(comparison["ceilings"]["bandwidth_gb_s"].get<double>() > 0);
-  CHECK(comparison["ceilings"]["arithmetic_gflop_s"].get<double>() > 0);
   REQUIRE(comparison["stages"].size() == 1);
   const auto& stage = comparison["stages"][0];
   CHECK(stage["stage"] == "edge_detection");
   REQUIRE(stage["variants"].size() == 3);
   int defaults = 0;
   for (const auto& variant : stage["variants"]) {
-    for (const char* key : {"name", "default", "agrees", "median_ms", "p10_ms", "p90_ms", "ratio_to_default",
-                            "ratio_p90", "bandwidth_share", "arithmetic_share"}) {
+    for (const char* key :
+         {"name", "default", "agrees", "median_ms", "p10_ms", "p90_ms", "ratio_to_default", "ratio_p90"}) {
       INFO(key);
       CHECK(variant.contains(key));
     }
     CHECK(variant["agrees"] == true);
     CHECK(variant["median_ms"].get<double>() > 0);
-    CHECK(variant["arithmetic_share"].get<double>() > 0);
     if (variant["default"] == true) {
       ++defaults;
       CHECK(variant["ratio_to_default"] == 1);
@@ -201,46 +197,22 @@ TEST_CASE("compare: the best variant agrees and is clearly faster than the defau
   CHECK(stage.best() == "faster");
 }
 
-TEST_CASE("compare: every stage has a lower bound of work, above zero on a frame that runs it", "[bench][device]") {
-  const matching::RenderedScene scene("room", 161, 97, 2);
-  FramePrefetcher::Frame frames[2];
-  for (std::size_t i = 0; i < 2; ++i) {
-    frames[i].left = scene.left[i];
-    frames[i].right = scene.right[i];
-  }
-  Device device(all_devices().front(), kept_programs());
-  const auto size =
-      bench::count_frame(*frontend::make_frontend(scene.rig, device, scene.config), frames[0], frames[1], scene.config);
-  CHECK(size.pixels == 2 * 161 * 97);
-  CHECK(size.stereo_candidates > size.refined);
-  CHECK(size.refined >= size.clusters);
-  CHECK(size.clusters >= size.stereo_edges);
-  CHECK(size.guided_candidates > 0);
-  for (const auto& stage : bench::stages_with_variants()) {
-    INFO(stage);
-    const auto work = bench::least_work(stage, size, scene.config);
-    CHECK(work.bytes > 0);
-    CHECK(work.operations > 0);
-  }
-  CHECK_THROWS_AS(bench::least_work("no stage", size, scene.config), UsageError);
-}
-
 TEST_CASE("compare: the first difference names stage, edge and value", "[bench]") {
-  bench::FrontendOutput a;
+  frontend::FrontendOutput a;
   for (int i = 0; i < 5; ++i) {
     a.left_edges.x.push_back(static_cast<float>(i));
     a.current.ncc.push_back(0.5F);
     a.quads.competing_clusters.push_back(i);
   }
-  CHECK(bench::first_difference(a, a).empty());
+  CHECK(frontend::first_difference(a, a).empty());
   auto b = a;
   b.quads.competing_clusters[3] = 7;
-  CHECK(bench::first_difference(a, b) == "temporal_match, quad 3: competing clusters is 3 instead of 7");
+  CHECK(frontend::first_difference(a, b) == "temporal_match, quad 3: competing clusters is 3 instead of 7");
   b.current.ncc.pop_back();
-  CHECK(bench::first_difference(a, b) ==
+  CHECK(frontend::first_difference(a, b) ==
         "stereo_mutual, stereo edge of the second frame: 5 instead of 4 values of NCC");
   b.left_edges.x[1] = 1.25F;
-  CHECK(bench::first_difference(a, b) == "edge_detection, left edge 1: x is 1 instead of 1.25");
+  CHECK(frontend::first_difference(a, b) == "edge_detection, left edge 1: x is 1 instead of 1.25");
 }
 
 TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
@@ -250,32 +222,19 @@ TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
   CHECK(run_program({"compare", "--device", "reference"}).code == 2);
 }
 
-TEST_CASE("ceilings: both kernels run and give rates above zero", "[bench][device][oclgrind]") {
-  for (const auto& name : all_devices()) {
-    DeviceOptions profiling;
-    profiling.profiling = true;
-    Device device(name, profiling);
-    const auto ceilings = bench::measure_ceilings(*device.context(), 1, 1);
-    CHECK(ceilings.bandwidth_gb_s > 0);
-    CHECK(ceilings.arithmetic_gflop_s > 0);
-    Device plain(name, kept_programs());
-    CHECK_THROWS_AS(bench::measure_ceilings(*plain.context(), 1, 1), UsageError);
-  }
-}
-
 TEST_CASE("agreement: equal, shifted and missing rows are distinguished", "[bench]") {
-  bench::FrontendOutput a;
+  frontend::FrontendOutput a;
   for (int i = 0; i < 1000; ++i) {
     a.current.left_x.push_back(static_cast<float>(i));
     a.current.left_y.push_back(5);
     a.current.right_x.push_back(static_cast<float>(i) - 3);
     a.current.left_index.push_back(i);
   }
-  CHECK(bench::agreement(a, a).good());
+  CHECK(frontend::agreement(a, a).good());
   auto b = a;
   b.current.right_x[10] += 0.5f;
-  CHECK(bench::agreement(a, b).stereo == Approx(0.999));
-  CHECK(bench::agreement(a, b).good());
+  CHECK(frontend::agreement(a, b).stereo == Approx(0.999));
+  CHECK(frontend::agreement(a, b).good());
   for (int i = 20; i < 26; ++i) b.current.left_x[static_cast<std::size_t>(i)] += 0.1f;
-  CHECK_FALSE(bench::agreement(a, b).good());
+  CHECK_FALSE(frontend::agreement(a, b).good());
 }

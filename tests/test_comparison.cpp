@@ -3,6 +3,7 @@
 
 #include "dataset_files.hpp"
 #include "made_up_run.hpp"
+#include "report/batch_summary.hpp"
 #include "report/comparison.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,8 +1,8 @@
-/// \file test_config_file.cpp  quadedge/config_file.hpp: reading, writing, errors.
+/// \file test_config_file.cpp  quadedge/config.hpp: reading, writing, errors.
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "quadedge/config_file.hpp"
+#include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
 #include "temporary_folder.hpp"
 
@@ -49,7 +49,7 @@ TEST_CASE("config file: every constant survives writing and reading", "[config]"
     if (auto* const* word = std::get_if<std::string*>(&field)) **word = constant.choices.back();
   }
   config.seed = 9007199254740991;
-  config.variants = {{"scan", "item64"}, {"undistortion", "item16"}};
+  config.variants = {{"scan", "item64"}, {"undistortion", "item64"}};
   const TemporaryFolder folder;
   write_config(folder / "config.toml", config);
   const Config read = read_config(folder / "config.toml"), defaults;

@@ -1,9 +1,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "evaluation/consistency.hpp"
+#include "evaluation/motion_errors.hpp"
 #include "pose/refinement.hpp"
-#include "pose/rig_uncertainty.hpp"
 #include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
@@ -33,7 +32,7 @@ struct MadeUpRun {
         Eigen::Matrix<double, 6, 1> white;
         for (int k = 0; k < 6; ++k) white(k) = normal(random);
         result.current_from_reference = pose::perturb(root * white, pose.inverse() * Eigen::Translation3d(0, 0, 1));
-        result.relative_covariance = claimed;
+        result.relative_covariance = pose::in_other_order(claimed);
       }
       results.push_back(result);
     }

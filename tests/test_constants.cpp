@@ -70,9 +70,9 @@ TEST_CASE("constants: values outside the range are refused, its ends are accepte
 
 TEST_CASE("constants: angles are given in degrees and returned in radians", "[config]") {
   Config config;
-  config.temporal.orientation = 180;
-  CHECK(config.temporal.orientation_rad() == Approx(std::acos(-1.0)));
-  CHECK(constant_named("temporal.orientation").unit == "deg");
+  config.stereo.orientation = 90;
+  CHECK(config.stereo.orientation_rad() == Approx(std::acos(0.0)));
+  CHECK(constant_named("stereo.orientation").unit == "deg");
 }
 
 TEST_CASE("constants: the short help lists the basic ones, the full help all of them, by section", "[cli]") {
@@ -85,8 +85,8 @@ TEST_CASE("constants: the short help lists the basic ones, the full help all of 
   }
   const auto heading = full.find("\nStereo cascade (doc/method.md section 3):");
   REQUIRE(heading != std::string::npos);
-  CHECK(full.find("--stereo.cluster_gap") > heading);
-  CHECK(full.find("--stereo.cluster_gap") < full.find("\nTemporal cascade"));
+  CHECK(full.find("--stereo.mutual_radius") > heading);
+  CHECK(full.find("--stereo.mutual_radius") < full.find("\nTemporal cascade"));
 }
 
 TEST_CASE("constants: doc/configuration.md equals the program's output", "[cli]") {

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/constraints.hpp"
-#include "quadedge/pi.hpp"
+#include "pose/two_quads.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;
 
@@ -18,7 +18,7 @@ Eigen::Vector3d unit(double x, double y, double z) { return Eigen::Vector3d(x, y
 /// D along x, 2 m long; T1 and T2 not coplanar with it.
 OrientedPair example() { return {{{0, 0, 5}, unit(0.3, 1, 0)}, {{2, 0, 5}, unit(0.2, 0.5, 1)}}; }
 
-const ConstraintLimits kLimits{quadedge::PoseConfig{}};
+const ConstraintLimits kLimits;
 
 }  // namespace
 

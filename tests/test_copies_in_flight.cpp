@@ -10,7 +10,7 @@
 #include "opencl/buffer.hpp"
 #include "opencl/read_back.hpp"
 #include "quadedge/error.hpp"
-#include "stages/device_stereo_edges.hpp"
+#include "stages/device_edges.hpp"
 
 using namespace quadedge;
 
@@ -84,18 +84,18 @@ TEST_CASE("copies: images and predictions are no longer in use when the loss of 
       frontend->process(scene.frame(1));
       before_match = device.context()->traffic().launches;
     }
-    DeviceOptions options = kept_programs();
+    opencl::DeviceLimits limits;
     SECTION("images") {
-      options.limits.launches = before_first + 1;
-      Device device(index, options);
+      limits.launches = before_first + 1;
+      Device device = opencl::open_limited(index, kept_programs(), limits);
       const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
       const Gate gate(*device.context());
       CHECK_THROWS_AS(frontend->process(scene.frame(0)), DeviceError);
       CHECK(gate.is_open());
     }
     SECTION("predictions") {
-      options.limits.launches = before_match + 1;
-      Device device(index, options);
+      limits.launches = before_match + 1;
+      Device device = opencl::open_limited(index, kept_programs(), limits);
       const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
       const auto base = frontend->process(scene.frame(0));
       frontend->process(scene.frame(1));
@@ -109,9 +109,9 @@ TEST_CASE("copies: images and predictions are no longer in use when the loss of 
 TEST_CASE("read-back: the host sees the buffer's content, on CPUs by mapping it and elsewhere by a copy", "[device]") {
   for (const auto& index : all_devices()) {
     for (const auto* type : {"cpu", "gpu"}) {
-      DeviceOptions options;
-      options.limits.type = type;
-      Device device(index, options);
+      opencl::DeviceLimits limits;
+      limits.type = type;
+      Device device = opencl::open_limited(index, {}, limits);
       auto& context = *device.context();
       opencl::ReadBack read_back;
       for (const std::size_t size : {10U, 5000U, 20U}) {
@@ -133,9 +133,9 @@ TEST_CASE("read-back: the host sees the buffer's content, on CPUs by mapping it 
 TEST_CASE("read-back: all arrays of the stereo edges are read in one copy", "[device][oclgrind]") {
   for (const auto& index : all_devices()) {
     for (const auto* type : {"cpu", "gpu"}) {
-      DeviceOptions options;
-      options.limits.type = type;
-      Device device(index, options);
+      opencl::DeviceLimits limits;
+      limits.type = type;
+      Device device = opencl::open_limited(index, {}, limits);
       auto& context = *device.context();
       opencl::ReadBack read_back;
       stages::DeviceStereoEdges rig;

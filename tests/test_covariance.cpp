@@ -37,7 +37,7 @@ QuadObservations with_region_errors(const generated::Problem& problem, double si
     const auto& error = errors[static_cast<std::size_t>(20 * region.y() + region.x())];
     after.left += error;
     after.right += error;
-    quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(quads.size()), generated::limits());
+    generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
   }
   return quads;
 }

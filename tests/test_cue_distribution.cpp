@@ -2,12 +2,13 @@
 #include <cmath>
 #include <random>
 
-#include "evaluation/cue_collector.hpp"
+#include "evaluation/cues.hpp"
 #include "evaluation/matching_observer.hpp"
 #include "evaluation/quad_pairs.hpp"
 #include "paper_scene.hpp"
+#include "pose/pose_constants.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using namespace quadedge::evaluation;
@@ -134,9 +135,9 @@ TEST_CASE("Ratios to the best SIFT distance are inverted: the best has 1", "[mat
 TEST_CASE("The measured values of the constraints lead to the constraints' decisions", "[matching]") {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.25);
-  const pose::ConstraintLimits limits{PoseConfig{}};
+  const pose::ConstraintLimits limits;
   const double thresholds[] = {limits.length, limits.angle, limits.angle, limits.tangent};
-  const double min_angle = PoseConfig{}.min_angle;
+  const double min_angle = pose::kMinAngleDeg;
   std::array<int, 5> passed{};
   for (int n = 0; n < 2000; ++n) {
     pose::OrientedPair previous{random_point(random), random_point(random)};
@@ -181,7 +182,7 @@ TEST_CASE("Pairs of true quads give the true motion, and wrong quads lower preci
   Config config;
   config.stereo.max_disparity = 30;
   auto cues = make_cues(small_rig(), config);
-  const auto measured = measure_pairs(quads, usable, veridical, config.pose, 1, motion, cues);
+  const auto measured = measure_pairs(quads, usable, veridical, 1, motion, cues);
   const auto precision = [&](std::size_t order) {
     return static_cast<double>(measured.table[order].veridical) / static_cast<double>(measured.table[order].pairs);
   };
@@ -199,7 +200,7 @@ TEST_CASE("Pairs of true quads give the true motion, and wrong quads lower preci
 
   // If all were wrong, no motion would be near.
   for (auto& after : quads.current) after = measured_as(random_point(random));
-  const auto wrong = measure_pairs(quads, usable, std::vector<std::uint8_t>(400, 0), config.pose, 1, motion, cues);
+  const auto wrong = measure_pairs(quads, usable, std::vector<std::uint8_t>(400, 0), 1, motion, cues);
   CHECK(wrong.table[6].veridical == 0);
   CHECK(wrong.accuracy[0].rotation_deg > 20);
 }

@@ -5,9 +5,9 @@
 
 #include "data/float_map.hpp"
 #include "dataset_files.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using dataset_files::real_data;

@@ -13,26 +13,16 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-FrontendResult run_limited(const RenderedScene& scene, const DeviceLimits& limits) {
-  DeviceOptions options = kept_programs();
-  options.limits = limits;
-  Device device("0", options);
-  const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-  const auto before = frontend->process(scene.frame(0)), now = frontend->process(scene.frame(1));
-  FrontendResult result;
-  result.quads = frontend->match(*before, search_around(before->edges, 12));
-  result.left_edges = frontend->edges(Side::left);
-  result.right_edges = frontend->edges(Side::right);
-  result.previous = before->edges;
-  result.current = now->edges;
-  return result;
+FrontendOutput run_limited(const RenderedScene& scene, const opencl::DeviceLimits& limits) {
+  Device device = opencl::open_limited("0", kept_programs(), limits);
+  return run_frontend(scene, device);
 }
 
 }  // namespace
 
 TEST_CASE("limits: with small groups or without local memory other variants give the same bytes", "[opencl]") {
   const RenderedScene scene("room", 161, 97, 2);
-  DeviceLimits as_gpu, small_groups, no_local;
+  opencl::DeviceLimits as_gpu, small_groups, no_local;
   as_gpu.type = small_groups.type = no_local.type = "gpu";
   small_groups.group_items = 64;
   no_local.local_bytes = 0;
@@ -42,9 +32,7 @@ TEST_CASE("limits: with small groups or without local memory other variants give
   CHECK(same_bytes(run_limited(scene, small_groups), whole));
   CHECK(same_bytes(run_limited(scene, no_local), whole));
 
-  DeviceOptions options;
-  options.limits = small_groups;
-  Device device("0", options);
+  Device device = opencl::open_limited("0", {}, small_groups);
   CHECK(opencl::choose_variant("edge_detection", *device.context(), {}).name == "tile64");
   CHECK(opencl::choose_variant("sift", *device.context(), {}).name == "cells");
   CHECK_THROWS_WITH(opencl::choose_variant("edge_detection", *device.context(), {{"edge_detection", "tile256"}}),
@@ -52,18 +40,18 @@ TEST_CASE("limits: with small groups or without local memory other variants give
 }
 
 TEST_CASE("limits: a device that cannot store bytes is refused by name", "[opencl]") {
-  DeviceOptions options;
-  options.limits.stores_bytes = false;
-  CHECK_THROWS_WITH(Device("0", options), Contains("cl_khr_byte_addressable_store"));
-  CHECK_THROWS_AS(Device("0", options), DeviceError);
+  opencl::DeviceLimits limits;
+  limits.stores_bytes = false;
+  CHECK_THROWS_WITH(opencl::open_limited("0", {}, limits), Contains("cl_khr_byte_addressable_store"));
+  CHECK_THROWS_AS(opencl::open_limited("0", {}, limits), DeviceError);
 }
 
 TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame warns about it", "[opencl][odometry]") {
   RenderedScene scene("room", 320, 200, 2);
-  DeviceOptions options = kept_programs();
-  options.limits.memory_bytes = 60'000'000;
+  opencl::DeviceLimits limits;
+  limits.memory_bytes = 60'000'000;
   scene.config.edges.budget = 0;
-  Device device("0", options);
+  Device device = opencl::open_limited("0", kept_programs(), limits);
   StereoOdometry odometry(scene.rig, device, scene.config);
   const auto first = odometry.track(scene.frame(0));
   REQUIRE(first.warnings.size() == 1);
@@ -74,7 +62,7 @@ TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame 
   const auto second = odometry.track(scene.frame(1));
   CHECK(second.warnings.empty());
   CHECK(is_tracked(second.status));
-  CHECK(odometry.device_bytes() < options.limits.memory_bytes);
+  CHECK(odometry.device_bytes() < limits.memory_bytes);
 }
 
 TEST_CASE("limits: memory_fit keeps what fits and refuses images that fill the memory", "[opencl]") {

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/direction_residual.hpp"
 #include "pose/least_squares.hpp"
+#include "pose/residuals.hpp"
 
 using namespace quadedge::pose;
 

@@ -1,23 +1,22 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "motion/disparity_offset.hpp"
+#include "odometry/disparity_offset.hpp"
 #include "pose/oriented_point.hpp"
 
 using namespace quadedge;
-using motion::DisparityOffset;
+using odometry::DisparityOffset;
 
 TEST_CASE("disparity offset: the corrected rig reconstructs points nearer by the offset", "[odometry]") {
   PoseConfig config;
   config.disparity_offset_sigma = 0.3;
-  config.disparity_offset_drift = 0.01;
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
     DisparityOffset offset(rig, config);
     CHECK(offset.variance() == Approx(0.09));
     offset.update(0.25, 0.0004, 1);
     offset.update(-0.05, 0.0003, 5);
     CHECK(offset.value() == Approx(0.2));
-    CHECK(offset.variance() == Approx(0.0003 + 5 * 0.0001));
+    CHECK(offset.variance() == Approx(0.0003 + 5 * 0.000009));
     // The same pixels, triangulated with both rigs: the inverse depth grows by the equivalent of 0.2 px.
     const pose::OrientedPoint point{{0.1, -0.05, 6}, Eigen::Vector3d(0.5, 0.8, 0.2).normalized()};
     const auto seen = generated::observe(rig, point);
@@ -43,7 +42,7 @@ TEST_CASE("disparity offset: it starts from the configured value", "[odometry]")
   const StereoRig rig = generated::car_rig();
   DisparityOffset offset(rig, config);
   CHECK(offset.value() == -0.4);
-  CHECK(offset.rig().right.cx == motion::with_disparity_offset(rig, -0.4).right.cx);
+  CHECK(offset.rig().right.cx == odometry::with_disparity_offset(rig, -0.4).right.cx);
   offset.update(0.1, 0.0004, 1);
   CHECK(offset.value() == Approx(-0.3));
 }

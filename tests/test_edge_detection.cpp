@@ -10,8 +10,8 @@
 #include "edge_structure.hpp"
 #include "frontends.hpp"
 #include "opencl/variants.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 
 using namespace quadedge;

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "common/mask_border.hpp"
+#include "common/images.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "opencl/variants.hpp"
-#include "quadedge/detect_edges.hpp"
+#include "quadedge/match_stereo.hpp"
 #include "reference/edge_mask.hpp"
 #include "stages/edge_detection.hpp"
-#include "stages/edge_mask.hpp"
 
 using namespace quadedge;
 

@@ -7,14 +7,12 @@
 #include <vector>
 
 #include "common/epipolar_geometry.hpp"
-#include "common/epipolar_rows.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "opencl/variants.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/edge_selection.hpp"
 #include "stages/edge_detection.hpp"
-#include "stages/edge_selection.hpp"
 
 using namespace quadedge;
 
@@ -113,8 +111,7 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
   config.margin = 2;
   config.budget = 75;
   for (const auto& rig : {rectified_rig(width, height), general_rig(width, height)}) {
-    const SelectionArguments left = selection_arguments(rig, Side::left, {}),
-                             right = selection_arguments(rig, Side::right, {});
+    const SelectionArguments left = selection_arguments(rig, Side::left), right = selection_arguments(rig, Side::right);
     for (const auto& index : all_devices()) {
       Device device(index, kept_programs());
       opencl::Context& context = *device.context();
@@ -167,8 +164,8 @@ TEST_CASE("edge selection: rows that lie beside the calibrated ones keep their n
       return static_cast<double>((rows.across_x * x + rows.across_y * y + rows.across_1) /
                                  (rows.forward_x * x + rows.forward_y * y + rows.forward_1));
     };
-    const SelectionArguments left = selection_arguments(rig, Side::left, {}, error),
-                             right = selection_arguments(rig, Side::right, {}, error);
+    const SelectionArguments left = selection_arguments(rig, Side::left, error),
+                             right = selection_arguments(rig, Side::right, error);
     StereoConfig config;
     config.max_disparity = 20;
     const EpipolarGeometry moved = corrected(make_epipolar_geometry(rig, config), error, rig.left);
@@ -180,7 +177,7 @@ TEST_CASE("edge selection: rows that lie beside the calibrated ones keep their n
 }
 
 TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly spaced at every angle", "[edges]") {
-  SelectionArguments arguments = selection_arguments(rectified_rig(400, 400), Side::left, {});
+  SelectionArguments arguments = selection_arguments(rectified_rig(400, 400), Side::left);
   const float spacing = 3;
   for (double degrees = 6; degrees < 174; degrees += 3.7) {
     const double angle = degrees * kDegree, length = 240;
@@ -203,8 +200,7 @@ TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly s
 
 TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]") {
   const StereoRig rig = general_rig(400, 300);
-  const SelectionArguments left = selection_arguments(rig, Side::left, {}),
-                           right = selection_arguments(rig, Side::right, {});
+  const SelectionArguments left = selection_arguments(rig, Side::left), right = selection_arguments(rig, Side::right);
   int chosen = 0, with_counterpart = 0;
   // Curves on slanted planes, so that directions differ between the images.
   for (double degrees = 20; degrees < 160; degrees += 7) {

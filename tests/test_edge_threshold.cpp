@@ -8,10 +8,10 @@
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "opencl/variants.hpp"
-#include "quadedge/detect_edges.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/match_stereo.hpp"
 #include "reference/edge_threshold.hpp"
-#include "stages/edge_threshold.hpp"
+#include "stages/edge_detection.hpp"
 
 using namespace quadedge;
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "common/equal_scale.hpp"
+#include "common/undistortion.hpp"
 
 using namespace quadedge;
 

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
-#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;

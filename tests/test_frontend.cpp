@@ -10,50 +10,6 @@ using namespace matching;
 
 namespace {
 
-/// A position in the left image in hundredths of a pixel. Rows are compared by position: an additional edge in one list
-/// shifts all indices.
-using Key = std::pair<long, long>;
-Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
-
-/// Fraction of the rows of `a` that `b` holds too: left positions (x, y) and right column u within 0.02 px.
-template <class Matches>
-double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const Matches& b_x, const Matches& b_y,
-              const Matches& b_u) {
-  std::multimap<Key, std::size_t> rows;
-  for (std::size_t i = 0; i < b_x.size(); ++i) rows.emplace(key(b_x[i], b_y[i]), i);
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < a_x.size(); ++i) {
-    bool hit = false;
-    const Key middle = key(a_x[i], a_y[i]);
-    for (long dx = -2; dx <= 2; ++dx) {
-      for (long dy = -2; dy <= 2; ++dy) {
-        const auto [begin, end] = rows.equal_range({middle.first + dx, middle.second + dy});
-        for (auto row = begin; row != end; ++row) hit = hit || std::abs(a_u[i] - b_u[row->second]) < 0.02f;
-      }
-    }
-    found += hit ? 1 : 0;
-  }
-  return a_x.empty() ? 1 : static_cast<double>(found) / static_cast<double>(a_x.size());
-}
-
-/// Device and reference agree except for rounding: the reference works in double precision, positions differ by up to
-/// 0.01 px in 99.9 % of the cases (doc/method.md section 1), and each of about twenty thresholds separates candidates
-/// that are closer than that. Ties do not depend on rounding, so 0.5 % is ample for stereo; a quad needs two good
-/// stereo edges and their neighbours: 1 %.
-void compare(const FrontendResult& a, const FrontendResult& b) {
-  const auto stereo = [](const StereoEdges& p, const StereoEdges& q) {
-    return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
-  };
-  CHECK(stereo(a.current, b.current) > 0.995);
-  CHECK(stereo(b.current, a.current) > 0.995);
-  CHECK(stereo(a.previous, b.previous) > 0.995);
-  const auto quads = [](const TemporalMatches& p, const TemporalMatches& q) {
-    return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
-  };
-  CHECK(quads(a.quads, b.quads) > 0.99);
-  CHECK(quads(b.quads, a.quads) > 0.99);
-}
-
 /// Keeps the lists of the last frame per cascade, side and filter.
 class Lists : public Tap {
  public:
@@ -110,7 +66,9 @@ TEST_CASE("frontend: every device finds the reference's stereo edges and quads",
     CHECK(truth.quads.size() > 50);
     for (const auto& device : all_devices()) {
       INFO("device " << device << ", width " << scene.rig.left.width);
-      compare(run_frontend(scene, device), truth);
+      const auto agreement = frontend::agreement(run_frontend(scene, device), truth);
+      INFO(agreement.first);
+      CHECK(agreement.good());
     }
   }
 }
@@ -168,8 +126,10 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
   for (const auto& name : all_devices()) {
     const auto found = find(name);
     // Some bytes of a descriptor differ by one, and an additional edge changes the selection of edges.
-    CHECK(shared(found.left_x, found.left_y, found.right_x, expected.left_x, expected.left_y, expected.right_x) > 0.8);
-    CHECK(shared(expected.left_x, expected.left_y, expected.right_x, found.left_x, found.left_y, found.right_x) > 0.8);
+    FrontendOutput one, other;
+    one.quads = found;
+    other.quads = expected;
+    CHECK(frontend::agreement(one, other).quads > 0.8);
   }
 }
 
@@ -234,7 +194,7 @@ TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "
   }
 }
 
-TEST_CASE("frontend: a rig computes its depths once per disparity offset", "[frontend]") {
+TEST_CASE("frontend: a rig's depths are those of the calibration and the angle that are asked for", "[frontend]") {
   const RenderedScene scene("cables", 120, 75, 2);
   Device device("reference");
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
@@ -242,22 +202,23 @@ TEST_CASE("frontend: a rig computes its depths once per disparity offset", "[fro
   REQUIRE(rig->edges.size() > 20);
   StereoRig nearer = scene.rig;
   nearer.right.cx += 0.5;
-  const auto depths = [&](const StereoRig& calibration, double offset) {
+  const auto depths = [&](const StereoRig& calibration, double angle) {
     std::vector<double> values;
-    for (const auto& edge : rig->measured_edges(calibration, offset, 0.07))
+    for (const auto& edge : rig->measured_edges(calibration, angle))
       if (edge) values.push_back(edge->inverse_depth);
     return values;
   };
-  const auto far = depths(scene.rig, 0);
+  const auto far = depths(scene.rig, 0.07);
   REQUIRE(far.size() > 10);
-  CHECK(depths(nearer, 0) == far);  // computed already
-  CHECK(depths(nearer, 0.5).front() > far.front());
-  CHECK(depths(scene.rig, 0) == far);
+  CHECK(depths(nearer, 0.07).front() > far.front());
+  CHECK(depths(scene.rig, 0.07) == far);
+  CHECK(depths(scene.rig, 0.5).size() < far.size());  // edges nearer to the epipolar lines have no depth
+  CHECK(depths(scene.rig, 0.07) == far);
   const auto* memory = rig.get();
   rig = nullptr;
   rig = frontend->process(scene.frame(1));
   REQUIRE(rig.get() == memory);
-  CHECK(depths(scene.rig, 0) != far);  // of the new frame's edges
+  CHECK(depths(scene.rig, 0.07) != far);  // of the new frame's edges
 }
 
 TEST_CASE("frontend: every variant of every stage gives the default's bytes, and a second run gives them again",

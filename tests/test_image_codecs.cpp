@@ -6,8 +6,8 @@
 #include "data/jpeg_codec.hpp"
 #include "data/png_codec.hpp"
 #include "dataset_files.hpp"
-#include "quadedge/decode_image.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/image.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

@@ -6,30 +6,16 @@
 #include "edge_images.hpp"
 #include "frontends.hpp"
 #include "opencl/variants.hpp"
-#include "quadedge/detect_edges.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/match_stereo.hpp"
 #include "quadedge/odometry.hpp"
 
 using namespace quadedge;
-using matching::FrontendResult;
+using matching::FrontendOutput;
 using matching::RenderedScene;
 using matching::run_frontend;
 
 namespace {
-
-/// Fraction of the stereo edges of `a` that `b` has too, to 0.02 px.
-double shared(const StereoEdges& a, const StereoEdges& b) {
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    bool hit = false;
-    for (std::size_t j = 0; j < b.size() && !hit; ++j) {
-      hit = std::abs(a.left_x[i] - b.left_x[j]) < 0.02F && std::abs(a.left_y[i] - b.left_y[j]) < 0.02F &&
-            std::abs(a.right_x[i] - b.right_x[j]) < 0.02F;
-    }
-    found += hit ? 1 : 0;
-  }
-  return a.size() == 0 ? 1 : static_cast<double>(found) / static_cast<double>(a.size());
-}
 
 /// The same grey levels at 16 bits.
 Image deepened(const Image& image) {
@@ -78,16 +64,16 @@ TEST_CASE("image depth: devices find the reference's stereo edges at 12 and 16 b
   for (const int bits : {12, 16}) {
     RenderedScene scene("cables", 161, 97, 2, 1, bits, bits == 16 ? 0.02 : 0.5);
     scene.config.stereo.sift_max = 500;
-    const FrontendResult truth = run_frontend(scene, "reference");
+    const FrontendOutput truth = run_frontend(scene, "reference");
     REQUIRE(truth.current.size() > 100);
     for (const auto& device : all_devices()) {
-      const FrontendResult expected = run_frontend(scene, device);
-      CHECK(shared(expected.current, truth.current) > 0.99);
-      CHECK(shared(truth.current, expected.current) > 0.99);
+      const FrontendOutput expected = run_frontend(scene, device);
+      CHECK(frontend::agreement(expected, truth).stereo > 0.99);
       for (const auto& variant : opencl::all_variants()) {
         if (bits != 16 || readers.count(variant.stage) == 0) continue;
         INFO(bits << " " << variant.stage << " " << variant.name);
-        CHECK(same_bytes(run_frontend(scene, device, {{variant.stage, variant.name}}), expected));
+        CHECK(
+            frontend::first_difference(run_frontend(scene, device, {{variant.stage, variant.name}}), expected).empty());
       }
     }
   }

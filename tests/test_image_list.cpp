@@ -32,7 +32,14 @@ TEST_CASE("image list: names that can be times give the timestamps", "[data]") {
   CHECK(stamps("nano", {"1403636579763555584.png"}) == Stamps{1403636579763555584});
   CHECK(stamps("micro", {"1403636579763555.png"}) == Stamps{1403636579763555000});
   CHECK(stamps("milli", {"1403636579763.png"}) == Stamps{1403636579763000000});
+  // The steps tell the unit where the number of digits does not: nanoseconds since a boot 20 minutes or 12 days ago.
+  CHECK(stamps("boot", {"1234567890123.png", "1234617890123.png"}) == Stamps{1234567890123, 1234617890123});
+  CHECK(stamps("long boot", {"1036800000000000.png", "1036800050000000.png"}) ==
+        Stamps{1036800000000000, 1036800050000000});
+  CHECK(stamps("milli steps", {"1403636579763.png", "1403636579813.png"}) ==
+        Stamps{1403636579763000000, 1403636579813000000});
   CHECK(stamps("numbers", {"000001.png", "000002.png"}).empty());
+  CHECK(stamps("counter", {"0000000001.png", "0000000002.png"}).empty());
   CHECK(stamps("words", {"left_1.5.png"}).empty());
 }
 
@@ -64,8 +71,13 @@ TEST_CASE("image list: inconsistent files are reported", "[data]") {
   };
   dataset_files::write_text(folder / "a/times.txt", "0\n1\n");
   CHECK_THAT(complaint(), Contains("a/times.txt") && Contains("2 times") && Contains("the 1 image in"));
-  dataset_files::write_text(folder / "a/times.txt", "0 1\n");
+  dataset_files::write_text(folder / "a/times.txt", "0 1 2 3\n");
   CHECK_THAT(complaint(), Contains("times.txt:1"));
+  CHECK(list_images(folder / "a", false).stamps_ns.empty());  // what nobody asks for is not read
+  dataset_files::write_text(folder / "a/times.txt", "# name seconds exposure\n1 1520530308.199447626 1.46\n");
+  CHECK(list_images(folder / "a").stamps_ns == std::vector<std::int64_t>{1520530308199447626});
+  dataset_files::write_text(folder / "a/times.txt", "2011-09-26 13:02:25.967790592\n");
+  CHECK(list_images(folder / "a").stamps_ns == std::vector<std::int64_t>{1317042145967790592});
   dataset_files::write_text(folder / "a/data.csv", "5,2.png\n");
   CHECK_THAT(complaint(), Contains("2.png") && Contains("data.csv"));
   dataset_files::write_text(folder / "a/data.csv", "5,1.png\n5,1.png\n");

@@ -3,7 +3,7 @@
 #include "common/layouts.hpp"
 #include "devices.hpp"
 #include "frontends.hpp"
-#include "motion/motion_search.hpp"
+#include "odometry/motion_search.hpp"
 #include "reference/patches.hpp"
 
 using namespace quadedge;
@@ -54,11 +54,11 @@ TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives
     INFO(name);
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-    const motion::DisparityOffset offset(room().rig, room().config.pose);
-    motion::MotionSearch search(room().config, *frontend, offset);
+    const odometry::DisparityOffset offset(room().rig, room().config.pose);
+    odometry::MotionSearch search(room().config, *frontend, offset);
     const auto base = frontend->process(room().frame(0));
     const frontend::KeptRig kept = frontend->keep();
-    motion::MotionQuery query;
+    odometry::MotionQuery query;
     query.current = frontend->process(room().frame(1));
     query.base = base;
     const auto whole = search.find(query);

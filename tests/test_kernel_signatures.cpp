@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <set>
 
-#include "benchmark/ceilings.hpp"
 #include "frontends.hpp"
 #include "kernel_programs.hpp"
 #include "opencl/kernel.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/self_test.hpp"
-#include "stages/long_loop.hpp"
+#include "stages/stage.hpp"
 #include "temporary_folder.hpp"
 #include "text_files.hpp"
 
@@ -64,13 +63,13 @@ TEST_CASE("kernels: a wrong host signature is reported with the argument's name"
       for (std::size_t i = before; i < context.kernel_faults().size(); ++i) text += context.kernel_faults()[i];
       return text;
     };
-    using Right = opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                                 opencl::Out<cl_uchar>, cl_int>;
-    using FloatForInt = opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                                       opencl::Out<cl_uchar>, cl_float>;
-    using Writable = opencl::Kernel<opencl::Out<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                                    opencl::Out<cl_uchar>, cl_int>;
-    using TooFew = opencl::Kernel<opencl::In<cl_uint>>;
+    using Right =
+        opencl::Kernel<void(const cl_uint*, cl_int, cl_int, const cl_float*, const cl_float*, cl_uchar*, cl_int)>;
+    using FloatForInt =
+        opencl::Kernel<void(const cl_uint*, cl_int, cl_int, const cl_float*, const cl_float*, cl_uchar*, cl_float)>;
+    using Writable =
+        opencl::Kernel<void(cl_uint*, cl_int, cl_int, const cl_float*, const cl_float*, cl_uchar*, cl_int)>;
+    using TooFew = opencl::Kernel<void(const cl_uint*)>;
     CHECK(faults_of(Right()).empty());
     CHECK_THAT(faults_of(FloatForInt()), Contains("count") && Contains("float") && Contains("int"));
     CHECK_THAT(faults_of(Writable()), Contains("corners") && Contains("const"));
@@ -109,7 +108,6 @@ TEST_CASE(
       }
       frontend::make_frontend(rig, device, config);
     }
-    bench::measure_ceilings(context, 1, 0);
     stages::long_loop_difference(context, 10);
     for (const auto& fault : context.kernel_faults()) FAIL_CHECK(fault);
   }
@@ -141,10 +139,10 @@ TEST_CASE("kernels: a query that the driver refuses is a DeviceError", "[device]
 }
 
 TEST_CASE("kernels: groups shrink for kernels without a required size, others are refused", "[device]") {
-  DeviceOptions options;
-  options.limits.group_items = 16;
+  opencl::DeviceLimits limits;
+  limits.group_items = 16;
   for (const auto& index : all_devices()) {
-    Device device(index, options);
+    Device device = opencl::open_limited(index, {}, limits);
     auto& context = *device.context();
     const auto program =
         build_program(context, {},
@@ -152,10 +150,10 @@ TEST_CASE("kernels: groups shrink for kernels without a required size, others ar
                       "kernel __attribute__((reqd_work_group_size(64, 1, 1))) void of_64(global int* out) {\n"
                       "  out[get_global_id(0)] = (int)get_local_size(0);\n}\n");
     opencl::Buffer<cl_int> sizes(context, 128);
-    const opencl::Kernel<opencl::Out<cl_int>> free_size(context, program, "free_size");
+    const opencl::Kernel<void(cl_int*)> free_size(context, program, "free_size");
     free_size({100, 64}, sizes);
     CHECK(sizes.read(112) == std::vector<cl_int>(112, 16));
-    const opencl::Kernel<opencl::Out<cl_int>> of_64(context, program, "of_64");
+    const opencl::Kernel<void(cl_int*)> of_64(context, program, "of_64");
     CHECK_THROWS_WITH(of_64({100, 64}, sizes), Contains("of_64") && Contains("CL_INVALID_WORK_GROUP_SIZE"));
   }
 }

@@ -70,7 +70,7 @@ void check_structure(opencl::Context& context, const cl::Program& program, const
   expected = bits;
   expected.push_back(static_cast<cl_uint>(sizeof(T)));
   opencl::Buffer<cl_uint> out(context, words + 1);
-  const opencl::Kernel<T, opencl::Out<cl_uint>> kernel(context, program, "read_" + structure.name);
+  const opencl::Kernel<void(T, cl_uint*)> kernel(context, program, "read_" + structure.name);
   kernel({1, 1}, value, out);
   CHECK(out.read(words + 1) == expected);
 }

@@ -2,7 +2,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "common/lens_mapping.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge;
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that the lints judge only files that git tracks.
+"""Checks that the lints judge only files that git tracks, and what they find about folders and pages.
 
     test_lints.py REPOSITORY
 """
@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from lint_structure import Tree, check_lines
+from lint_structure import Tree, check_lines, check_phrases, check_sizes
 
 BAD = "int  main( ){\treturn 0;}  \n" + "// " + 130 * "x" + "\n"
 
@@ -34,6 +34,18 @@ def main() -> None:
         subprocess.run(["git", "-C", root, "add", "results"], check=True)
         findings, formatted = lints()
         assert len(findings) == 2 and not formatted, (findings, formatted)
+
+        (root / "doc").mkdir()
+        (root / "host/small").mkdir(parents=True)
+        page = "<!-- sizes -->\n| folder | lines |\n|---|---|\n| `host/small/` | {} |\n<!-- end of sizes -->\n"
+        (root / "doc/design.md").write_text(page.format(2))
+        (root / "host" / "small" / "two.cpp").write_text("\n\n")
+        subprocess.run(["git", "-C", root, "add", "doc", "host"], check=True)
+        assert check_sizes(Tree(root)) == [] and check_phrases(Tree(root)) == []
+        (root / "doc/design.md").write_text(page.format(1) + "A figure stands once.\n")
+        (root / "host" / "outside.cpp").write_text("\n")
+        subprocess.run(["git", "-C", root, "add", "doc", "host"], check=True)
+        assert len(check_sizes(Tree(root))) == 2 and len(check_phrases(Tree(root))) == 1
 
 
 if __name__ == "__main__":

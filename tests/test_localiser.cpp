@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/pi.hpp"
 #include "saved_maps.hpp"
 
 using namespace quadedge;

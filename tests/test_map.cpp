@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "devices.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
-#include "quadedge/pi.hpp"
 #include "quadedge/synthetic.hpp"
 #include "saved_maps.hpp"
 

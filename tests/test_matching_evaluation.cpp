@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "devices.hpp"
-#include "evaluation/matching_evaluation.hpp"
+#include "evaluation/matching_observer.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
 

@@ -224,12 +224,20 @@ class Searches : public Tap {
   void edges(const EdgeSet&, const EdgeSet&) override {
     observed.clear();
     found.clear();
+    for (auto& rows : alive) rows.clear();
   }
   void temporal_search(const ObservedSearch& search) override { observed.push_back(search); }
+  void temporal_filter(TemporalFilter filter, Side side, const CandidateLists& lists) override {
+    if (next(filter) != TemporalFilter::agreement) return;
+    int rows = 0;
+    for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) rows += lists.first[row] < lists.first[row + 1];
+    alive[index_of(side)].push_back(rows);
+  }
   void quads(const TemporalMatches& matches) override { found.push_back(matches); }
 
   std::vector<ObservedSearch> observed;
   std::vector<TemporalMatches> found;  ///< one per search
+  std::vector<int> alive[2];           ///< per side and search: edges with a candidate before the agreement
 };
 
 /// Two frames of the cables, then four of the room: tracking is lost in between and resumes from the lost frame.
@@ -277,6 +285,8 @@ TEST_CASE("A tap receives the base frame of each search and the one that gave th
         CHECK(tap.observed[s].left.x.size() == details.previous_stereo.size());
         CHECK(matching::same_bytes(tap.found[s], details.quads));
         CHECK(details.quads.search == result.diagnostics.search);
+        CHECK(result.counts.temporal_left == tap.alive[0][s]);
+        CHECK(result.counts.temporal_right == tap.alive[1][s]);
         if (result.message.find("relocalised") != std::string::npos) {
           ++relocalisations;
           CHECK(tap.observed[s].base_frame == frame - 1);

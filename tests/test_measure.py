@@ -125,6 +125,30 @@ with tempfile.TemporaryDirectory() as folder:
     shown = result_tables.render("disturbances", results)
     assert "|  | facade | 1.23 |  | -, 3 lost |  |" in shown and "5 frames each" in shown, shown
 
+    # The row of libviso2: medians of interleaved rounds, with the camera of calib.txt.
+    sequence = Path(folder) / "data/kitti_odometry/sequences/06"
+    sequence.mkdir(parents=True)
+    (sequence / "calib.txt").write_text("P0: 700 0 600 0 0 700 180 0 0 0 1 0\n"
+                                        "P1: 700 0 600 -350 0 700 180 0 0 0 1 0\n")
+    log = Path(folder) / "log"
+    for name, text in (("viso2", f'echo "viso2 ${{@:3}}" >>{log}; echo "libviso2 9 frames median 20.0 ms, p99 30 ms"'),
+                       ("bench", f'echo bench >>{log}; echo \'{{"latency_ms": {{"median": 41.6}}}}\' >"${{@: -1}}"')):
+        (Path(folder) / name).write_text(f"#!/bin/bash\n{text}\n")
+        (Path(folder) / name).chmod(0o755)
+    file = out / "peers.json"
+    file.write_text(json.dumps(others["peers"]))
+    done = run("peers.py", Path(folder) / "viso2", "--quadedge", Path(folder) / "bench", "--rounds", 2,
+               "--data", Path(folder) / "data", "--out", file)
+    assert done.returncode == 0, done.stderr
+    assert log.read_text().splitlines() == ["viso2 700.0 600.0 180.0 0.5", "bench"] * 2, log.read_text()
+    timed = json.loads(file.read_text())
+    assert timed["libviso2"]["in_turn"]["quadedge_ms"] == [41.6, 41.6], timed
+    assert timed["frames_per_second"]["KITTI 06"]["libviso2"] == "50", timed
+    assert "| libviso2 | 20 ms (QuadEdge in turn with it: 42 ms) |" in result_tables.render(
+        "peers", {"peers": timed, "speed": others["speed"], "drift": {"rows": [
+            {"scene": scene, "end_percent": 1} for scene in ("room", "cables")]}})
+    assert run("peers.py", "/bin/true", "--data", Path(folder) / "data", "--out", file).returncode == 1
+
     # A failing program is reported with its message; figures of a few frames do not get into the documentation.
     failed = run(
         "measure.py",

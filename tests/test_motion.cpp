@@ -121,8 +121,8 @@ TEST_CASE("An unreliable result has a status and no pose", "[pose][motion]") {
     p.point = p.point.z() * problem.rig.left.ray({random.uniform(300, 380), random.uniform(40, 120)});
     const auto add = [&](QuadObservations& quads) {
       const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
-      quads.append(problem.rig, generated::observe(problem.rig, p), generated::observe(problem.rig, q), 1.0f, 0, i,
-                   generated::limits());
+      generated::append(quads, problem.rig, generated::observe(problem.rig, p), generated::observe(problem.rig, q),
+                        1.0f, generated::limits());
     };
     add(corner);
     p.point = Eigen::Vector3d(1, 0.5, 12);

@@ -1,8 +1,8 @@
 #include "frontends.hpp"
-#include "motion/confirmation.hpp"
-#include "motion/motion_constants.hpp"
-#include "motion/motion_search.hpp"
-#include "motion/step_builder.hpp"
+#include "odometry/motion_proposals.hpp"
+#include "odometry/motion_search.hpp"
+#include "odometry/odometry_constants.hpp"
+#include "pose/pose_constants.hpp"
 #include "pose/scoring.hpp"
 
 using namespace quadedge;
@@ -47,15 +47,15 @@ class CountingFrontend : public frontend::Frontend {
 struct TwoFrames {
   RenderedScene scene{"room", 200, 125, 2, 3};
   std::unique_ptr<CountingFrontend> frontend;
-  std::unique_ptr<motion::DisparityOffset> offset;
-  std::unique_ptr<motion::MotionSearch> search;
-  motion::MotionQuery query;
+  std::unique_ptr<odometry::DisparityOffset> offset;
+  std::unique_ptr<odometry::MotionSearch> search;
+  odometry::MotionQuery query;
 
   explicit TwoFrames(int wide_edges) {
     scene.config.temporal.wide_edges = wide_edges;
     frontend = std::make_unique<CountingFrontend>(scene.rig, scene.config);
-    offset = std::make_unique<motion::DisparityOffset>(scene.rig, scene.config.pose);
-    search = std::make_unique<motion::MotionSearch>(scene.config, *frontend, *offset);
+    offset = std::make_unique<odometry::DisparityOffset>(scene.rig, scene.config.pose);
+    search = std::make_unique<odometry::MotionSearch>(scene.config, *frontend, *offset);
     query.base = frontend->process(scene.frame(0));
     query.current = frontend->process(scene.frame(1));
   }
@@ -103,40 +103,13 @@ TEST_CASE("motion search: a good prediction ends it, any other starts the global
   CHECK(frames.frontend->global == 1);
 }
 
-TEST_CASE("motion search: a proposal that leads to a confirmed motion is given up", "[odometry]") {
-  TwoFrames frames(3000);
-  motion::StepBuilder steps(frames.scene.config, *frames.offset);
-  const motion::Acceptance acceptance(frames.scene.config, *frames.offset);
-  motion::Confirmation confirmation(frames.scene.config, *frames.frontend, steps, acceptance);
-  const auto confirm = [&](const Eigen::Isometry3d& proposal, const motion::MotionStep* known) {
-    frames.frontend->guided = 0;
-    return confirmation.confirm(frames.query, proposal, false, 0, known);
-  };
-  const auto known = confirm(frames.truth(), nullptr);
-  REQUIRE(known);
-  REQUIRE(known->ok());
-  const auto turn = [](double degrees) { return Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()); };
-  // Half a pixel off: the quads of the known motion show that, without a search.
-  CHECK_FALSE(confirm(turn(0.4) * frames.truth(), known.get()));
-  CHECK(frames.frontend->guided == 0);
-  // Two pixels off: a single search leads there.
-  CHECK_FALSE(confirm(turn(2) * frames.truth(), known.get()));
-  CHECK(frames.frontend->guided == 1);
-  CHECK(confirm(turn(2) * frames.truth(), nullptr)->ok());
-  CHECK(frames.frontend->guided > 1);
-  // A motion that leads nowhere is no known one.
-  const auto wrong = confirm(turned(frames.truth()), known.get());
-  REQUIRE(wrong);
-  CHECK_FALSE(wrong->ok());
-}
-
 TEST_CASE("motion search: verdict, inliers and covariance are those of the motion returned", "[odometry]") {
   TwoFrames frames(3000);
   for (const bool is_predicted : {true, false}) {
     frames.query.prediction = is_predicted ? std::optional(frames.truth()) : std::nullopt;
     const auto step = frames.search->find(frames.query);
     REQUIRE(step->ok());
-    CHECK(step->verdict.found);
+    CHECK(step->verdict.is_confirmed());
     CHECK(step->verdict.has_all_inliers);
     CHECK((step->verdict.global_ratio > 0.3) == !is_predicted);  // there are global matches without a prediction
     const PoseConfig& limits = frames.scene.config.pose;
@@ -144,11 +117,11 @@ TEST_CASE("motion search: verdict, inliers and covariance are those of the motio
       std::vector<std::uint8_t> inlier;
       pose::select_inliers(step->quads.scoring,
                            pose::LaterCameras(frames.offset->rig(), step->motion.current_from_previous), distance,
-                           limits.inlier_orientation_rad(), inlier);
+                           pose::kInlierOrientation, inlier);
       return inlier;
     };
     CHECK(select(limits.inlier_distance) == step->motion.inlier);
-    CHECK(select(motion::kCloseAgreement * limits.inlier_distance) == step->agrees);
+    CHECK(select(odometry::kCloseAgreement * limits.inlier_distance) == step->agrees);
     // The motion to take over follows the disparity offset only as far as it was learned.
     REQUIRE(step->motion.learned);
     CHECK(step->motion.adopted().transform.matrix() == step->motion.learned->current_from_previous.matrix());
@@ -158,17 +131,34 @@ TEST_CASE("motion search: verdict, inliers and covariance are those of the motio
 
 TEST_CASE("motion search: a query that allows the prediction only and has none is answered", "[odometry]") {
   TwoFrames frames(3000);
-  frames.query.most = motion::Effort::prediction;
+  frames.query.is_near_prediction = true;
   const auto step = frames.search->find(frames.query);  // nothing is predicted and nothing else allowed
   CHECK_FALSE(step->ok());
   CHECK(step->base == frames.query.base);
-  CHECK_FALSE(step->verdict.found);
+  CHECK_FALSE(step->verdict.is_confirmed());
   CHECK(frames.frontend->coarse + frames.frontend->guided + frames.frontend->global + frames.frontend->beside == 0);
+}
+
+TEST_CASE("motion search: another motion is searched for at the start, in every tenth frame and after a loss",
+          "[odometry][long]") {
+  TwoFrames frames(3000);
+  frames.query.prediction = frames.truth();
+  const auto is_checked = [&] {
+    frames.frontend->beside = 0;
+    const auto step = frames.search->find(frames.query);
+    CHECK(step->ok());
+    CHECK(step->is_checked == (frames.frontend->beside == 1));
+    frames.search->remember(*step);
+    return step->is_checked;
+  };
+  for (int frame = 0; frame < 22; ++frame) CHECK(is_checked() == (frame < 3 || frame == 12));
+  frames.search->remember(odometry::MotionStep());
+  for (int frame = 0; frame < 4; ++frame) CHECK(is_checked() == (frame < 3));
 }
 
 TEST_CASE("motion search: without the global search the coarse search widens", "[odometry]") {
   TwoFrames frames(0);
-  const double wide = frames.scene.config.temporal.coarse_wide_radius_ratio * 200;
+  const double wide = odometry::kCoarseWideRadiusRatio * 200;
   frames.check(frames.truth());
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->largest_radius == static_cast<float>(frames.scene.config.temporal.coarse_radius));

@@ -2,18 +2,18 @@
 #include <numeric>
 #include <set>
 
-#include "motion/motion_selection.hpp"
+#include "odometry/motion_selection.hpp"
 
-using namespace quadedge::motion;
+using namespace quadedge::odometry;
 
 namespace {
 
-/// A motion that explains an area of the image and leaves the rest in no doubt.
+/// A motion that explains an area of the image and leaves nothing ambiguous.
 Verdict found(double area, double support = 0.5) {
   Verdict verdict;
-  verdict.found = true;
+  verdict.refusal = Refusal::none;
   verdict.support = support;
-  verdict.explained_area = area;
+  verdict.area = area;
   return verdict;
 }
 
@@ -46,7 +46,7 @@ Selection choose(const std::vector<Verdict>& verdicts, const Expectation& expect
   }
   return select(verdicts, expectation,
                 {[&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; },
-                 [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].explained_area; }});
+                 [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].area; }});
 }
 
 Effort needed(const Verdict& prediction, const Expectation& expectation = kPredicted) {
@@ -72,84 +72,93 @@ TEST_CASE("motion selection: how much is tried depends on what the prediction le
 }
 
 TEST_CASE("motion selection: the motion that explains the largest area is chosen", "[odometry]") {
-  CHECK(choose({found(0.3), found(0.5), found(0.4)}, kPredicted).trial == 1);
-  CHECK(choose({kFailure, found(0.01)}, kPredicted).trial == 1);
-  CHECK_FALSE(choose({kFailure, kFailure}, kPredicted).accepted);
-  CHECK(choose({found(0.4), found(0.4)}, kPredicted).trial == 1);  // not the prediction
-  CHECK(choose({found(0.4), found(0.4)}, kUnpredicted).trial == 0);
-  CHECK(choose({kFailure, kFailure, kFailure}, kPredicted).trial == 1);
+  CHECK(choose({found(0.3), found(0.5), found(0.4)}, kPredicted).chosen == 1);
+  CHECK(choose({kFailure, found(0.01)}, kPredicted).chosen == 1);
+  CHECK(choose({kFailure, kFailure}, kPredicted).refusal == Refusal::no_consensus);
+  CHECK(choose({found(0.4), found(0.4)}, kPredicted).chosen == 1);  // not the prediction
+  CHECK(choose({found(0.4), found(0.4)}, kUnpredicted).chosen == 0);
+  CHECK(choose({kFailure, kFailure, kFailure}, kPredicted).chosen == 1);
   Verdict failure;
-  failure.explained_area = 0.9;  // has no meaning
-  CHECK(choose({found(0.2), failure}, kPredicted).trial == 0);
+  failure.area = 0.9;  // has no meaning
+  CHECK(choose({found(0.2), failure}, kPredicted).chosen == 0);
 }
 
 TEST_CASE("motion selection: a close agreement gives way to the same motion with all of its inliers", "[odometry]") {
   const std::vector<Verdict> verdicts{found(0.3), closely(0.6), found(0.5)};
-  CHECK(choose(verdicts, kPredicted).trial == 1);
-  CHECK(choose(verdicts, kPredicted, {0, 1, 1}).trial == 2);
-  CHECK(choose({closely(0.3), closely(0.6)}, kUnpredicted, {0, 0}).trial == 1);
-  CHECK(choose({kFailure, closely(0.6)}, kPredicted, {0, 0}).trial == 1);
+  CHECK(choose(verdicts, kPredicted).chosen == 1);
+  CHECK(choose(verdicts, kPredicted, {0, 1, 1}).chosen == 2);
+  CHECK(choose({closely(0.3), closely(0.6)}, kUnpredicted, {0, 0}).chosen == 1);
+  CHECK(choose({kFailure, closely(0.6)}, kPredicted, {0, 0}).chosen == 1);
 }
 
 TEST_CASE("motion selection: what was not expected has to agree with the global matches", "[odometry]") {
   Verdict contradicted = found(0.8);
   contradicted.agrees_globally = false;
-  CHECK(choose({contradicted}, kPredicted).accepted);  // confident
+  CHECK(choose({contradicted}, kPredicted).refusal == Refusal::none);  // confident
   contradicted.support = 0.34;
-  CHECK_FALSE(choose({contradicted}, kPredicted).accepted);
+  CHECK(choose({contradicted}, kPredicted).refusal == Refusal::contradicted);
   contradicted.support = 0.5;
-  CHECK_FALSE(choose({kFailure, contradicted}, kPredicted).accepted);
-  CHECK_FALSE(choose({contradicted}, kUnpredicted).accepted);
-  CHECK(choose({found(0.8, 0.1)}, kUnpredicted).accepted);
+  CHECK(choose({kFailure, contradicted}, kPredicted).refusal == Refusal::contradicted);
+  CHECK(choose({contradicted}, kUnpredicted).refusal == Refusal::contradicted);
+  CHECK(choose({found(0.8, 0.1)}, kUnpredicted).refusal == Refusal::none);
 }
 
-TEST_CASE("motion selection: every doubt is told with its ratio", "[odometry]") {
-  const auto doubt = [](const std::vector<Verdict>& verdicts, std::vector<int> motion = {}) {
-    return choose(verdicts, kPredicted, std::move(motion)).doubt;
+TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry]") {
+  const auto ambiguity = [](const std::vector<Verdict>& verdicts, std::vector<int> motion = {}) {
+    return choose(verdicts, kPredicted, std::move(motion)).ambiguity;
   };
-  CHECK_FALSE(doubt({found(0.5)}).exists());
-  CHECK_FALSE(doubt({kFailure}).exists());
-  CHECK_FALSE(doubt({moving(found(0.5), 0.49)}).exists());
-  const Doubt moving_image = doubt({moving(found(0.5), 0.6)});
-  CHECK(moving_image.kind == Ambiguity::moving_image);
+  CHECK_FALSE(ambiguity({found(0.5)}).exists());
+  CHECK_FALSE(ambiguity({kFailure}).exists());
+  CHECK_FALSE(ambiguity({moving(found(0.5), 0.49)}).exists());
+  const Ambiguity moving_image = ambiguity({moving(found(0.5), 0.6)});
+  CHECK(moving_image.kind == AmbiguityKind::moving_image);
   CHECK(moving_image.ratio == 0.6);
-  const Doubt static_scene = doubt({at_rest(found(0.5), 0.07)});
-  CHECK(static_scene.kind == Ambiguity::static_scene);
+  const Ambiguity static_scene = ambiguity({at_rest(found(0.5), 0.07)});
+  CHECK(static_scene.kind == AmbiguityKind::static_scene);
   CHECK(static_scene.ratio == 0.07);
-  const Doubt competing = doubt({found(0.5), found(0.1), found(0.3), found(0.25), kFailure});
-  CHECK(competing.kind == Ambiguity::competing_motion);
+  const Ambiguity competing = ambiguity({found(0.5), found(0.1), found(0.3), found(0.25), kFailure});
+  CHECK(competing.kind == AmbiguityKind::competing_motion);
   CHECK(competing.ratio == Approx(0.6));
-  CHECK_FALSE(doubt({found(0.5), found(0.19)}).exists());
-  CHECK_FALSE(doubt({found(0.5), found(0.3)}, {0, 0}).exists());
-  CHECK(doubt({found(0), found(0)}).kind == Ambiguity::competing_motion);
-  const Doubt elsewhere = doubt_about({0.2, 0.5, 0.4}, false);
-  CHECK(elsewhere.kind == Ambiguity::motion_elsewhere);
-  CHECK(elsewhere.ratio == 0.2);
+  CHECK_FALSE(ambiguity({found(0.5), found(0.19)}).exists());
+  CHECK_FALSE(ambiguity({found(0.5), found(0.3)}, {0, 0}).exists());
+  CHECK(ambiguity({found(0), found(0)}).kind == AmbiguityKind::competing_motion);
+  const Ambiguity other_part = ambiguity_of({0.2, 0.5, 0.4}, false);
+  CHECK(other_part.kind == AmbiguityKind::other_part);
+  CHECK(other_part.ratio == 0.2);
   std::set<std::string> texts;
-  for (const Doubt& each : {moving_image, static_scene, competing, elsewhere}) texts.insert(to_string(each));
+  for (const Ambiguity& each : {moving_image, static_scene, competing, other_part}) texts.insert(to_string(each));
   CHECK(texts.size() == 4);
   for (const auto& text : texts) CHECK(text.find(" %") != std::string::npos);
+}
+
+TEST_CASE("motion selection: an ambiguous motion is refused where it is no answer", "[odometry]") {
+  const Selection ambiguous = choose({found(0.5), found(0.3)}, kPredicted);
+  REQUIRE(ambiguous.ambiguity.exists());
+  CHECK(decide(ambiguous, true) == Refusal::none);
+  CHECK(decide(ambiguous, false) == Refusal::ambiguous);
+  CHECK(decide(choose({found(0.5)}, kPredicted), false) == Refusal::none);
+  CHECK(decide(choose({kFailure}, kPredicted), false) == Refusal::no_consensus);
 }
 
 TEST_CASE("motion selection: edges of distant views that are not found again are no second motion", "[odometry]") {
   Verdict confirmed = moving(found(0.5), 0.6);
   confirmed.global_ratio = 0.5;
-  CHECK_FALSE(choose({confirmed}, kPredicted).doubt.exists());
+  CHECK_FALSE(choose({confirmed}, kPredicted).ambiguity.exists());
   confirmed.global_ratio = 0.2;
-  CHECK(choose({confirmed}, kPredicted).doubt.kind == Ambiguity::moving_image);
+  CHECK(choose({confirmed}, kPredicted).ambiguity.kind == AmbiguityKind::moving_image);
   // A competing motion counts by what the chosen one does not explain.
-  CHECK(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.3).doubt.ratio == Approx(0.42));
-  CHECK_FALSE(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.4).doubt.exists());
+  CHECK(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.3).ambiguity.ratio == Approx(0.42));
+  CHECK_FALSE(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.4).ambiguity.exists());
 }
 
-TEST_CASE("motion selection: a motion elsewhere counts by its area, a smaller one if it is on all sides",
+TEST_CASE("motion selection: another part of the image counts by its area, a smaller one if it is on all sides",
           "[odometry]") {
-  CHECK_FALSE(doubt_about(Elsewhere(), false).exists());
-  CHECK(doubt_about({0.1, 0.2, 0.1}, false).exists());
-  CHECK_FALSE(doubt_about({0.05, 0.2, 0.1}, false).exists());  // an object
-  CHECK(doubt_about({0.05, 0.2, 0.9}, false).exists());
-  CHECK_FALSE(doubt_about({0.01, 0.2, 0.9}, false).exists());
-  CHECK(doubt_about({0.01, 0.05, 0.1}, true).exists());  // after a doubt
-  CHECK_FALSE(doubt_about({0.005, 0.05, 0.9}, true).exists());
-  CHECK_FALSE(doubt_about({0.1, 0.05, 0.9}, false).exists());  // most of what was searched does not follow
+  CHECK_FALSE(ambiguity_of(OtherPart(), false).exists());
+  CHECK(ambiguity_of({0.1, 0.2, 0.1}, false).exists());
+  CHECK_FALSE(ambiguity_of({0.05, 0.2, 0.1}, false).exists());  // an object
+  CHECK(ambiguity_of({0.05, 0.2, 0.9}, false).exists());
+  CHECK_FALSE(ambiguity_of({0.01, 0.2, 0.9}, false).exists());
+  CHECK(ambiguity_of({0.01, 0.05, 0.1}, true).exists());  // after an ambiguous motion
+  CHECK_FALSE(ambiguity_of({0.005, 0.05, 0.9}, true).exists());
+  CHECK_FALSE(ambiguity_of({0.1, 0.05, 0.9}, false).exists());  // most of what was searched does not follow
 }

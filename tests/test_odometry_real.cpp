@@ -4,10 +4,10 @@
 
 #include "dataset_files.hpp"
 #include "devices.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/odometry.hpp"
-#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using dataset_files::real_data;
@@ -130,15 +130,12 @@ TEST_CASE("KITTI 06: the same bytes again, with other local sizes and other vari
   const TrackedFrames run = track_dataset(dataset);
   REQUIRE(run.tracked.size() == 3);
   CHECK(same_bytes(run, track_dataset(dataset)));
-  CHECK(same_bytes(run, track_dataset(dataset, {{"stereo_candidates", "group16"},
-                                                {"candidate_filters", "group16"},
+  CHECK(same_bytes(run, track_dataset(dataset, {{"stereo_candidates", "group64"},
+                                                {"candidate_filters", "rows32"},
                                                 {"stereo_refinement", "lanes64"},
-                                                {"stereo_clusters", "group16"},
                                                 {"stereo_relaxation", "group64"},
-                                                {"stereo_mutual", "group16"},
-                                                {"temporal_candidates", "group16"},
-                                                {"temporal_match", "rows32"},
-                                                {"temporal_quads", "group16"}})));
+                                                {"point_index", "items64"},
+                                                {"temporal_match", "rows32"}})));
   CHECK(same_bytes(
       run,
       track_dataset(dataset,

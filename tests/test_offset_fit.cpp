@@ -21,7 +21,7 @@ QuadObservations quads_with_offset(const generated::Problem& problem, double off
     if (moved.point.z() < 0.5 * problem.near) continue;
     const auto before = generated::disturb(seeing, p, problem.noise, true, random);
     const auto after = generated::disturb(seeing_later, moved, problem.noise, false, random);
-    quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(quads.size()), generated::limits());
+    generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
   }
   return quads;
 }

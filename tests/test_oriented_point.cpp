@@ -2,7 +2,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/oriented_point.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;
 

@@ -5,7 +5,7 @@
 
 #include "data/toml_file.hpp"
 #include "program.hpp"
-#include "quadedge/config_file.hpp"
+#include "quadedge/config.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "describing.hpp"
 #include "kernel_programs.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/patches.hpp"
 
 using namespace quadedge;
@@ -322,7 +322,7 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit for bit",
         "  const int a = (int)get_global_id(0), b = (int)get_global_id(1), k = b * (int)get_global_size(0) + a;\n"
         "  scores[k] = patch_ncc(patches + a * kEdgePatchBytes, patches + b * kEdgePatchBytes);\n"
         "}\n");
-    const opencl::Kernel<opencl::In<cl_char>, opencl::Out<cl_float>> score(context, program, "score");
+    const opencl::Kernel<void(const cl_char*, cl_float*)> score(context, program, "score");
     opencl::Buffer<cl_char> input;
     opencl::Buffer<cl_float> scores(context, 3600);
     input.write(context, patches);

@@ -136,8 +136,8 @@ TEST_CASE("photometric: devices sample the same patches, also across the border"
       Device device(index, kept_programs());
       auto& context = *device.context();
       const auto program = build_program(context, {"direction.cl", "photometric.cl"}, source);
-      opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, cl_int, opencl::Out<cl_float>> kernel(
-          context, program, "probe");
+      opencl::Kernel<void(const cl_uint*, cl_int, cl_int, const cl_float*, cl_int, cl_float*)> kernel(context, program,
+                                                                                                      "probe");
       stages::PixelCorners corners(context);
       corners.prepare(upload(context, image).pixels, width, height);
       opencl::Buffer<cl_float> positions, grey(context, 40 * count);

@@ -4,7 +4,7 @@
 
 #include "matching.hpp"
 #include "reference/point_index.hpp"
-#include "stages/point_index.hpp"
+#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 

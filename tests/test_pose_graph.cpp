@@ -3,7 +3,6 @@
 #include <random>
 
 #include "map/pose_graph.hpp"
-#include "pose/rig_uncertainty.hpp"
 #include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;

@@ -3,7 +3,7 @@
 
 #include "frontend/prediction.hpp"
 #include "generated_quads.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge;
 using Eigen::Vector3d;

@@ -4,7 +4,7 @@
 #include "data/presets.hpp"
 #include "dataset_files.hpp"
 #include "program.hpp"
-#include "quadedge/config_file.hpp"
+#include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
 
 using namespace quadedge;

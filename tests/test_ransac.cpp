@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/constraints.hpp"
 #include "pose/pose_constants.hpp"
 #include "pose/ransac.hpp"
 #include "pose/two_quads.hpp"
@@ -38,7 +37,7 @@ TEST_CASE("Consensus is found among 70 % outliers, with exact and noisy quads, f
       REQUIRE(found.found);
       CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 5e-4);
       CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 0.02);
-      CHECK(found.hypotheses <= config.max_hypotheses);
+      CHECK(found.hypotheses <= kMaxHypotheses);
       CHECK(found.draws <= config.max_draws);
     }
   }
@@ -138,7 +137,7 @@ TEST_CASE("Without local optimisation the motion is that of two measured quads",
   const Consensus plain = search(problem, noisy, config);
   REQUIRE(plain.found);
   bool of_a_pair = false;
-  const double max_cosine = ConstraintLimits(config).max_cosine;
+  const double max_cosine = ConstraintLimits().max_cosine;
   for (std::size_t a = 0; a < noisy.quads.size() && !of_a_pair; ++a) {
     for (std::size_t b = 0; b < noisy.quads.size() && !of_a_pair; ++b) {
       if (a == b) continue;

@@ -4,7 +4,7 @@
 using namespace quadedge;
 using namespace matching;
 using frontend::RectificationFollower;
-using rig_check::EpipolarFit;
+using rig::EpipolarFit;
 
 namespace {
 

@@ -67,7 +67,7 @@ TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorte
       };
       drift(before, 0.5);
       drift(after, -0.5);
-      quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(quads.size()), generated::limits());
+      generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
     }
     const Refined refined = generated::refined_by(quads, problem.rig, {}, problem.motion);
     REQUIRE(refined.solved);
@@ -91,7 +91,7 @@ TEST_CASE("Wrong quads among the inliers hardly affect the pose", "[pose][refine
     const auto before = generated::disturb(problem.rig, p, problem.noise, true, random);
     auto after = generated::disturb(problem.rig, q, problem.noise, false, random);
     if (i % 7 == 0) after.left.x() += 1.0, after.right.x() += 1.0;
-    quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(i), generated::limits());
+    generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
   }
   const auto error = [&](const quadedge::PoseConfig& config) {
     const Refined refined = generated::refined_by(quads, problem.rig, config, problem.motion);

@@ -2,8 +2,9 @@
 
 #include "generated_quads.hpp"
 #include "pose/least_squares.hpp"
-#include "pose/reprojection_residual.hpp"
-#include "quadedge/pi.hpp"
+#include "pose/pose_constants.hpp"
+#include "pose/residuals.hpp"
+#include "quadedge/camera.hpp"
 #include "reprojection_jacobian.hpp"
 
 using namespace quadedge::pose;
@@ -68,12 +69,12 @@ TEST_CASE("Reprojection residuals vanish at the true motion and are measured in 
   quadedge::PoseConfig config;
   const NoiseModel noise(config);
   CHECK(noise.on_epipolar_line(1.0) == Approx(config.sigma_across));
-  CHECK(noise.on_epipolar_line(0.0) == Approx(config.sigma_along));
+  CHECK(noise.on_epipolar_line(0.0) == Approx(pose::kSigmaAlong));
   // A segment of 3 px to both sides has the standard deviation of a uniform distribution, 3 / sqrt(3), whatever the
   // scale of the rest.
-  CHECK(noise.along_in_time(0, 1) == Approx(config.sigma_along));
-  CHECK(noise.along_in_time(3, 1) == Approx(std::hypot(config.sigma_along, std::sqrt(3.0))));
-  CHECK(noise.along_in_time(3, 0.25) == Approx(std::hypot(config.sigma_along, 4 * std::sqrt(3.0))));
+  CHECK(noise.along_in_time(0, 1) == Approx(pose::kSigmaAlong));
+  CHECK(noise.along_in_time(3, 1) == Approx(std::hypot(pose::kSigmaAlong, std::sqrt(3.0))));
+  CHECK(noise.along_in_time(3, 0.25) == Approx(std::hypot(pose::kSigmaAlong, 4 * std::sqrt(3.0))));
 
   generated::Problem problem = generated::near_problem();
   const auto exact = generated::generate(problem, 22);
@@ -86,7 +87,7 @@ TEST_CASE("Reprojection residuals vanish at the true motion and are measured in 
 
   // Without noise in the earlier frame, reprojection residuals at the true motion are standard normal.
   problem.quads = 4000;
-  problem.noise = {config.sigma_across, config.sigma_along, 2.0 * quadedge::kDegree};
+  problem.noise = {config.sigma_across, pose::kSigmaAlong, 2.0 * quadedge::kDegree};
   const auto noisy = generated::generate(problem, 23);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < noisy.quads.size(); ++i) {

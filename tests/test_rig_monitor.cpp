@@ -1,14 +1,14 @@
 #include <catch2/catch.hpp>
 
 #include "frontends.hpp"
-#include "rig_check/rig_monitor.hpp"
+#include "rig/rig_monitor.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
 using matching::RenderedScene;
-using rig_check::RigFindingKind;
-using rig_check::RigMonitor;
-using rig_check::RigReport;
+using rig::RigFindingKind;
+using rig::RigMonitor;
+using rig::RigReport;
 
 namespace {
 
@@ -29,7 +29,7 @@ void check_mismatch(const StereoRig& rig, const Image& left, const Image& right,
   REQUIRE(report.findings.size() == 1);
   REQUIRE(report.mismatch() != nullptr);
   CHECK(report.mismatch()->kind == kind);
-  CHECK_THAT(rig_check::sentence(*report.mismatch()), Contains(cause));
+  CHECK_THAT(rig::warning(*report.mismatch()).text, Contains(cause));
 }
 
 StereoRig turned_rig(double degrees, const Eigen::Vector3d& axis) {
@@ -58,7 +58,7 @@ TEST_CASE("rig monitor: nothing contradicts the right calibration", "[rig]") {
     const RenderedScene scene(name, 320, 200, 1);
     const auto [evidence, fit, findings] =
         RigMonitor::examine(scene.rig, scene.frame(0), scene.config.stereo.max_disparity);
-    INFO(name << ", " << (findings.empty() ? "" : rig_check::sentence(findings.front())));
+    INFO(name << ", " << (findings.empty() ? "" : rig::warning(findings.front()).text));
     CHECK(findings.empty());
     CHECK(evidence.found_ratio > 0.5);
     if (name != std::string("cables")) {  // along a cable a match may lie anywhere
@@ -97,15 +97,15 @@ TEST_CASE("rig monitor: small errors are warnings and stop nothing", "[rig]") {
   const RigReport pitched = examine(turned_rig(0.5, Eigen::Vector3d::UnitX()), left, right);
   CHECK(pitched.mismatch() == nullptr);
   REQUIRE(pitched.findings.size() == 1);
-  const Warning warning = rig_check::warning(pitched.findings[0]);
+  const Warning warning = rig::warning(pitched.findings[0]);
   CHECK(warning.kind == WarningKind::doubtful_calibration);
   CHECK_THAT(warning.text, Contains("doubtful") && Contains("pitched"));
   CHECK(pitched.evidence.searched_residual == Approx(evidence_room().rig.left.fy * 0.5 * kDegree).epsilon(0.15));
   const RigReport narrow = RigMonitor::examine(evidence_room().rig, evidence_room().frame(0), 4);
   CHECK(narrow.mismatch() == nullptr);
   REQUIRE(narrow.findings.size() == 1);
-  CHECK(rig_check::warning(narrow.findings[0]).kind == WarningKind::small_disparity_range);
-  CHECK_THAT(rig_check::warning(narrow.findings[0]).text, Contains("stereo.max_disparity too small"));
+  CHECK(rig::warning(narrow.findings[0]).kind == WarningKind::small_disparity_range);
+  CHECK_THAT(rig::warning(narrow.findings[0]).text, Contains("stereo.max_disparity too small"));
 }
 
 TEST_CASE("rig monitor: a frozen camera is detected while the other one moves", "[rig]") {
@@ -115,11 +115,11 @@ TEST_CASE("rig monitor: a frozen camera is detected while the other one moves", 
   const RigReport same = monitor.judge({1, left.view(), right.view()}, {}, 0, 100);
   CHECK(same.mismatch() == nullptr);
   REQUIRE(same.findings.size() == 1);
-  CHECK(rig_check::warning(same.findings[0]).kind == WarningKind::repeated_images);
-  CHECK_THAT(rig_check::sentence(same.findings[0]), Contains("both cameras frozen"));
+  CHECK(rig::warning(same.findings[0]).kind == WarningKind::repeated_images);
+  CHECK_THAT(rig::warning(same.findings[0]).text, Contains("both cameras frozen"));
   const RigReport frozen = monitor.judge({2, next.view(), right.view()}, {}, 0, 100);
   REQUIRE(frozen.mismatch() != nullptr);
-  CHECK_THAT(rig_check::sentence(*frozen.mismatch()), Contains("has the right camera frozen?"));
+  CHECK_THAT(rig::warning(*frozen.mismatch()).text, Contains("has the right camera frozen?"));
   CHECK(monitor.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0, 100).findings.empty());
 }
 
@@ -134,20 +134,20 @@ TEST_CASE("rig monitor: a pair that repeats is not used if it does not match the
 }
 
 TEST_CASE("rig monitor: a disparity offset beyond that of a rectification is reported", "[rig]") {
-  CHECK_FALSE(rig_check::judge_disparity_offset(1.1));
+  CHECK_FALSE(rig::judge_disparity_offset(1.1));
   for (const double offset : {1.6, -1.6}) {
-    const auto large = rig_check::judge_disparity_offset(offset);
+    const auto large = rig::judge_disparity_offset(offset);
     REQUIRE(large);
-    CHECK(rig_check::warning(*large).kind == WarningKind::large_disparity_offset);
-    CHECK_THAT(rig_check::sentence(*large), Contains(offset > 0 ? "by 1.6 px" : "by -1.6 px") && Contains("yaw"));
+    CHECK(rig::warning(*large).kind == WarningKind::large_disparity_offset);
+    CHECK_THAT(rig::warning(*large).text, Contains(offset > 0 ? "by 1.6 px" : "by -1.6 px") && Contains("yaw"));
   }
 }
 
 TEST_CASE("rig monitor: implausible numbers are reported", "[rig]") {
-  CHECK(rig_check::implausible_numbers(evidence_room().rig).empty());
+  CHECK(rig::implausible_numbers(evidence_room().rig).empty());
   const auto first_of = [](const StereoRig& rig) {
-    const auto found = rig_check::implausible_numbers(rig);
-    return found.empty() ? std::string() : rig_check::warning(found.front()).text;
+    const auto found = rig::implausible_numbers(rig);
+    return found.empty() ? std::string() : rig::warning(found.front()).text;
   };
   StereoRig rig = evidence_room().rig;
   rig.right_from_left.translation() *= 1000;
@@ -168,9 +168,9 @@ TEST_CASE("rig monitor: aligned patches measure a pitch error of 0.3 degrees", "
   Device device(all_devices().front(), kept_programs());
   const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
   const auto seen = frontend->process(evidence_room().frame(0));
-  std::vector<rig_check::CornerMatch> matches;
-  rig_check::EpipolarProbe(rig).align(evidence_room().frame(0), seen->edges, matches);
-  const rig_check::EpipolarFit fit = rig_check::fit_across(matches, rig.left.width, rig.left.height);
+  std::vector<rig::CornerMatch> matches;
+  rig::CornerMatcher(rig).align(evidence_room().frame(0), seen->edges, matches);
+  const rig::EpipolarFit fit = rig::fit_across(matches, rig.left.width, rig.left.height);
   REQUIRE(fit.samples > 30);
   CHECK(fit.offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));
 }

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "pose/rig_uncertainty.hpp"
+#include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
 

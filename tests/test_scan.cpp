@@ -4,7 +4,7 @@
 #include "devices.hpp"
 #include "opencl/variants.hpp"
 #include "reference/scan.hpp"
-#include "stages/scan.hpp"
+#include "stages/stage.hpp"
 
 using namespace quadedge;
 

@@ -3,7 +3,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/scoring.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;
 

@@ -6,7 +6,7 @@
 #include "opencl/variants.hpp"
 #include "program.hpp"
 #include "quadedge/self_test.hpp"
-#include "stages/long_loop.hpp"
+#include "stages/stage.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -33,11 +33,11 @@ TEST_CASE("self-test: every stage of the reference finds something to compare", 
 }
 
 TEST_CASE("self-test: every device passes, with the kernels for CPUs and for GPUs", "[selftest]") {
-  DeviceOptions options = kept_programs();
-  options.limits.type = GENERATE(as<std::string>(), "cpu", "gpu");
-  Device device(GENERATE(from_range(all_devices())), options);
+  opencl::DeviceLimits limits;
+  limits.type = GENERATE(as<std::string>(), "cpu", "gpu");
+  Device device = opencl::open_limited(GENERATE(from_range(all_devices())), kept_programs(), limits);
   const auto result = self_test(device);
-  INFO(*options.limits.type << " " << result.stage << ": " << result.difference);
+  INFO(*limits.type << " " << result.stage << ": " << result.difference);
   CHECK(result.passed());
 }
 
@@ -144,14 +144,14 @@ TEST_CASE("self-test: `auto` goes on to the next device with a warning, a device
 TEST_CASE("self-test: where division is not rounded correctly, programs are built without it and the tolerance decides",
           "[selftest]") {
   constexpr const char* kOption = "-cl-fp32-correctly-rounded-divide-sqrt";
-  DeviceOptions options;
-  options.limits.exact_divide_sqrt = GENERATE(true, false);
+  opencl::DeviceLimits limits;
+  limits.exact_divide_sqrt = GENERATE(true, false);
   const bool offered = list_devices().front().single_precision.exact_divide_sqrt;
-  if (*options.limits.exact_divide_sqrt && !offered) return;  // the driver would refuse the option
-  Device device("0", options);
-  CHECK(device.info().single_precision.exact_divide_sqrt == *options.limits.exact_divide_sqrt);
+  if (*limits.exact_divide_sqrt && !offered) return;  // the driver would refuse the option
+  Device device = opencl::open_limited("0", {}, limits);
+  CHECK(device.info().single_precision.exact_divide_sqrt == *limits.exact_divide_sqrt);
   CHECK(self_test(device).passed());
   REQUIRE_FALSE(device.context()->programs().empty());
   for (const auto& program : device.context()->programs())
-    CHECK((program.find(kOption) != std::string::npos) == *options.limits.exact_divide_sqrt);
+    CHECK((program.find(kOption) != std::string::npos) == *limits.exact_divide_sqrt);
 }

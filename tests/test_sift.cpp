@@ -6,7 +6,7 @@
 #include "describing.hpp"
 #include "edge_images.hpp"
 #include "kernel_programs.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/sift.hpp"
 
 using namespace quadedge;
@@ -25,7 +25,7 @@ bool on_the_fence(float x, float y, float direction) {
 TEST_CASE("sift: a constant image gives zeros", "[sift]") {
   Image image(60, 50);
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{77});
-  const auto both = reference::sift_descriptors(image.view(), {30.2f}, {25.4f}, {0.5f}, SiftConfig{});
+  const auto both = reference::sift_descriptors(image.view(), {30.2f}, {25.4f}, {0.5f});
   for (std::uint8_t value : both) CHECK(value == 0);
 }
 
@@ -54,9 +54,9 @@ TEST_CASE("sift: rotating image and edge by 90 degrees gives the same descriptor
     for (int x = 0; x < 70; ++x) turned.pixels[static_cast<std::size_t>(x * 60 + 59 - y)] = image.view().at(x, y);
   }
   const float x = 34.2f, y = 30.3f, direction = 0.35f;
-  const auto before = reference::sift_descriptors(image.view(), {x}, {y}, {direction}, SiftConfig{});
+  const auto before = reference::sift_descriptors(image.view(), {x}, {y}, {direction});
   const float turned_direction = direction + static_cast<float>(kPi / 2);
-  const auto after = reference::sift_descriptors(turned.view(), {59 - y}, {x}, {turned_direction}, SiftConfig{});
+  const auto after = reference::sift_descriptors(turned.view(), {59 - y}, {x}, {turned_direction});
   for (int k = 0; k < kEdgeSiftBytes; ++k) CHECK(std::abs(before[k] - after[k]) <= 1);
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("sift: the dark side's descriptor comes first, 8 px along (sin, -cos)"
   const Image image = textured_image(70, 60, 4);
   const auto map = reference::sift_gradients(image.view());
   const float direction = static_cast<float>(-kPi / 2);  // dark side at (-1, 0)
-  const auto both = reference::sift_descriptors(image.view(), {35.0f}, {30.0f}, {direction}, SiftConfig{});
+  const auto both = reference::sift_descriptors(image.view(), {35.0f}, {30.0f}, {direction});
   std::uint8_t dark[kSiftBytes], bright[kSiftBytes];
   reference::sift_descriptor(map, 27, 30, direction, dark);
   reference::sift_descriptor(map, 43, 30, direction, bright);
@@ -94,7 +94,7 @@ TEST_CASE("sift: every device and variant equals the reference exactly", "[sift]
   for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 61}}) {
     const Image image = textured_image(width, height, 5);
     const EdgePositions edges = random_edges(width, height, count, 6, 12);
-    const auto expected = reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, SiftConfig{});
+    const auto expected = reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction);
     for (const auto& found : describe_everywhere("sift", image, edges)) {
       int worst = 0;
       std::size_t equal = 0;
@@ -136,7 +136,7 @@ TEST_CASE("sift: the kernels' distance equals the reference's", "[sift][device][
                       "  const int a = (int)get_global_id(0), b = (int)get_global_id(1);\n"
                       "  distances[b * (int)get_global_size(0) + a] = sift_distance2(sift + a * 256, sift + b * 256);\n"
                       "}\n");
-    const opencl::Kernel<opencl::In<cl_uchar>, opencl::Out<cl_int>> distance2(context, program, "distance2");
+    const opencl::Kernel<void(const cl_uchar*, cl_int*)> distance2(context, program, "distance2");
     opencl::Buffer<cl_uchar> input;
     opencl::Buffer<cl_int> distances(context, 1600);
     input.write(context, bytes);

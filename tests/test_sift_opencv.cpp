@@ -5,7 +5,7 @@
 #include <random>
 
 #include "describing.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/sift.hpp"
 
 using namespace quadedge;

@@ -3,12 +3,12 @@
 
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
-#include "rig_check/rig_check_constants.hpp"
-#include "rig_check/rig_sentences.hpp"
-#include "rig_check/static_region.hpp"
+#include "rig/rig_constants.hpp"
+#include "rig/rig_finding.hpp"
+#include "rig/static_region.hpp"
 
 using namespace quadedge;
-using namespace quadedge::rig_check;
+using namespace quadedge::rig;
 using Catch::Matchers::Contains;
 
 namespace {

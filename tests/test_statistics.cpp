@@ -1,8 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "report/motion_accuracy.hpp"
-#include "report/number_text.hpp"
+#include "report/matching_json.hpp"
 #include "report/statistics.hpp"
 
 using namespace quadedge;
@@ -33,15 +32,4 @@ TEST_CASE("A precision that rises as the error falls has a rank correlation of m
   CHECK(correlation.rotation == Approx(-1));
   CHECK(correlation.translation == Approx(-1));
   CHECK(motion_correlation({}).points == 0);
-}
-
-TEST_CASE("number text: four digits, percentages", "[report]") {
-  CHECK(significant(0.012345678) == "0.01235");
-  CHECK(significant(1234.5) == "1234");
-  CHECK(significant(-2) == "-2.000");
-  CHECK(significant(0) == "0");
-  CHECK(significant(1e-15) == "0");
-  CHECK(significant(std::nan("")) == "-");
-  CHECK(share_text(58, 86) == "58 / 86 (67.4 %)");
-  CHECK(share_text(0, 0) == "-");
 }

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "evaluation/step_judgement.hpp"
-#include "quadedge/pi.hpp"
+#include "evaluation/motion_errors.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge;
 using evaluation::judge_steps;

@@ -1,8 +1,9 @@
 #include <Eigen/Dense>
 
+#include "common/matching_constants.hpp"
 #include "matching.hpp"
 #include "quadedge/error.hpp"
-#include "stages/stereo_candidates.hpp"
+#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -59,7 +60,7 @@ double margin(const StereoRig& rig, const StereoConfig& config, const DisparityP
       std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), 2 * kPi));
   return std::min({(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels,
                    (s_max + kTolerance - s) / kPixels, (config.orientation_rad() - turn) / kRadians,
-                   (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle_rad())) / kRadians});
+                   (epipolar_sine(rig, p, left.direction[i]) - std::sin(kMinEpipolarAngle)) / kRadians});
 }
 
 /// Counts the certain members; checks that every list is ascending, holds all certain members and no certain outsider.

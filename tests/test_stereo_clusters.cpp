@@ -1,7 +1,7 @@
 #include "matching.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/stereo_clusters.hpp"
-#include "stages/stereo_clusters.hpp"
+#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -32,9 +32,7 @@ struct ClusterLists {
     }
     scores = fresh_scores(refined.position.size());
   }
-  reference::StereoClusters clusters(const StereoConfig& config = {}) const {
-    return reference::stereo_clusters(candidates, scores, refined, right, config);
-  }
+  reference::StereoClusters clusters() const { return reference::stereo_clusters(candidates, scores, refined, right); }
 
   /// Checks that every device and variant finds the same clusters. Single precision may change a decision within 1e-5
   /// of a limit or a tie, in at most `band` rows.
@@ -48,7 +46,7 @@ struct ClusterLists {
     for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants,
                                             const std::string& name) {
       INFO(name);
-      stages::StereoClusters stage(context, {}, variants);
+      stages::StereoClusters stage(context, variants);
       auto lists = upload(context, candidates);
       upload(context, scores, lists);
       stages::DeviceRefined device_refined;

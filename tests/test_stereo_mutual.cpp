@@ -1,9 +1,9 @@
 #include "describing.hpp"
 #include "matching.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/patches.hpp"
 #include "reference/stereo_mutual.hpp"
-#include "stages/stereo_mutual.hpp"
+#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

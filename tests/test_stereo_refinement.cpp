@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/matching_constants.hpp"
 #include "matching.hpp"
 #include "reference/patches.hpp"
 #include "reference/photometric.hpp"
 #include "reference/stereo_refinement.hpp"
-#include "stages/stereo_refinement.hpp"
+#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -187,8 +188,8 @@ TEST_CASE("stereo refinement: a strong prior keeps the shifted position, the def
   for (std::size_t c = 0; c < free.size(); ++c) {
     const double y = scene.right.y[c];
     const auto line = epipolar_line(scene.geometry, scene.left.x[c], scene.left.y[c]);
-    const double start = reference::epipolar_shift(line, scene.right.x[c], y, scene.right.direction[c],
-                                                   scene.config.shift_min_angle_rad(), scene.config.shift_max);
+    const double start =
+        reference::epipolar_shift(line, scene.right.x[c], y, scene.right.direction[c], kShiftMinAngle, kShiftMax);
     CHECK(std::abs(held[c] - start) < 0.1);
     if (std::abs(free[c] - start) > 0.5 && std::abs(free[c] - RefinementScene::kDisparity) < 0.05) {
       ++moved;

@@ -1,10 +1,10 @@
 #include <optional>
 
-#include "common/coarse_search.hpp"
+#include "common/disparity_range.hpp"
 #include "matching.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 #include "reference/stereo_relaxation.hpp"
-#include "stages/stereo_relaxation.hpp"
+#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "evaluation/edge_truth.hpp"
-#include "quadedge/pi.hpp"
+#include "quadedge/camera.hpp"
 
 using namespace quadedge;
 using namespace quadedge::evaluation;

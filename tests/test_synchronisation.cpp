@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "rig_check/synchronisation.hpp"
+#include "rig/rig_monitor.hpp"
 
-using quadedge::rig_check::Synchronisation;
+using quadedge::rig::Synchronisation;
 
 namespace {
 

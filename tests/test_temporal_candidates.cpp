@@ -1,6 +1,6 @@
 #include "matching.hpp"
 #include "reference/temporal_candidates.hpp"
-#include "stages/temporal_candidates.hpp"
+#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -2,18 +2,12 @@
 #include "matching.hpp"
 #include "reference/patches.hpp"
 #include "reference/temporal_match.hpp"
-#include "stages/temporal_match.hpp"
+#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;
 
 namespace {
-
-/// Result of the temporal matching, with the rows that kept a candidate in each image before the agreement filter.
-struct MatchedRows {
-  TemporalMatches quads;
-  int left_alive = 0, right_alive = 0;
-};
 
 constexpr int kImageWidth = 97, kImageHeight = 61;
 
@@ -108,7 +102,7 @@ struct TemporalScene {
     rig.right_patches.write(context, of_right);
   }
   /// Runs every variant except the lists on every device.
-  void on_devices(const std::function<void(const std::optional<MatchedRows>&)>& check) const {
+  void on_devices(const std::function<void(const std::optional<TemporalMatches>&)>& check) const {
     for_each_variant(
         "temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
           stages::TemporalMatch stage(context, config, variants);
@@ -123,14 +117,10 @@ struct TemporalScene {
           stages::PointIndex(context, variants).run(edges.list(0), edges.list(1), left_index, right_index);
           stages::DevicePositions predicted;
           predicted.write(context, {search.left, search.right});
-          MatchedRows matched;
-          const auto alive = stage.run(predicted, search, device_base, device_current, left_index, right_index, current,
-                                       matched.quads);
-          if (alive) {
-            matched.left_alive = alive->left;
-            matched.right_alive = alive->right;
-          }
-          check(alive ? std::optional(matched) : std::nullopt);
+          TemporalMatches quads;
+          const bool fits =
+              stage.run(predicted, search, device_base, device_current, left_index, right_index, current, quads);
+          check(fits ? std::optional(quads) : std::nullopt);
         });
   }
   std::size_t compare_devices() const {
@@ -139,13 +129,13 @@ struct TemporalScene {
     on_devices([&](const auto& found) {
       ++forms;
       REQUIRE(found);
-      CHECK(found->left_alive == truth.left.alive_rows);
-      CHECK(found->right_alive == truth.right.alive_rows);
-      CHECK(found->quads.previous == truth.matches.previous);
-      CHECK(found->quads.current == truth.matches.current);
-      CHECK(found->quads.competing_clusters == truth.matches.competing_clusters);
-      CHECK(found->quads.ncc == truth.matches.ncc);
-      CHECK(found->quads.right_x == truth.matches.right_x);
+      CHECK(found->alive_left == truth.matches.alive_left);
+      CHECK(found->alive_right == truth.matches.alive_right);
+      CHECK(found->previous == truth.matches.previous);
+      CHECK(found->current == truth.matches.current);
+      CHECK(found->competing_clusters == truth.matches.competing_clusters);
+      CHECK(found->ncc == truth.matches.ncc);
+      CHECK(found->right_x == truth.matches.right_x);
     });
     CHECK(forms >= 2);
     return truth.matches.size();

@@ -1,6 +1,6 @@
 #include "matching.hpp"
 #include "reference/temporal_quads.hpp"
-#include "stages/temporal_quads.hpp"
+#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

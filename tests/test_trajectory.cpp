@@ -143,3 +143,26 @@ TEST_CASE("trajectory: a failed write is an error and leaves the old file unchan
   std::filesystem::create_directory(folder / "taken");
   CHECK_THROWS_AS(write_tum(folder / "taken", winding(2)), DataError);
 }
+
+TEST_CASE("trajectory: CSV files of EuRoC, TUM-VI and VINS-Fusion, and ORB-SLAM3's nanoseconds", "[trajectory]") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    std::ofstream(folder / "file") << text;
+    return read_trajectory(folder / "file");
+  };
+  const std::string rows[] = {
+      "#timestamp [ns], p_RS_R_x [m], ...\n1403636584763555584,1,2,3,0.6,0,0.8,0\n",
+      "1403636584763555584,1,2,3,0.6,0,0.8,0,0.1,0.2,0.3,\n",
+      "1403636584763555584.000000 1 2 3 0 0.8 0 0.6\n",
+      "1403636584.763555584 1 2 3 0 0.8 0 0.6\n",
+  };
+  for (const std::string& text : rows) {
+    INFO(text);
+    const Trajectory poses = read(text);
+    REQUIRE(poses.size() == 1);
+    CHECK(poses[0].stamp_ns == 1403636584763555584);
+    CHECK(poses[0].world_from_left.translation() == Eigen::Vector3d(1, 2, 3));
+    CHECK(poses[0].world_from_left.linear()(0, 2) == Approx(2 * 0.8 * 0.6));  // a turn about y with w = 0.6
+  }
+  CHECK_THROWS_WITH(read("7,1,2,3,0.6,0,0.8,0\n6,1,2,3,0.6,0,0.8,0\n"), Contains("file:2") && Contains("6 after 7"));
+}

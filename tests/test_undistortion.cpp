@@ -3,7 +3,7 @@
 #include "devices.hpp"
 #include "opencl/variants.hpp"
 #include "reference/undistortion.hpp"
-#include "stages/undistortion.hpp"
+#include "stages/images.hpp"
 
 using namespace quadedge;
 

@@ -4,9 +4,8 @@
 #include "dataset_files.hpp"
 #include "made_up_run.hpp"
 #include "quadedge/error.hpp"
-#include "report/errors_csv.hpp"
-#include "report/poses_csv.hpp"
-#include "report/whole_results.hpp"
+#include "report/member_results.hpp"
+#include "report/result_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;
@@ -24,8 +23,9 @@ TEST_CASE("whole results: every truncated, damaged or missing file is named", "[
   write_text(place + "/errors.csv", report::errors_csv(*run.accuracy));
   write_text(place + "/config.toml", "seed = 42\n");
   {
-    report::FrameRows rows(place + "/poses.csv", report::poses_csv_columns());
-    for (const auto& frame : run.frames) rows.add(frame.result);
+    report::AppendFile rows(place + "/poses.csv");
+    rows.append(report::poses_row(0, {}).heading());
+    for (const auto& frame : run.frames) rows.append(report::poses_row(0, frame.result).line());
   }
   REQUIRE_NOTHROW(report::check_whole(place));
   const auto check = [&](const std::string& name, const std::string& text) {

@@ -4,7 +4,7 @@
 #include "describing.hpp"
 #include "matching.hpp"
 #include "reference/wide_description.hpp"
-#include "stages/wide_description.hpp"
+#include "stages/edge_descriptions.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -1,7 +1,7 @@
 #include "matching.hpp"
 #include "reference/wide_description.hpp"
 #include "reference/wide_matching.hpp"
-#include "stages/wide_matching.hpp"
+#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -53,8 +53,8 @@ stages::DeviceStereoEdges on_device(opencl::Context& context, const StereoEdges&
 }
 
 /// The reference's matches, after checking that every device and variant finds the same.
-TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config) {
-  const auto expected = reference::wide_matches(earlier, current, config);
+TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& current) {
+  const auto expected = reference::wide_matches(earlier, current);
   for_each_variant("wide_matching", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
     INFO(name);
     const auto before = on_device(context, earlier.edges), now = on_device(context, current.edges);
@@ -62,7 +62,7 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
     before_bytes.write(context, earlier.descriptors);
     now_bytes.write(context, current.descriptors);
     const auto rows = [](const WideEdges& set) { return static_cast<int>(set.descriptors.size() / kWideBytes); };
-    stages::WideMatching stage(context, config, variants);
+    stages::WideMatching stage(context, variants);
     const auto found = stage.run({before, earlier.step, rows(earlier), before_bytes},
                                  {now, current.step, rows(current), now_bytes}, current.edges);
     CHECK(found.previous == expected.previous);
@@ -98,7 +98,7 @@ TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a good
   add_descriptor(columns, 4, 5, 40);
   const StereoEdges earlier = edges_at({{10, 10}, {50, 10}, {90, 10}});
   const StereoEdges current = edges_at({{10, 30}, {14, 30}, {60, 30}, {100, 30}, {140, 30}, {180, 30}});
-  const auto matches = match_everywhere({earlier, 1, rows}, {current, 1, columns}, {});
+  const auto matches = match_everywhere({earlier, 1, rows}, {current, 1, columns});
   CHECK(matches.previous == std::vector<std::int32_t>{0, 2});
   CHECK(matches.current == std::vector<std::int32_t>{0, 4});
   CHECK(matches.left_x == std::vector<float>{10, 140});
@@ -113,10 +113,9 @@ TEST_CASE("wide matching: an edge with equally good matches in different places 
   const StereoEdges current = edges_at({{30, 30}});
   // The first row is worse than the others. The last two are equally good: neighbours share the column, distant rows
   // lose it.
-  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {54, 10}}), 1, rows}, {current, 1, columns}, {}).previous ==
+  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {54, 10}}), 1, rows}, {current, 1, columns}).previous ==
         std::vector<std::int32_t>{1, 2});
-  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {90, 10}}), 1, rows}, {current, 1, columns}, {})
-            .previous.empty());
+  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {90, 10}}), 1, rows}, {current, 1, columns}).previous.empty());
 }
 
 TEST_CASE("wide matching: devices agree with the reference on random descriptors, odd counts and steps",
@@ -128,20 +127,18 @@ TEST_CASE("wide matching: devices agree with the reference on random descriptors
       result.emplace_back(static_cast<float>(random(0, 100)), static_cast<float>(random(0, 80)));
     return edges_at(result);
   };
-  const StereoEdges earlier = positions(61), current = positions(100);
-  auto rows = random_descriptors(21, 6), columns = random_descriptors(50, 7);
+  const StereoEdges earlier = positions(253), current = positions(401);
+  auto rows = random_descriptors(85, 6), columns = random_descriptors(201, 7);
   // A third of the rows are repeated among the columns.
-  for (std::size_t k = 0; k < 21; k += 3)
+  for (std::size_t k = 0; k < 85; k += 3)
     std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * kWideBytes), kWideBytes,
                 columns.begin() + static_cast<std::ptrdiff_t>(2 * k * kWideBytes));
-  TemporalConfig config;
-  config.wide_ratio = 0.95;
-  const auto matches = match_everywhere({earlier, 3, rows}, {current, 2, columns}, config);
+  const auto matches = match_everywhere({earlier, 3, rows}, {current, 2, columns});
   CHECK(matches.size() >= 5);
   for (std::size_t m = 0; m < matches.size(); ++m) {
     CHECK(matches.previous[m] % 3 == 0);
     CHECK(matches.current[m] % 2 == 0);
   }
-  CHECK(match_everywhere({positions(0), 1, {}}, {current, 2, columns}, config).size() == 0);
-  CHECK(match_everywhere({earlier, 3, rows}, {positions(0), 1, {}}, config).size() == 0);
+  CHECK(match_everywhere({positions(0), 1, {}}, {current, 2, columns}).size() == 0);
+  CHECK(match_everywhere({earlier, 3, rows}, {positions(0), 1, {}}).size() == 0);
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "quadedge/camera.hpp"
 #include "quadedge/odometry.hpp"
-#include "quadedge/pi.hpp"
 
 namespace attack {
 using namespace quadedge;

@@ -78,7 +78,7 @@ def test_images_are_rectified_to_the_projection_matrix(room, frames, tmp_path):
             bag.image("/stereo/left/image_rect", frame.stamp_ns + 1, frame.left)
             bag.image("/stereo/right/image_rect", frame.stamp_ns + 1, frame.right)
     recording = quadedge.bag.open_bag(next(bag.path.glob("*.mcap")))  # the file alone works too
-    assert recording.topics.rectified and recording.rig.left.fx == room.rig.left.fx
+    assert recording.rectified and recording.rig.left.fx == room.rig.left.fx
 
 
 def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
@@ -91,7 +91,10 @@ def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
         for i in (0, 1, 2, 3, 5):
             skew = {0: 3_000_000, 5: 80_000_000}.get(i, -2_000_000)
             bag.image("/stereo/right/image_raw", stamps[i] + skew, frames[i].right)
-    recording = quadedge.bag.open_bag(bag.path)
+    falling = f"stamp {stamps[0]} ns after {stamps[1]} ns in message 1 of /stereo/left"
+    with pytest.raises(quadedge.DataError, match=falling):
+        quadedge.bag.open_bag(bag.path)
+    recording = quadedge.bag.open_bag(bag.path, sort_stamps=True)
     read = list(recording)
     assert [frame.stamp_ns for frame in read] == [stamps[0], stamps[1], stamps[3]]
     for frame, i in zip(read, (0, 1, 3)):
@@ -146,8 +149,8 @@ def test_encodings():
     padded = message(numpy.arange(20, dtype=numpy.uint8).reshape(2, 10), "mono8")
     padded.width = 7
     numpy.testing.assert_array_equal(grey(padded), [range(7), range(10, 17)])
-    with pytest.raises(quadedge.DataError, match="left: found the encoding 'bayer_rggb8', expected one of mono8"):
-        grey(message(colour, "bayer_rggb8"), "left")
+    with pytest.raises(quadedge.DataError, match="left: found the encoding 'jxl8', expected one of mono8"):
+        grey(message(colour, "jxl8"), "left")
     short = message(colour, "rgb8")
     short.height = 2
     with pytest.raises(quadedge.DataError, match="found 12 bytes in rows of 12, expected 4 x 2 pixels of rgb8"):
@@ -323,9 +326,61 @@ def test_an_image_in_the_middle_that_cannot_be_read(room, frames, bag_command, t
     with BagWriter(tmp_path / "room", "mcap") as bag:
         write_infos(bag, room.rig)
         for number, frame in enumerate(frames):
-            encoding = "mono8" if number < 4 else "bayer_rggb8"
+            encoding = "mono8" if number < 4 else "jxl8"
             bag.image("/stereo/left/image_raw", frame.stamp_ns + 1, frame.left, encoding)
             bag.image("/stereo/right/image_raw", frame.stamp_ns + 1, frame.right, encoding)
     done = bag_command(bag.path, "-o", tmp_path / "out", timeout=120)
-    assert done.returncode == 3 and "found the encoding 'bayer_rggb8'" in done.stderr
+    assert done.returncode == 3 and "found the encoding 'jxl8'" in done.stderr
     assert not (tmp_path / "out" / "odometry").exists()
+
+
+def test_mosaics_and_luminance(room):
+    grey = quadedge.bag.grey_image
+    flat = numpy.full((6, 8, 3), (200, 100, 50), numpy.uint8)  # red, green, blue
+    expected = grey(message(flat, "rgb8"))
+    for pattern in ("rggb", "bggr", "gbrg", "grbg"):
+        mosaic = numpy.empty((6, 8), numpy.uint8)
+        for place, letter in enumerate(pattern):
+            mosaic[place // 2::2, place % 2::2] = {"r": 200, "g": 100, "b": 50}[letter]
+        numpy.testing.assert_array_equal(grey(message(mosaic, f"bayer_{pattern}8")), expected)
+    # Halfway between two green pixels of 10 and 30 in every direction lies 20.
+    ramp = numpy.add.outer(numpy.arange(6) * 10, numpy.arange(8) * 10).astype(numpy.uint8)
+    numpy.testing.assert_array_equal(grey(message(ramp, "bayer_rggb8"))[1:-1, 1:-1], ramp[1:-1, 1:-1])
+    packed = numpy.zeros((4, 6, 2), numpy.uint8)
+    packed[:, :, 1] = 77
+    assert (grey(message(packed, "yuv422")) == 77).all() and (grey(message(packed, "yuv422_yuy2")) == 0).all()
+
+
+def test_what_a_run_would_refuse_is_refused_at_once(room, frames, bag_command, tmp_path):
+    with BagWriter(tmp_path / "first", "ros2") as bag:
+        write_infos(bag, room.rig)
+        for side in ("left", "right"):
+            bag.image(f"/stereo/{side}/image_raw", 5, frames[0].left, "jxl8")
+    for options in ((), ("-o", tmp_path / "out")):
+        done = bag_command(bag.path, *options)
+        assert done.returncode == 3 and "found the encoding 'jxl8'" in done.stderr and "Traceback" not in done.stderr
+    with BagWriter(tmp_path / "infos", "ros2") as bag:
+        for side in ("left", "right"):
+            bag.camera_info(f"/stereo/{side}/camera_info", 5, room.rig.left, 0.0)
+            bag.image(f"/stereo/{side}/image_raw", 5, frames[0].left)
+    done = bag_command(bag.path, "-o", tmp_path / "out")
+    assert done.returncode == 3 and "a baseline above zero" in done.stderr
+    assert f"{bag.path}: /stereo/left/camera_info" in done.stderr and "/tmp/tmp" not in done.stderr
+
+
+def test_the_layout_of_realsense_viewer_and_given_topics(room, frames, tmp_path):
+    with BagWriter(tmp_path / "viewer", "ros1") as bag:
+        for number, tx in ((1, 0.0), (2, -room.rig.left.fx * 0.1)):
+            sensor = f"/device_0/sensor_0/Infrared_{number}"
+            bag.camera_info(f"{sensor}/info/camera_info", 5, room.rig.left, tx)
+            bag.image(f"{sensor}/image/data", 5, frames[0].left)
+    recording = quadedge.bag.open_bag(bag.path)
+    assert recording.rig.baseline == pytest.approx(0.1) and len(recording) == 1
+    with BagWriter(tmp_path / "apart", "ros2") as bag:
+        for side, tx in (("left", 0.0), ("right", -room.rig.left.fx * 0.2)):
+            bag.camera_info(f"/calibration/{side}", 5, room.rig.left, tx)
+            bag.image(f"/stereo/{side}/image_raw", 5, frames[0].left)
+    recording = quadedge.bag.open_bag(bag.path, left_info="/calibration/left", right_info="/calibration/right")
+    assert recording.rig.baseline == pytest.approx(0.2)
+    with pytest.raises(quadedge.DataError, match="found no camera_info topic /no"):
+        quadedge.bag.open_bag(bag.path, left_info="/no")

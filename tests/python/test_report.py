@@ -20,7 +20,7 @@ from quadedge.report import numbers, results, sequence_figures  # noqa: E402
 from quadedge.report.figure import COLOURS, Figure, Series, thinned  # noqa: E402
 from quadedge.report.page import LARGEST_PAGE  # noqa: E402
 from quadedge.report.plotly_figures import to_plotly  # noqa: E402
-from quadedge.report.table import Cell, Table, to_csv, to_latex  # noqa: E402
+from quadedge.report.table import Cell, Table, to_csv, to_latex, to_markdown  # noqa: E402
 
 ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses coincide)"
 SE3_TABLE = "Errors, SE(3)-aligned as commonly reported (least squares over all positions, no scale)"
@@ -82,6 +82,9 @@ def test_tables_become_csv_with_unrounded_numbers_and_latex():
                  r"\textbf{1.235}", r"\begin{tabular}{lrr}", "a reason"):
         assert part in latex
     assert latex.count(r"\midrule") == 2
+    assert to_markdown(table).splitlines() == [
+        "| who_is | APE [m] mean | APE [m] std |", "|---|--:|--:|", "| a_b | 1.235 | \u2013 |",
+        "| all | 2 (+0.1) | x |", "", "a reason"]
     with pytest.raises(ValueError, match="2 cells for 3 columns"):
         table.add("too", "short")
 
@@ -462,6 +465,8 @@ def test_pages_of_the_program(tmp_path):
         assert source["config_changed"]["stereo.ncc_min"] == "0.55"
         assert {"version", "commit", "date", "command", "device" if source is not summary else "input"} <= set(source)
     assert page.facts["Command"].startswith("quadedge batch")
+    summary_tables = (tmp_path / "batch/summary.md").read_text()
+    assert "SE(3)-aligned" in summary_tables and "\n| room | done | 11 of 11 (100.0 %) |" in summary_tables
     mean = summary["sequences"][0]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"]
     assert numbers.significant(1000 * mean) in page.row(ORIGIN_TABLE, "room")[4]
     assert len(page.plots) >= 10

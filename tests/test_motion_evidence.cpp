@@ -3,11 +3,11 @@
 #include <numeric>
 
 #include "generated_quads.hpp"
-#include "motion/acceptance.hpp"
+#include "odometry/motion_evidence.hpp"
 
 using namespace quadedge;
-using motion::Acceptance;
-using motion::MotionStep;
+using odometry::MotionEvidence;
+using odometry::MotionStep;
 
 namespace {
 
@@ -25,13 +25,14 @@ struct TwoMotions {
     predicted.x = step.quads.scoring.left_x;
     predicted.y = step.quads.scoring.left_y;
     step.motion.status = pose::MotionStatus::ok;
+    step.motion.inliers = static_cast<int>(step.quads.size());
   }
   double area_of(const Eigen::Isometry3d& motion) {
     const Config config;
-    const motion::DisparityOffset offset(generated::car_rig(), config.pose);
+    const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
     step.motion.current_from_previous = motion;
-    Acceptance(config, offset).judge(predicted, step);
-    return step.verdict.explained_area;
+    MotionEvidence(config, offset).judge(predicted, step);
+    return step.explained.area;
   }
 };
 
@@ -59,15 +60,9 @@ generated::Problem scene_of(int quads) {
   return scene;
 }
 
-frontend::RigHandle rig_of_frame(int frame) {
-  auto rig = std::make_shared<frontend::Rig>();
-  rig->start(frame);
-  return rig;
-}
-
 }  // namespace
 
-TEST_CASE("acceptance: an object counts by its area in the image, not by its number of edges", "[odometry]") {
+TEST_CASE("motion evidence: an object counts by its area in the image, not by its number of edges", "[odometry]") {
   generated::Problem thing = thing_of(600, 0.1), scene = scene_of(300);
   TwoMotions seen(thing, scene);
   const double thing_area = seen.area_of(thing.motion), scene_area = seen.area_of(scene.motion);
@@ -78,31 +73,31 @@ TEST_CASE("acceptance: an object counts by its area in the image, not by its num
   CHECK(seen.area_of(shift(3, 3)) < 0.05);
 }
 
-TEST_CASE("acceptance: the moving ratio is a fraction of the image, and motions differ by the quads they share",
+TEST_CASE("motion evidence: the moving ratio is a fraction of the image, and motions differ by the quads they share",
           "[odometry]") {
   generated::Problem thing = thing_of(600, 0.1), scene = scene_of(300);
   TwoMotions seen(thing, scene);
   // Two thirds of the edges belong to the object, where few edges move with the scene; one third belongs to the scene.
   seen.area_of(scene.motion);
-  CHECK(seen.step.verdict.moving_ratio > 0.5);
+  CHECK(seen.step.explained.moving_ratio > 0.5);
   seen.area_of(thing.motion);
-  CHECK(seen.step.verdict.moving_ratio > 0.2);
-  CHECK(seen.step.verdict.moving_ratio < 0.4);
+  CHECK(seen.step.explained.moving_ratio > 0.2);
+  CHECK(seen.step.explained.moving_ratio < 0.4);
 
   thing.motion = scene.motion;
   TwoMotions alike(thing, scene);
   alike.area_of(scene.motion);
-  CHECK(alike.step.verdict.moving_ratio < 0.02);
+  CHECK(alike.step.explained.moving_ratio < 0.02);
 
   const Config config;
-  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
-  const Acceptance acceptance(config, offset);
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  MotionEvidence evidence(config, offset);
   alike.step.motion.inlier.assign(alike.step.quads.size(), 1);
-  CHECK(acceptance.is_same_motion(alike.step, shift(0.005, 0) * scene.motion));
-  CHECK_FALSE(acceptance.is_same_motion(alike.step, shift(0.6, 0)));
+  CHECK(evidence.is_same_motion(alike.step, shift(0.005, 0) * scene.motion));
+  CHECK_FALSE(evidence.is_same_motion(alike.step, shift(0.6, 0)));
 }
 
-TEST_CASE("acceptance: points at rest contradict a motion: the camera may be at rest", "[odometry]") {
+TEST_CASE("motion evidence: points at rest contradict a motion: the camera may be at rest", "[odometry]") {
   generated::Problem thing, scene;
   thing.quads = 400;
   thing.motion = shift(0.3, 0);
@@ -113,81 +108,73 @@ TEST_CASE("acceptance: points at rest contradict a motion: the camera may be at 
   scene.far = 10;
   TwoMotions seen(thing, scene);
   seen.area_of(thing.motion);
-  CHECK(seen.step.verdict.static_ratio > 0.1);
+  CHECK(seen.step.explained.static_ratio > 0.1);
   seen.area_of(scene.motion);
-  CHECK(seen.step.verdict.static_ratio < 0.01);
+  CHECK(seen.step.explained.static_ratio < 0.01);
   // Points too far away to show the motion agree with it as well.
   scene.motion = thing.motion;
   scene.near = scene.far = 2000;
   TwoMotions far(thing, scene);
   far.area_of(thing.motion);
-  CHECK(far.step.verdict.static_ratio < 0.01);
+  CHECK(far.step.explained.static_ratio < 0.01);
 }
 
-TEST_CASE("acceptance: without enough support among the edges in view there is no consensus", "[odometry]") {
+TEST_CASE("motion evidence: without enough support among the edges in view a motion is refused", "[odometry]") {
   Config config;
   config.temporal.min_support = 0.06;
-  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
-  const Acceptance acceptance(config, offset);
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  MotionEvidence evidence(config, offset);
   EdgePositions predicted;
   predicted.x.assign(100, 5.0f);
   predicted.x.resize(150, std::numeric_limits<float>::quiet_NaN());
   predicted.y.assign(150, 5.0f);
   MotionStep step;
-  step.motion.status = pose::MotionStatus::ok;
-  step.motion.inliers = 7;
-  acceptance.test_support(predicted, step);
-  CHECK(step.verdict.support == Approx(0.07));
-  CHECK(step.ok());
-  step.motion.inliers = 5;
-  acceptance.test_support(predicted, step);
-  CHECK(step.motion.status == pose::MotionStatus::no_consensus);
-  step.motion.status = pose::MotionStatus::too_few_quads;  // keeps this reason
-  acceptance.test_support(predicted, step);
-  CHECK(step.motion.status == pose::MotionStatus::too_few_quads);
+  const auto refusal = [&](int inliers, pose::MotionStatus status) {
+    step.motion.status = status;
+    step.motion.inliers = inliers;
+    evidence.judge(predicted, step);
+    CHECK(step.explained.support == Approx(inliers / 100.0));
+    return step.refusal;
+  };
+  CHECK(refusal(7, pose::MotionStatus::ok) == odometry::Refusal::none);
+  CHECK(refusal(5, pose::MotionStatus::ok) == odometry::Refusal::little_support);
+  CHECK(refusal(5, pose::MotionStatus::too_few_quads) == odometry::Refusal::too_few_quads);
+  CHECK(refusal(7, pose::MotionStatus::badly_spread) == odometry::Refusal::badly_spread);
 }
 
-TEST_CASE("acceptance: global matches confirm the motion that they follow", "[odometry]") {
+TEST_CASE("motion evidence: global matches confirm the motion that they follow", "[odometry]") {
   const Config config;
-  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
-  const Acceptance acceptance(config, offset);
-  motion::MotionQuery query;
-  query.base = rig_of_frame(3);
-  query.key = rig_of_frame(1);
-  query.base_from_key = shift(0.2, -0.8);
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const MotionEvidence evidence(config, offset);
   generated::Problem problem;
   problem.motion = shift(0.1, -0.9);
   problem.quads = 40;
-  MotionStep global, step;
-  double ratio = 0;
+  MotionStep global;
+  odometry::Verdict verdict;
   global.quads = generated::generate(problem, 3).quads;
-  step.base = query.base;
-  step.motion.current_from_previous = problem.motion;
-  CHECK(acceptance.agrees_with_global_matches(global, query, step, ratio));
-  CHECK(ratio > 0.9);
-  step.motion.current_from_previous = shift(-1, 0.9);
-  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step, ratio));
-  // Measured against the key rig.
-  step.base = query.key;
-  step.motion.current_from_previous = problem.motion * query.base_from_key;
-  CHECK(acceptance.agrees_with_global_matches(global, query, step, ratio));
+  evidence.compare_globally(global, problem.motion, verdict);
+  CHECK(verdict.agrees_globally);
+  CHECK(verdict.global_ratio > 0.9);
+  evidence.compare_globally(global, shift(-1, 0.9), verdict);
+  CHECK_FALSE(verdict.agrees_globally);
   // Neighbours on one curve count once.
   problem.quads = 1;
   problem.copies = 40;
   global.quads = generated::generate(problem, 4).quads;
   REQUIRE(global.quads.size() == 40);
-  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step, ratio));
+  evidence.compare_globally(global, problem.motion, verdict);
+  CHECK_FALSE(verdict.agrees_globally);
 }
 
-TEST_CASE("acceptance: what one motion explains beside another is where the other one is wrong", "[odometry]") {
+TEST_CASE("motion evidence: what one motion explains beside another is where the other one is wrong", "[odometry]") {
   generated::Problem thing = thing_of(3000, 0.3), scene = scene_of(3000);
   TwoMotions seen(thing, scene);
   const double area = seen.area_of(scene.motion);
   const Config config;
-  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
-  const Acceptance acceptance(config, offset);
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const MotionEvidence evidence(config, offset);
   const auto beside = [&](const Eigen::Isometry3d& chosen) {
-    return acceptance.explained_beside(seen.step, chosen, config.pose.inlier_distance);
+    return evidence.explained_beside(seen.step, chosen, config.pose.inlier_distance);
   };
   CHECK(beside(scene.motion).explained_area() == 0);
   CHECK(beside(thing.motion).explained_area() > 0.6 * area);

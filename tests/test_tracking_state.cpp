@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include "odometry/key_rig.hpp"
+#include "odometry/tracking_state.hpp"
 
 using namespace quadedge;
+using odometry::ConstantVelocity;
 using odometry::KeyRig;
 using odometry::KeyRigFitness;
 
@@ -59,12 +60,11 @@ TEST_CASE("key rig: keeps its frame and pose", "[odometry][key_rig]") {
 TEST_CASE("key rig: each criterion alone triggers a replacement", "[odometry][key_rig]") {
   OdometryConfig config;
   config.key_min_quads = 2;
-  config.key_max_parallax = 40;
   const auto fit = [] {
     KeyRigFitness fitness;
     fitness.quads = 3;
     fitness.inlier_ratio = 0.4;
-    fitness.median_parallax = 40;
+    fitness.median_parallax = 16;
     fitness.rotation = 0.1745;  // 9.998 degrees
     fitness.frames = 9;
     return fitness;
@@ -84,7 +84,7 @@ TEST_CASE("key rig: each criterion alone triggers a replacement", "[odometry][ke
   fitness.inlier_ratio = 0.39;
   CHECK(rig.needs_replacement(fitness, config));
   fitness = fit();
-  fitness.median_parallax = 40.01;
+  fitness.median_parallax = 16.01;
   CHECK(rig.needs_replacement(fitness, config));
   fitness = fit();
   fitness.rotation = 0.1746;  // 10.004 degrees
@@ -107,4 +107,33 @@ TEST_CASE("key rig: one with a predicted pose is replaced by the first tracked f
   CHECK_FALSE(found.needs_replacement(fitness, config));
   KeyRig predicted(found.rig(), {found.world_from_left()}, odometry::PoseOrigin::predicted);
   CHECK(predicted.needs_replacement(fitness, config));
+}
+
+TEST_CASE("constant velocity: a motion over several intervals is divided evenly and repeated", "[odometry]") {
+  ConstantVelocity velocity;
+  CHECK_FALSE(velocity.predict(1));
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  velocity.observe(turn, 3);
+  CHECK(Eigen::AngleAxisd(velocity.predict(1)->linear()).angle() == Approx(0.1));
+  CHECK(velocity.predict(3)->isApprox(turn, 1e-12));
+  CHECK(velocity.predict(0)->matrix() == Eigen::Matrix4d::Identity());
+
+  Eigen::Isometry3d shift = Eigen::Isometry3d::Identity();
+  shift.translation() = Eigen::Vector3d(0, 0.4, -1);
+  velocity.observe(shift, 2);
+  CHECK(velocity.predict(1)->translation().isApprox(Eigen::Vector3d(0, 0.2, -0.5)));
+  CHECK(velocity.predict(5)->translation().isApprox(Eigen::Vector3d(0, 1, -2.5)));
+
+  velocity.forget();
+  CHECK_FALSE(velocity.predict(1));
+}
+
+TEST_CASE("constant velocity: a turning camera continues along its curve", "[odometry]") {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  motion.translation() = Eigen::Vector3d(0.1, 0, 0.7);
+  ConstantVelocity velocity;
+  velocity.observe(motion, 1);
+  CHECK(velocity.predict(2)->isApprox(motion * motion, 1e-12));
 }
