@@ -15,7 +15,7 @@ struct MemberRecord {
   std::string path;    ///< of the recording
   std::string format;  ///< layout; empty if none is recognised
   std::string key;  ///< fingerprint of input, configuration, device and program; empty where the input cannot be opened
-  int exit_code = 0;    ///< of the run, see doc/usage.md; 1 if a signal ended it
+  int exit_code = 0;    ///< of the run, see doc/reference.md; 1 if a signal ended it
   std::string message;  ///< why it failed; empty where it did not
   int jobs = 1;  ///< sequences that ran at the same time: with more than one, latencies are not those of a lone run
 };

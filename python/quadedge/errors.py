@@ -5,7 +5,7 @@ Their messages are those of the ``quadedge`` command, which name what was found 
 
 
 class Error(Exception):
-    """Base of everything that QuadEdge raises on purpose; ``exit_code`` is the command's (doc/usage.md)."""
+    """Base of everything that QuadEdge raises on purpose; ``exit_code`` is the command's (doc/reference.md)."""
 
     exit_code = 1
 

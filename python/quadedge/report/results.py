@@ -1,4 +1,4 @@
-"""What a run leaves behind, read back (doc/usage.md, "Output of a run")."""
+"""What a run leaves behind, read back (doc/reference.md, "Output of a run")."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
