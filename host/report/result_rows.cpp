@@ -185,7 +185,7 @@ std::string matches_csv(const StereoMatches& matches, bool depths) {
             ",";
     const auto& point = matches.points[i];
     text += depths && point ? decimals({point->position.x(), point->position.y(), point->position.z()}) : ",,";
-    text += "\n";
+    text += '\n';
   }
   return text;
 }
