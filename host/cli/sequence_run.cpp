@@ -246,6 +246,16 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   }
 }
 
+/// Reads a file that write_offset() has written. \throws UsageError for any other file, which would be overwritten
+Config read_offset(const std::string& file, const Config& config) {
+  const auto entries = data::read_toml(file);
+  if (entries.size() != 2 || entries[0].key != "pose.disparity_offset" ||
+      entries[1].key != "pose.disparity_offset_sigma") {
+    throw UsageError(file + ": found another file, expected one that an earlier run with --offset-file has written");
+  }
+  return read_config(file, config);
+}
+
 /// The disparity offset as the last frame that was located left it, as a configuration file.
 void write_offset(const std::string& file, const report::RunRecord& run) {
   const auto last = std::find_if(run.frames.rbegin(), run.frames.rend(),
@@ -286,7 +296,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.config = method.config();
   std::error_code unreadable;  // reading it says why
   if (std::filesystem::exists(options.offset_file, unreadable) || unreadable)
-    run.config = read_config(options.offset_file, run.config);
+    run.config = read_offset(options.offset_file, run.config);
   const FolderLock lock = prepare_output_folder(options.output, options.force);
   check_output_file(options.trace, options.force);
   check_output_file(options.offset_file, true);
