@@ -89,6 +89,10 @@ def accuracy(results):
     return errors(results, ("default",))
 
 
+def compared(results):
+    return errors(results, ("default", "opencv"))
+
+
 def systems(results):
     return errors(results, tuple(SYSTEMS))
 
@@ -294,6 +298,19 @@ def consistency(results):
     return table(head, rows, stamp(results["accuracy"]))
 
 
-TABLES = {"accuracy": accuracy, "systems": systems, "steps": steps, "beside": beside, "paths": paths,
-          "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed, "presets": presets,
-          "light": light, "peers": peers, "consistency": consistency, "drift": drift_over_scenes}
+def normalised_errors(results):
+    """Normalised squared errors of motions over 1 and 20 frames, per sequence."""
+    rows = []
+    for row in results["accuracy"]["rows"]:
+        steps = [step for step in row.get("consistency", []) if step["frames"] in (1, 20)]
+        if row["sequence"] != STEPS and not on_other_path(row) and steps:
+            rows.append([named(row), *(number(step[f"normalised_error_squared{by}"]["pose"])
+                                       for by in ("_by_edges", "") for step in steps)])
+    head = ["NEES", "edges alone, 1 frame", "20 frames", "with the calibration, 1 frame", "20 frames"]
+    return table(head, rows, stamp(results["accuracy"]))
+
+
+TABLES = {"accuracy": accuracy, "compared": compared, "systems": systems, "steps": steps, "beside": beside,
+          "paths": paths, "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed,
+          "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
+          "drift": drift_over_scenes}
