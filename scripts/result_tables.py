@@ -20,7 +20,7 @@ from tables import TABLES, command_list
 REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
-PART_OF = {"quads": "matching"} | dict.fromkeys(
+PART_OF = {"quads": "matching", "pace": "speed"} | dict.fromkeys(
     ("beside", "compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
 # Part -> (title, introduction, tables)
 PAGES = {

@@ -72,21 +72,15 @@ def errors(results, systems):
     for row in results["accuracy"]["rows"]:
         if row["system"] not in systems or row["sequence"] == STEPS or on_other_path(row):
             continue
-        cells = ["" if named(row) == shown else named(row)]
-        if len(systems) > 1:
-            cells.append(SYSTEMS[row["system"]])
-        cells.append(f"{row['tracked']} / {row['frames']}")
+        cells = ["" if named(row) == shown else named(row), SYSTEMS[row["system"]],
+                 f"{row['tracked']} / {row['frames']}"]
         for kind in ("ape", "rpe"):
             cells += [number(row.get(f"{kind}_rotation_deg")), length(row.get(f"{kind}_translation_m"))]
         rows.append([*cells, drift(row)])
         shown = named(row)
-    head = ["sequence", *(["system"] if len(systems) > 1 else []), "tracked", "APE rotation [deg]", "APE translation",
-            "RPE rotation [deg]", "RPE translation", "end drift"]
+    head = ["sequence", "system", "tracked", "APE rotation [deg]", "APE translation", "RPE rotation [deg]",
+            "RPE translation", "end drift"]
     return table(head, rows, stamp(results["accuracy"]))
-
-
-def accuracy(results):
-    return errors(results, ("default",))
 
 
 def compared(results):
@@ -147,7 +141,7 @@ def disturbances(results):
 
 
 def beside(results):
-    """Errors from frame to frame beside other systems, and frames per second, for the README."""
+    """Errors from frame to frame beside other systems, for the README."""
     others = results["peers"]
     by_title = {}
     for row in results["accuracy"]["rows"]:
@@ -161,15 +155,19 @@ def beside(results):
     rows = [[named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
              error(found.get("opencv"))] for title, found in by_title.items()
             if not any(other.startswith(f"{title}, from frame") for other in by_title)]
+    return table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
+                 stamp(results["accuracy"]))
+
+
+def pace(results):
+    """Frames per second beside other systems, for the README."""
+    others, rows = results["peers"], []
     for title, timed in others["frames_per_second"].items():
         own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
                if row["title"].startswith(title) and row.get("preset", "default") == "default"]
-        rows.append([f"frames/s, {title.removesuffix(', flight')}", *own[:1],
-                     *(timed.get(system, "-") for system in ("libviso2", "OpenCV"))])
-    accuracy, speed = results["accuracy"]["commit"], results["speed"]["commit"]
-    commits = f"Commit {accuracy}" if accuracy.split()[0] == speed else f"Commits {accuracy} and {speed} (speed)"
-    return table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
-                 f"{commits}, {results['accuracy']['date']}. {others['timed']}\n")
+        rows.append([title.removesuffix(", flight"), *own[:1], timed.get("libviso2", "-"), timed.get("OpenCV", "-")])
+    return table(["frames per second", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
+                 f"{stamp(results['speed']).rstrip()} {others['timed']}\n")
 
 
 POOL_RATES = ["paired: recall", "precision", "all: recall", "precision"]
@@ -310,7 +308,7 @@ def normalised_errors(results):
     return table(head, rows, stamp(results["accuracy"]))
 
 
-TABLES = {"accuracy": accuracy, "compared": compared, "systems": systems, "steps": steps, "beside": beside,
+TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": beside, "pace": pace,
           "paths": paths, "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed,
           "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
           "drift": drift_over_scenes}

@@ -100,9 +100,9 @@ with tempfile.TemporaryDirectory() as folder:
     # Blocks of a document: filled, refilled, and a note for a table without a measurement.
     results = {"accuracy": result}
     end = "<!-- end of table -->\n"
-    text = f"before\n<!-- table: accuracy -->\nold\n{end}after\n<!-- table: speed -->\n{end}"
+    text = f"before\n<!-- table: compared -->\nold\n{end}after\n<!-- table: speed -->\n{end}"
     filled = result_tables.BLOCK.sub(lambda block: block[1] + result_tables.render(block[2], results) + block[3], text)
-    assert "old" not in filled and "| rendered cables, 3 frames | 3 / 3 |" in filled, filled
+    assert "old" not in filled and "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in filled, filled
     assert "Not measured yet" in filled, filled
     assert filled.startswith("before\n") and "<!-- end of table -->\nafter\n" in filled, filled
 
