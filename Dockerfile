@@ -23,7 +23,7 @@ RUN cmake -S . -B build_package -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_U
 
 FROM debian:12-slim
 COPY --from=build /packages/quadedge_*.deb /tmp/
-RUN apt-get update && apt-get install -y --no-install-recommends /tmp/quadedge_*.deb pocl-opencl-icd \
+RUN apt-get update && apt-get install -y --no-install-recommends /tmp/quadedge_*.deb pocl-opencl-icd ffmpeg \
   && rm -rf /var/lib/apt/lists/* /tmp/quadedge_*.deb
 WORKDIR /results
 ENTRYPOINT ["quadedge"]

@@ -3,8 +3,7 @@
 set(development_packages ocl-icd-opencl-dev opencl-headers libeigen3-dev libtbb-dev)
 set(build_packages opencl-clhpp-headers)
 if(NOT QUADEDGE_CORE_ONLY)
-  list(APPEND development_packages libopencv-features2d-dev libpng-dev libjpeg-dev libyaml-cpp-dev nlohmann-json3-dev
-    libavformat-dev libavcodec-dev libswscale-dev)
+  list(APPEND development_packages libopencv-features2d-dev libpng-dev libjpeg-dev libyaml-cpp-dev nlohmann-json3-dev)
   list(APPEND build_packages libcli11-dev libtomlplusplus-dev libxxhash-dev)
 endif()
 
@@ -42,8 +41,6 @@ if(NOT QUADEDGE_CORE_ONLY)
   quadedge_expect(PNG_FOUND libpng-dev)
   find_package(JPEG QUIET)
   quadedge_expect(JPEG_FOUND libjpeg-dev)
-  find_package(Libav QUIET)
-  quadedge_expect(Libav_FOUND libavformat-dev libavcodec-dev libswscale-dev)
   find_package(yaml-cpp 0.7 QUIET)
   quadedge_expect(yaml-cpp_FOUND libyaml-cpp-dev)
   find_package(nlohmann_json 3.11 QUIET)

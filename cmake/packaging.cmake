@@ -30,7 +30,7 @@ export(TARGETS ${shareable_targets} quadedge_options NAMESPACE quadedge::
 configure_package_config_file(cmake/quadedgeConfig.cmake.in quadedgeConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(quadedgeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadedgeConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/quadedgeConfigVersion.cmake
-  cmake/FindOpenCVModules.cmake cmake/FindLibav.cmake DESTINATION ${package_folder} COMPONENT development)
+  cmake/FindOpenCVModules.cmake DESTINATION ${package_folder} COMPONENT development)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME quadedge)
@@ -47,13 +47,13 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Tracks the motion of a stereo camera from its images: third-order edges are
 matched between left and right and between two times, on any OpenCL device.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS pocl-opencl-icd)  # a device for machines without a GPU
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "pocl-opencl-icd, ffmpeg")  # a device without a GPU; videos
 
 # What quadedgeConfig.cmake looks for: development_packages of cmake/dependencies.cmake.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libquadedge-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers, CMake configuration and examples.")
 list(JOIN development_packages ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS pocl-opencl-icd)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "pocl-opencl-icd, ffmpeg")
 set(CPACK_COMPONENTS_ALL program development)
 include(CPack)

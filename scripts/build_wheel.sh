@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
-# Makes the wheel of the Python package, with the program and the libraries that both need inside: OpenCV's and TBB of
-# Debian, and an FFmpeg that only reads videos (FFmpeg's source package; Debian's own libraries would add 33 MB of
-# encoders and the GPL).
+# Makes the wheel of the Python package, with the program and Debian's libraries that both need inside.
 #   scripts/build_wheel.sh OUT [WORK [BUILD]]
-# WORK (default: build/wheel) keeps FFmpeg and the objects for the next call. BUILD: what scripts/test.sh has built; its
+# WORK (default: build/wheel) keeps the objects for the next call. BUILD: what scripts/test.sh has built; its
 # libraries then go into the wheel.
 # PYTHON=python3.12 scripts/build_wheel.sh OUT makes it for another Python that is installed with its headers.
 set -euo pipefail
@@ -13,10 +11,8 @@ mkdir -p "$1" "${2:-$repository/build/wheel}"
 out="$(realpath "$1")" work="$(realpath "${2:-$repository/build/wheel}")"
 python="${PYTHON:-python3}"
 . "$repository/scripts/packages.sh"
-. "$repository/scripts/libav.sh"
 
-install_missing $build_packages $python_packages $wheel_packages
-[ -e "$work/libav/lib/libavcodec.so" ] || build_libav "$work/libav" "$work/libav_source"
+install_missing $build_packages $python_packages
 
 venv="$work/venv-$("$python" -c 'import sys; print(sys.implementation.cache_tag)')"
 [ -x "$venv/bin/auditwheel" ] || { "$python" -m venv "$venv" &&
@@ -30,7 +26,7 @@ if [ -n "${3:-}" ]; then
   settings=(-C cmake.source-dir=python -C build-dir="$built/python" -C cmake.define.quadedge_DIR="$built")
 fi
 rm -rf "$work/linked" "$work/repaired"
-CMAKE_PREFIX_PATH="$work/libav" CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
+CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
   "${pip[@]}" --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \
   -C install.strip=true "${settings[@]}"
 
@@ -39,7 +35,7 @@ mkdir -p "$work/without_x11"
 printf 'void* %s(void) { return 0; }\n' glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB |
   cc -x c -shared -fPIC -Wl,-soname,libGLX.so.0 -o "$work/without_x11/libGLX.so.0" -
 
-export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11:$work/libav/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 auditwheel repair --strip --only-plat --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" \
   "$work"/linked/quadedge-*.whl
 
@@ -51,15 +47,10 @@ licences="$content/quadedge.libs/licences"
 mkdir "$licences"
 for library in "$content"/quadedge.libs/*.so*; do
   name="$(basename "$library" | sed 's/-[0-9a-f]*\.so.*//')"  # auditwheel's names: libtbb-1a2b3c4d.so.12.8
-  if [ "$name" = libGLX ]; then
-    continue
-  elif [ -e "$work/libav/lib/$name.so" ]; then
-    cp "$work/libav_source/COPYING.LGPLv2.1" "$licences/ffmpeg"
-  else
-    file=(/usr/lib/*/"$name".so*)
-    package="$(dpkg-query --search "$(realpath "$file")" | sed 's/:.*//;q')"
-    cp "/usr/share/doc/$package/copyright" "$licences/$package"
-  fi
+  [ "$name" != libGLX ] || continue
+  file=(/usr/lib/*/"$name".so*)
+  package="$(dpkg-query --search "$(realpath "$file")" | sed 's/:.*//;q')"
+  cp "/usr/share/doc/$package/copyright" "$licences/$package"
 done
 rm -f "$out"/quadedge-*.whl
 wheel pack --dest-dir "$out" "$content"

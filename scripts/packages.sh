@@ -2,10 +2,8 @@
 
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
   libeigen3-dev libtbb-dev libopencv-features2d-dev libpng-dev libjpeg-dev libcli11-dev
-  nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev libavformat-dev libavcodec-dev
-  libswscale-dev"
+  nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev"
 python_packages="python3-dev python3-venv"  # for `pip install .`, besides those above
-wheel_packages="dpkg-dev nasm zlib1g-dev"  # for build_wheel.sh, besides those above
 test_packages="catch2 libbenchmark-dev libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base
   oclgrind clang debootstrap clang-format p7zip-full munge slurmctld slurmd slurm-client"
 

@@ -20,7 +20,7 @@ done
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
 
-install_missing $build_packages $python_packages $wheel_packages $test_packages
+install_missing $build_packages $python_packages $test_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON \
   -DQUADEDGE_UNITY=ON "${strict[@]}"
 cmake --build "$repository/build"

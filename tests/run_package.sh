@@ -36,9 +36,9 @@ expect "$program" Maintainer '<.+@.+>'
 expect "$program" Description 'stereo visual odometry'
 expect "$program" Depends 'libc6 \(>= ' 'ocl-icd-libopencl1|libopencl1' libtbb12 libopencv-imgproc \
   libyaml-cpp libpng libjpeg
-expect "$program" Recommends pocl-opencl-icd
-if dpkg-deb --field "$program" Depends | grep -qe -dev -e imgcodecs; then
-  echo "$program: depends on a development package or on OpenCV's imgcodecs" >&2
+expect "$program" Recommends pocl-opencl-icd ffmpeg
+if dpkg-deb --field "$program" Depends | grep -qe -dev -e imgcodecs -e libav; then
+  echo "$program: depends on a development package, OpenCV's imgcodecs or FFmpeg's libraries" >&2
   exit 1
 fi
 holds "$program" usr/bin/quadedge usr/share/quadedge/paper.toml \

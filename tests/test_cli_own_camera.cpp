@@ -37,6 +37,16 @@ std::vector<std::string> video_run(const std::string& video, const std::string& 
   return {"run", "--video", video, "--split", "left-right", "--calibration", camera().calibration, "-o", out};
 }
 
+/// Whether a process was started with the word `argument`.
+bool runs_with(const std::string& argument) {
+  for (const auto& process : fs::directory_iterator("/proc")) {
+    std::ifstream file(process.path() / "cmdline");
+    for (std::string word; std::getline(file, word, '\0');)
+      if (word == argument) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 TEST_CASE("run: folders, a video and a pipe of the same images give the same trajectory", "[cli][device]") {
@@ -142,6 +152,27 @@ TEST_CASE("run: a video that ends early ends with code 3, and its frames and map
   CHECK_THAT(read_text(folder / "out/report.json"), Contains("ended_early") && Contains("cut.mkv"));
   CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() >= 2);
   CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
+}
+
+TEST_CASE("run: ffmpeg ends with a run, whichever signal ends it", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::string pictures = read_text(camera().folder / "both.pgm");
+  {
+    std::ofstream many(folder / "many.pgm", std::ios::binary);
+    for (int i = 0; i < 200; ++i) many << pictures;
+  }
+  own_camera::encode(folder / "many.pgm", "-c:v ffv1 -pix_fmt gray -g 1", folder / "many.mkv");
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const std::string out = folder / ("out" + std::to_string(signal));
+    BackgroundProgram program(video_run(folder / "many.mkv", out), folder / "log");
+    CHECK(program.wait_until([&] { return read_lines(out + "/frames.csv").size() >= 3; }));
+    CHECK(runs_with("file:" + (folder / "many.mkv")));
+    CHECK(WTERMSIG(program.end_by(signal)) == signal);
+    for (int i = 0; i < 100 && runs_with("file:" + (folder / "many.mkv")); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK_FALSE(runs_with("file:" + (folder / "many.mkv")));
+    if (signal == SIGINT) CHECK_THAT(read_text(folder / "log"), Contains("interrupted after"));
+  }
 }
 
 TEST_CASE("run: a signal ends a run that waits for a pipe, and its frames and map are kept", "[cli][device]") {

@@ -1,4 +1,7 @@
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
+#include <sys/wait.h>
 
 #include "data/video_file.hpp"
 #include "own_camera.hpp"
@@ -6,6 +9,7 @@
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
+using data::describe_video;
 using data::VideoFile;
 namespace fs = std::filesystem;
 
@@ -36,7 +40,7 @@ std::string video(const TemporaryFolder& folder, const std::string& pictures, co
 std::string read_all(const std::string& file, int& pictures) {
   pictures = 0;
   try {
-    VideoFile read(file);
+    VideoFile read(describe_video(file));
     while (read.next()) ++pictures;
     return "";
   } catch (const DataError& error) {
@@ -51,9 +55,10 @@ TEST_CASE("video: lossless grey images are read byte for byte, at their bit dept
   for (const auto& [max_value, format] : {std::pair<int, const char*>{255, "gray"}, {65535, "gray16le"}}) {
     const std::string file = video(folder, stream(0, 5, 48, 32, max_value), std::string("-c:v ffv1 -pix_fmt ") + format,
                                    std::string(format) + ".mkv");
-    VideoFile read(file);
-    CHECK(read.promised() == 5);
-    CHECK(read.fps() == Approx(20));
+    const data::Video about = describe_video(file);
+    CHECK(about.promised == 5);
+    CHECK(about.fps == Approx(20));
+    VideoFile read(about);
     for (int i = 0; i < 5; ++i) {
       const auto next = read.next();
       REQUIRE(next);
@@ -69,9 +74,10 @@ TEST_CASE("video: colour becomes full-range luma, and RGB becomes grey as in ima
   const TemporaryFolder folder;
   const std::string pictures = stream(0, 2);
   for (const char* options : {"-c:v ffv1 -pix_fmt yuv420p", "-c:v ffv1 -pix_fmt yuvj420p", "-c:v ffv1 -pix_fmt bgr0",
-                              "-c:v ffv1 -pix_fmt yuv422p10le", "-c:v ffv1 -pix_fmt gbrp12le"}) {
+                              "-c:v ffv1 -pix_fmt yuv422p10le", "-c:v ffv1 -pix_fmt gbrp12le",
+                              "-c:v rawvideo -pix_fmt uyvy422", "-c:v rawvideo -pix_fmt nv12"}) {
     INFO(options);
-    VideoFile read(video(folder, pictures, options, "colour.mkv"));
+    VideoFile read(describe_video(video(folder, pictures, options, "colour.mkv")));
     const auto next = read.next();
     REQUIRE(next);
     const Image expected = picture(0);
@@ -122,4 +128,36 @@ TEST_CASE("video: other files are refused", "[data]") {
   CHECK_THAT(read_all(folder / "absent.mkv", pictures), Contains("no such file"));
   CHECK_THAT(read_all(folder.path(), pictures), Contains("a folder"));
   CHECK_THAT(read_all("/dev/zero", pictures), Contains("a device"));
+}
+
+TEST_CASE("video: a name may look like an option, a protocol or a pattern", "[data]") {
+  const TemporaryFolder folder;
+  const std::string file = video(folder, stream(0, 2), "-c:v ffv1 -pix_fmt gray", "plain.mkv");
+  for (const char* name : {"-i it's.mkv", "pipe:0", "%03d [1].mkv"}) {
+    fs::copy(file, folder / name);
+    int pictures = 0;
+    CHECK(read_all(folder / name, pictures).empty());
+    CHECK(pictures == 2);
+  }
+}
+
+TEST_CASE("video: no process stays behind a video that is not read to its end", "[data]") {
+  const TemporaryFolder folder;
+  const std::string file = video(folder, stream(0, 40, 640, 480), "-c:v ffv1 -pix_fmt gray", "long.mkv");
+  {
+    VideoFile read(describe_video(file));
+    REQUIRE(read.next());
+    CHECK(waitpid(-1, nullptr, WNOHANG) == 0);  // ffmpeg runs
+  }
+  CHECK((waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD));
+}
+
+TEST_CASE("video: a missing program is named", "[data]") {
+  const TemporaryFolder folder;
+  const std::string file = video(folder, stream(0, 2), "-c:v ffv1 -pix_fmt gray", "plain.mkv");
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  int pictures = 0;
+  CHECK_THAT(read_all(file, pictures), Contains("ffprobe") && Contains("not installed"));
+  setenv("PATH", before.c_str(), 1);
 }

@@ -16,7 +16,6 @@
 #include "data/split_views.hpp"
 #include "data/stamps.hpp"
 #include "data/text.hpp"
-#include "data/video_file.hpp"
 #include "data/video_stream.hpp"
 #include "quadedge/error.hpp"
 
@@ -175,32 +174,34 @@ Dataset open_images(const StereoSource& source, Findings& findings) {
 
 /// Number of pairs according to the videos' headers; 0 if unknown. \throws DataError if the videos differ
 int promised_pairs(const VideoPair& videos) {
-  const int left = VideoFile(videos.left).promised();
-  if (videos.split != Split::none) return left;
-  const int right = VideoFile(videos.right).promised();
+  if (!videos.right) return videos.left.promised;
+  const int left = videos.left.promised, right = videos.right->promised;
   if (left == 0 || right == 0) return 0;
   const bool right_is_short = right < left;
-  if (std::abs(left - right) > 1) {  // the duration may refer to the start or the end of the last frame
-    fail(right_is_short ? videos.right : videos.left, counted(std::min(left, right), "frame"),
-         "the " + std::to_string(std::max(left, right)) + " of " + (right_is_short ? videos.left : videos.right));
+  const Video &shorter = right_is_short ? *videos.right : videos.left,
+              &longer = right_is_short ? videos.left : *videos.right;
+  if (longer.promised - shorter.promised > 1) {  // the duration may refer to the start or the end of the last frame
+    fail(shorter.file, counted(shorter.promised, "frame"),
+         "the " + std::to_string(longer.promised) + " of " + longer.file);
   }
-  return std::min(left, right);
+  return shorter.promised;
 }
 
 Dataset open_videos(const StereoSource& source) {
-  VideoPair videos{source.left, source.right, Split::none, source.fps};
-  if (!source.video.empty()) videos = {source.video, "", parse_split(source.split), source.fps};
+  VideoPair videos{describe_video(source.video.empty() ? source.left : source.video), std::nullopt,
+                   parse_split(source.split), source.fps};
+  if (!source.right.empty()) videos.right = describe_video(source.right);
+  const std::string &left = videos.left.file, &right = videos.right ? videos.right->file : left;
   Dataset dataset;
   dataset.format = "video";
-  dataset.path = videos.left;
+  dataset.path = left;
   dataset.name = source_name(source);
   dataset.stream = make_video_stream(videos);
   const int pairs = promised_pairs(videos);
-  const double fps = source.fps > 0 ? source.fps : VideoFile(videos.left).fps();
+  const double fps = source.fps > 0 ? source.fps : videos.left.fps;
   if (!source.times.empty() && pairs > 0)
-    check_count(source.times, read_times(source.times).size(), "times", static_cast<std::size_t>(pairs), videos.left);
-  for (int i = 0; fps > 0 && i < pairs; ++i)
-    dataset.frames.push_back({stamp_at(i, fps), videos.left, videos.right.empty() ? videos.left : videos.right});
+    check_count(source.times, read_times(source.times).size(), "times", static_cast<std::size_t>(pairs), left);
+  for (int i = 0; fps > 0 && i < pairs; ++i) dataset.frames.push_back({stamp_at(i, fps), left, right});
   return dataset;
 }
 

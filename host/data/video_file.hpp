@@ -1,5 +1,5 @@
 #pragma once
-/// \file video_file.hpp  Reads a video file as grey images.
+/// \file video_file.hpp  Reads a video file as grey images, through the programs ffprobe and ffmpeg.
 
 #include <cstdint>
 #include <memory>
@@ -10,12 +10,26 @@
 
 namespace quadedge::data {
 
-/// Decodes the first video stream of a file, frame by frame, with libavformat and libavcodec. (OpenCV's reader is
-/// unsuitable: it rescales frames of another size, ignores damage, and supports 8 bits only.)
+/// The first video of a file, as ffprobe describes it.
+struct Video {
+  std::string file;
+  std::string demuxer;     ///< name of ffmpeg's reader of the container; empty if it is the decoder's, too
+  std::string grey;        ///< ffmpeg's filter that gives grey frames, or R, G, B
+  bool broadcast = false;  ///< whether 16 to 235 (for 8 bits) stand for black to white
+  bool has_times = false;  ///< whether its frames have timestamps
+  int delay = 0;           ///< most frames that the decoder holds back
+  double fps = 0;          ///< frames per second; 0 if unknown
+  int promised = 0;        ///< number of frames: from the header, or duration times frame rate; 0 if unknown
+};
+
+/// \throws DataError for a file that is missing or not a video, and if ffprobe is not installed
+Video describe_video(const std::string& file);
+
+/// Decodes a video frame by frame.
 ///
 /// Grey values equal those of the images from which the video was made. Grey frames are unchanged, at their bit depth.
-/// For YCbCr, the luma is used and, if recorded in the broadcast range (16 to 235 for 8 bits), stretched to the full
-/// range. Other formats are converted to BGR, and then to grey as for a colour image file.
+/// For YCbCr, the luma is used and, if recorded in the broadcast range, stretched to the full range. Other formats are
+/// converted to RGB, and then to grey as for a colour image file.
 class VideoFile {
  public:
   /// One frame.
@@ -24,17 +38,13 @@ class VideoFile {
     Image image;
   };
 
-  /// \throws DataError for a file that is missing, not a video, or in a colour format that cannot be converted to grey.
-  explicit VideoFile(const std::string& path);
+  /// \throws DataError if ffmpeg is not installed
+  explicit VideoFile(Video video);
   ~VideoFile();
 
   /// Returns the next frame, or nothing after the last one. \throws DataError for a damaged frame, a frame that differs
   /// in size from the first, and if the file has fewer frames than its header announces
   std::optional<Picture> next();
-
-  /// Number of frames according to the file: from its header, or duration times frame rate; 0 if unknown.
-  int promised() const;
-  double fps() const;  ///< frames per second; 0 if unknown
 
  private:
   class Implementation;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "data/text.hpp"
-#include "data/video_file.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -11,7 +10,7 @@ namespace {
 class VideoReader : public PairReader {
  public:
   explicit VideoReader(VideoPair videos) : videos_(std::move(videos)), left_(videos_.left) {
-    if (videos_.split == Split::none) right_ = std::make_unique<VideoFile>(videos_.right);
+    if (videos_.right) right_.emplace(*videos_.right);
   }
 
   std::optional<StereoPair> next() override {
@@ -20,15 +19,15 @@ class VideoReader : public PairReader {
     pair.number = number_;
     if (right_) {
       auto right = right_->next();
-      if (left && !right) end_early(videos_.right, videos_.left);
-      if (right && !left) end_early(videos_.left, videos_.right);
+      if (left && !right) end_early(*videos_.right, videos_.left);
+      if (right && !left) end_early(videos_.left, *videos_.right);
       if (!left) return std::nullopt;
       check_times(left->stamp_ns, right->stamp_ns);
       pair.left = std::move(left->image);
       pair.right = std::move(right->image);
     } else {
       if (!left) return std::nullopt;
-      std::tie(pair.left, pair.right) = split_views(left->image, videos_.split, videos_.left);
+      std::tie(pair.left, pair.right) = split_views(left->image, videos_.split, videos_.left.file);
     }
     pair.stamp_ns = videos_.fps > 0 ? std::llround(number_ / videos_.fps * 1e9) : left->stamp_ns;
     ++number_;
@@ -36,22 +35,22 @@ class VideoReader : public PairReader {
   }
 
  private:
-  [[noreturn]] void end_early(const std::string& file, const std::string& other) const {
-    fail(file, "the end after " + counted(number_, "frame"), "as many as in " + other);
+  [[noreturn]] void end_early(const Video& shorter, const Video& other) const {
+    fail(shorter.file, "the end after " + counted(number_, "frame"), "as many as in " + other.file);
   }
   /// Checks that the frames of a pair differ by less than half a period in time.
   void check_times(std::int64_t left, std::int64_t right) const {
-    const double fps = left_.fps();
+    const double fps = videos_.left.fps;
     if (videos_.fps > 0 || !(fps > 0)) return;
     const double apart = static_cast<double>(right - left) / 1e9;
     if (std::abs(apart) * fps < 0.5) return;
-    fail(videos_.right, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
-         format_seconds(left) + " s as in " + videos_.left);
+    fail(videos_.right->file, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
+         format_seconds(left) + " s as in " + videos_.left.file);
   }
 
   VideoPair videos_;
   VideoFile left_;
-  std::unique_ptr<VideoFile> right_;
+  std::optional<VideoFile> right_;
   int number_ = 0;
 };
 

@@ -2,16 +2,18 @@
 /// \file video_stream.hpp  Stereo pairs from one video with both views, or from two videos.
 
 #include <memory>
-#include <string>
+#include <optional>
 
 #include "data/split_views.hpp"
+#include "data/video_file.hpp"
 #include "quadedge/pair_stream.hpp"
 
 namespace quadedge::data {
 
 /// The videos that contain the pairs.
 struct VideoPair {
-  std::string left, right;  ///< two files; or `left` alone, with `split`
+  Video left;
+  std::optional<Video> right;  ///< none if `left` contains both views, with `split`
   Split split = Split::none;
   double fps = 0;  ///< for timestamps; 0: those of the left video's frames, which the right video has to match
 };
