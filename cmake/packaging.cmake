@@ -45,7 +45,7 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)  # xz would take five times as long for 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME quadedge)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Tracks the motion of a stereo camera from its images: third-order edges are
-matched between left and right and between two times, on any OpenCL device.")
+matched between left and right and between two times, in OpenCL.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "pocl-opencl-icd, ffmpeg")  # a device without a GPU; videos
 

@@ -153,8 +153,7 @@ def beside(results):
         return f"{number(row['rpe_rotation_deg'], 2)} / {number(1e3 * row['rpe_translation_m'], 2)}" if judged else "-"
 
     rows = [[named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
-             error(found.get("opencv"))] for title, found in by_title.items()
-            if not any(other.startswith(f"{title}, from frame") for other in by_title)]
+             error(found.get("opencv"))] for title, found in by_title.items()]
     return table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
                  stamp(results["accuracy"]))
 
