@@ -1,7 +1,7 @@
-/// \file place_words.cpp  Makes the table of words of host/map/place_signature.hpp from rendered scenes: a projection
-/// on the principal axes of their wide descriptors, and words by k-means. The same table on every run.
+/// \file place_words.cpp  Makes the table of words of host/places/place_signature.hpp from rendered scenes: a
+/// projection on the principal axes of their wide descriptors, and words by k-means. The same table on every run.
 ///
-///   place_words > host/map/place_words.inc
+///   place_words > host/places/place_words.inc
 
 #include <Eigen/Eigenvalues>
 #include <cstdio>
@@ -9,16 +9,16 @@
 #include <random>
 #include <vector>
 
-#include "map/place_signature.hpp"
-#include "odometry/current_rig.hpp"
+#include "odometry/latest_frame.hpp"
+#include "places/place_signature.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/synthetic.hpp"
 
 namespace {
 
 using namespace quadedge;
-using map::kWordNumbers;
-using map::kWords;
+using places::kWordNumbers;
+using places::kWords;
 
 constexpr int kFrames = 73, kEveryFrame = 6, kEveryEdge = 8, kRounds = 20;
 constexpr int kSeeds = 2;            ///< scenes of each kind
@@ -43,7 +43,7 @@ void describe(const std::string& scene, std::uint64_t seed, Descriptors& all) {
   StereoOdometry odometry(sequence.rig());
   for (int frame = 0; frame < kFrames; frame += kEveryFrame) {
     odometry.track(sequence.pair(frame).view());
-    const Descriptors view = map::rooted_descriptors(odometry.current_rig().frontend.keep());
+    const Descriptors view = places::rooted_descriptors(odometry.latest_frame().frontend.keep());
     Eigen::Index next = all.cols();
     all.conservativeResize(Eigen::NoChange, next + (view.cols() + kEveryEdge - 1) / kEveryEdge);
     for (Eigen::Index i = 0; i < view.cols(); i += kEveryEdge) all.col(next++) = view.col(i);
@@ -78,7 +78,7 @@ void make_table() {
   Descriptors all;
   for (const std::string& scene : synthetic_scenes())
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) describe(scene, seed, all);
-  map::PlaceWords table;
+  places::PlaceWords table;
   table.mean = all.rowwise().mean();
   all.colwise() -= table.mean;
   const Eigen::MatrixXd spread = (all * all.transpose()).cast<double>() / static_cast<double>(all.cols());

@@ -2,7 +2,7 @@
 """Draws the picture of the README: stereo edges of one frame beside the map of edges and the estimated path.
 
     quadedge synth street --scene facade --path drive --frames 103
-    quadedge run street --map street/edges.ply -o street/results
+    quadedge run street --points street/edges.ply -o street/results
     quadedge match street/rgb/0.550000000.png street/rgb2/0.550000000.png --max-disparity 120 --csv street/edges.csv
     scripts/readme_picture.py street 0.550000000 doc/street.webp
 

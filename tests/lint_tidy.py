@@ -19,7 +19,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "rig", "odometry", "map",
+FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "rig", "odometry", "points", "places",
            "synthetic", "data", "data/calibrations", "evaluation", "report", "benchmark", "cli")
 
 

@@ -58,7 +58,7 @@ const std::vector<ProcessAttack> kProcessAttacks = {
      "$QUADEDGE run - --fps 20 --calibration $OUT.yaml -o $OUT",
      3, "image 0 that ends after 0 of 8589672450 bytes", false},
     {"an image is damaged and the map goes to a full disk",
-     "cp -r $DATA $OUT.data; echo > $OUT.data/rgb2/0.100000000.png; $QUADEDGE run $OUT.data -o $OUT --map /dev/full "
+     "cp -r $DATA $OUT.data; echo > $OUT.data/rgb2/0.100000000.png; $QUADEDGE run $OUT.data -o $OUT --points /dev/full "
      "--force",
      3, "2 finished frames in", true},
     {"an image is damaged while frames are located",

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "on_terminal.hpp"
+#include "temporary_folder.hpp"
 
 using Catch::Matchers::Contains;
 
@@ -69,6 +71,17 @@ TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
   CHECK_THAT(run_on_terminal(run, 80, "TERM=xterm"), Contains("\x1b[K") && Contains("frame 1/1"));
   for (const char* environment : {"TERM=dumb", "-u TERM"})
     CHECK_THAT(run_on_terminal(run, 80, environment), !Contains("\x1b") && Contains("frame 1/1"));
+}
+
+TEST_CASE("command line: an option's former name works and is told", "[cli]") {
+  const auto former = run_program({"run", "/no/such/recording", "--points-min-views", "0"});
+  CHECK_THAT(former.err, Contains("warning: --points-min-views is called --points-min-views now"));
+  CHECK_THAT(former.err, Contains("/no/such/recording") || Contains("--points-min-views 0"));
+  CHECK_THAT(run_program({"run", "x", "--points-min-views", "2"}).err, !Contains("warning"));
+  const TemporaryFolder folder;
+  std::ofstream(folder / "old.toml") << "map-min-views = true\n";
+  CHECK_THAT(run_program({"run", "x", "--config", folder / "old.toml"}).err,
+             Contains("--points-min-views now") && Contains("old.toml"));
 }
 
 TEST_CASE("command line: invalid use ends with code 2 and names the error", "[cli]") {

@@ -145,7 +145,7 @@ TEST_CASE("run: a video that ends early ends with code 3, and its frames and map
   fs::copy(camera().video, folder / "cut.mkv");
   fs::resize_file(folder / "cut.mkv", fs::file_size(folder / "cut.mkv") * 3 / 4);
   auto arguments = video_run(folder / "cut.mkv", folder / "out");
-  arguments.insert(arguments.end(), {"--map", folder / "map.ply", "--map-min-views", "1"});
+  arguments.insert(arguments.end(), {"--points", folder / "map.ply", "--points-min-views", "1"});
   const auto result = run_program(arguments);
   CHECK(result.code == 3);
   CHECK_THAT(result.err, Contains("cut.mkv") && Contains("finished frame"));
@@ -180,7 +180,7 @@ TEST_CASE("run: a signal ends a run that waits for a pipe, and its frames and ma
   REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
   const int held = open((folder / "fifo").c_str(), O_RDWR);  // so that readers never see its end
   BackgroundProgram program({"run", "-", "--fps", "20", "--calibration", camera().calibration, "-o", folder / "out",
-                             "--map", folder / "map.ply", "--map-min-views", "1"},
+                             "--points", folder / "map.ply", "--points-min-views", "1"},
                             folder / "log", "sh -c 'exec \"$0\" \"$@\" <" + (folder / "fifo") + "'");
   const std::string bytes = own_camera::pgm_stream_of_small();
   std::thread writer([&] {

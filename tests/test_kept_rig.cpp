@@ -28,7 +28,7 @@ TEST_CASE("kept rig: at most half a megabyte, and patches and descriptors close 
   Device device("reference");
   const auto frontend = frontend::make_frontend(room().rig, device, room().config);
   const auto rig = frontend->process(room().frame(0));
-  const frontend::KeptRig kept = frontend->keep();
+  const frontend::KeptFrameEdges kept = frontend->keep();
   REQUIRE(kept.edges.size() > 500);
   CHECK(kept.edges.size() <= frontend::kKeptEdges);
   CHECK(static_cast<double>(kept.bytes()) / static_cast<double>(kept.edges.size()) * frontend::kKeptEdges < 500'000);
@@ -57,7 +57,7 @@ TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives
     const odometry::DisparityOffset offset(room().rig, room().config.pose);
     odometry::MotionSearch search(room().config, *frontend, offset);
     const auto base = frontend->process(room().frame(0));
-    const frontend::KeptRig kept = frontend->keep();
+    const frontend::KeptFrameEdges kept = frontend->keep();
     odometry::MotionQuery query;
     query.current = frontend->process(room().frame(1));
     query.base = base;
@@ -89,7 +89,7 @@ TEST_CASE("kept rig: restoring one leaves the current rig and the frame numbers 
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(room().rig, device, room().config);
     frontend->process(room().frame(0));
-    const frontend::KeptRig kept = frontend->keep();
+    const frontend::KeptFrameEdges kept = frontend->keep();
     const auto current = frontend->process(room().frame(1));
     const StereoEdges before = current->edges;
     const auto first = frontend->restore(kept), second = frontend->restore(kept);

@@ -62,13 +62,13 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run(program, "synth", folder / "room", "--frames", 8, "--size", "320x200", "--quiet")
-        run(program, "run", folder / "room", "-o", folder / "out", "--quiet", "--odometry.key_rig", "false", "--map",
-            folder / "map.ply", "--map-colmap", folder / "colmap", "--map-min-views", 2)
+        run(program, "run", folder / "room", "-o", folder / "out", "--quiet", "--odometry.key_rig", "false", "--points",
+            folder / "map.ply", "--points-colmap", folder / "colmap", "--points-min-views", 2)
         points = check_ply(folder / "map.ply")
         assert points > 300, points
         check_colmap(folder / "colmap", points)
-        again = subprocess.run([program, "run", folder / "room", "-o", folder / "again", "--map", folder / "map.ply"],
-                               capture_output=True, text=True)
+        again = subprocess.run([program, "run", folder / "room", "-o", folder / "again", "--points",
+                                folder / "map.ply"], capture_output=True, text=True)
         assert again.returncode == 2 and "map.ply" in again.stderr, again.stderr
 
 

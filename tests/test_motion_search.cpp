@@ -16,22 +16,24 @@ class CountingFrontend : public frontend::Frontend {
   CountingFrontend(const StereoRig& rig, const Config& config)
       : Frontend(rig, config.stereo), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
 
-  frontend::RigHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
-  void match(const frontend::Rig& base, const TemporalSearch& search, TemporalMatches& matches) override {
+  frontend::FrameEdgesHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
+  void match(const frontend::FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override {
     ++(search.coarse ? coarse : guided);
     largest_radius = std::max(largest_radius, search.radius);
     reference_->match(base, search, matches);
   }
-  void match_globally(const frontend::Rig& base, int edges, TemporalMatches& matches) override {
+  void match_globally(const frontend::FrameEdges& base, int edges, TemporalMatches& matches) override {
     ++global;
     reference_->match_globally(base, edges, matches);
   }
-  void match_globally(const frontend::Rig& base, const GlobalSearch& among, TemporalMatches& matches) override {
+  void match_globally(const frontend::FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) override {
     ++beside;
     reference_->match_globally(base, among, matches);
   }
-  frontend::KeptRig keep() override { return reference_->keep(); }
-  frontend::RigHandle restore(const frontend::KeptRig& kept) override { return reference_->restore(kept); }
+  frontend::KeptFrameEdges keep() override { return reference_->keep(); }
+  frontend::FrameEdgesHandle restore(const frontend::KeptFrameEdges& kept) override {
+    return reference_->restore(kept);
+  }
   EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }
 

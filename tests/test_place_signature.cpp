@@ -1,18 +1,18 @@
 #include <catch2/catch.hpp>
 
 #include "frontends.hpp"
-#include "map/place_signature.hpp"
+#include "places/place_signature.hpp"
 
 using namespace quadedge;
 using namespace matching;
 
 namespace {
 
-map::PlaceSignature signature_of(const RenderedScene& scene, std::size_t frame) {
+places::PlaceSignature signature_of(const RenderedScene& scene, std::size_t frame) {
   Device device("reference");
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
   frontend->process(scene.frame(frame));
-  return map::place_signature(frontend->keep());
+  return places::place_signature(frontend->keep());
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ TEST_CASE("place signature: unit length, and views of one scene are more similar
 }
 
 TEST_CASE("place signature: a rig without edges has a signature that resembles none") {
-  const map::PlaceSignature none = map::place_signature({});
+  const places::PlaceSignature none = places::place_signature({});
   CHECK(none.isZero());
 }
 
 TEST_CASE("place words: the axes of the projection are perpendicular") {
-  const auto& projection = map::place_words().projection;
-  for (int i = 0; i < map::kWordNumbers; ++i)
+  const auto& projection = places::place_words().projection;
+  for (int i = 0; i < places::kWordNumbers; ++i)
     for (int j = 0; j < i; ++j)
       CHECK(projection.row(i).normalized().dot(projection.row(j).normalized()) == Approx(0).margin(2e-3));
 }

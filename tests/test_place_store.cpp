@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 
-#include "map/place_store.hpp"
+#include "places/place_store.hpp"
 
 using namespace quadedge;
-using map::Place;
-using map::PlaceSignature;
-using map::PlaceStore;
+using places::Place;
+using places::PlaceSignature;
+using places::PlaceStore;
 
 namespace {
 

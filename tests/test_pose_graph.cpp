@@ -2,12 +2,12 @@
 #include <cmath>
 #include <random>
 
-#include "map/pose_graph.hpp"
+#include "places/pose_graph.hpp"
 #include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
-using map::GraphEdge;
-using map::PoseGraph;
+using places::GraphEdge;
+using places::PoseGraph;
 
 namespace {
 

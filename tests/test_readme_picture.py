@@ -24,7 +24,8 @@ with tempfile.TemporaryDirectory() as folder:
     stamp = "0.050000000"
     for arguments in (
         ("synth", street, "--scene", "facade", "--path", "drive", "--frames", "3", "--size", "480x249", "--quiet"),
-        ("run", street, "--map", street / "edges.ply", "--map-min-views", "1", "-o", street / "results", "--quiet"),
+        ("run", street, "--points", street / "edges.ply", "--points-min-views", "1", "-o", street / "results",
+         "--quiet"),
         ("match", street / f"rgb/{stamp}.png", street / f"rgb2/{stamp}.png", "--csv", street / "edges.csv"),
     ):
         done = call(quadedge, *arguments)

@@ -28,7 +28,7 @@ StereoEdges row_of_edges(int count, float shift = 0) {
 }
 
 KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isometry3d::Identity()) {
-  auto rig = std::make_shared<frontend::Rig>();
+  auto rig = std::make_shared<frontend::FrameEdges>();
   rig->start(frame);
   return KeyRig(rig, {world_from_left});
 }

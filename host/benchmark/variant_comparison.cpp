@@ -52,7 +52,7 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   auto& context = *candidate.device->context();
   context.take_profile();
   candidate.frontend->process(input.second.view());
-  const frontend::Rig& first = *candidate.output.first;
+  const frontend::FrameEdges& first = *candidate.output.first;
   const auto match = [&](bool coarse) {
     candidate.frontend->match(first, frontend::search_without_motion(first.edges, input.config.temporal, coarse));
   };

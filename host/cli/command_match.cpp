@@ -91,8 +91,8 @@ class MatchCommand : public Command {
     return pair;
   }
 
-  static std::vector<MapPoint> points(const StereoMatches& matches) {
-    std::vector<MapPoint> found;
+  static std::vector<CloudPoint> points(const StereoMatches& matches) {
+    std::vector<CloudPoint> found;
     for (const auto& point : matches.points)
       if (point) found.push_back(*point);
     return found;

@@ -38,7 +38,7 @@ class RunCommand : public Command {
                  "FILE");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
-    run_.map.declare(options);
+    run_.points.declare(options);
     source_.declare(options);
     method_.declare(options);
   }

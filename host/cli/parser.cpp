@@ -39,6 +39,18 @@ const CLI::Validator kDecimal(
     },
     "");
 
+/// Names that options had in the last release, without dashes, and their names now. The old ones still work.
+const std::map<std::string, std::string> kRenamed = {
+    {"map", "points"}, {"map-colmap", "points-colmap"}, {"map-min-views", "points-min-views"}};
+
+/// The name now of an option called `name`; a warning about an old one.
+const std::string& name_now(const std::string& name) {
+  const auto renamed = kRenamed.find(name);
+  if (renamed == kRenamed.end()) return name;
+  note("warning: --" + name + " is called --" + renamed->second + " now; the old name goes with the next release");
+  return renamed->second;
+}
+
 /// Options of one command as options of a CLI11 application.
 class ParserOptions : public Options {
  public:
@@ -132,7 +144,7 @@ class ParserOptions : public Options {
   void apply(const std::vector<data::TomlEntry>& entries) const {
     std::map<const CLI::Option*, std::string> seen;
     for (const auto& entry : entries) {
-      const auto setting = from_file_.find(entry.key);
+      const auto setting = from_file_.find(from_file_.count(entry.key) > 0 ? entry.key : name_now(entry.key));
       if (setting == from_file_.end()) data::refuse_key(entry, keys());
       const CLI::Option* option = setting->second.option;
       const auto [first, is_new] = seen.insert({option, entry.key});
@@ -246,14 +258,21 @@ int refuse(const CLI::App& program, const CLI::Error& error) {
   return static_cast<int>(ExitCode::usage);
 }
 
-/// `quadedge help [COMMAND...]` and `quadedge version` as the options of those names.
-std::vector<const char*> with_options_for_words(int argc, char** argv) {
-  std::vector<const char*> words(argv, argv + argc);
+/// The words of the command line: `quadedge help [COMMAND...]` and `quadedge version` as the options of those names,
+/// renamed options under their names now.
+std::vector<std::string> read_words(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
   if (argc < 2) return words;
-  if (std::strcmp(argv[1], "version") == 0) words[1] = "--version";
-  if (std::strcmp(argv[1], "help") == 0) {
+  if (words[1] == "version") words[1] = "--version";
+  if (words[1] == "help") {
     words.erase(words.begin() + 1);
-    words.push_back("--help");
+    words.emplace_back("--help");
+  }
+  for (std::string& word : words) {
+    if (word == "--") break;
+    if (word.rfind("--", 0) != 0) continue;
+    const std::string name = word.substr(2, word.find('=') - 2);
+    word.replace(2, name.size(), name_now(name));
   }
   return words;
 }
@@ -269,10 +288,9 @@ int answer(const CLI::App& program, const CLI::Success& request) {
 }  // namespace
 
 Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_ptr<Command>>& commands) {
-  const std::vector<const char*> words = with_options_for_words(argc, argv);
-  const bool short_help = std::any_of(words.begin() + 1, words.end(), [](const char* word) {
-    return std::strcmp(word, "--help") == 0 || std::strcmp(word, "-h") == 0;
-  });
+  const std::vector<std::string> words = read_words(argc, argv);
+  const bool short_help = std::any_of(words.begin() + 1, words.end(),
+                                      [](const std::string& word) { return word == "--help" || word == "-h"; });
 
   CLI::App program("Stereo visual odometry from quadruplets of third-order edges", "quadedge");
   program.set_version_flag("--version", "quadedge " QUADEDGE_VERSION);
@@ -294,7 +312,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
     }
   }
   try {
-    program.parse(static_cast<int>(words.size()), words.data());
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
   } catch (const CLI::Success& request) {               // --help, --help-all, --version
     const bool is_known = program.remaining().empty();  // CLI11 answers `rnu --help`, too
     return {nullptr, is_known ? answer(program, request) : refuse(program, request)};

@@ -6,8 +6,8 @@
 
 #include "benchmark/variants_file.hpp"
 #include "cli/console.hpp"
-#include "cli/map_output.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/points_output.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -130,7 +130,7 @@ Device open_tested_device(const MethodOptions& method, report::RunRecord& run) {
 
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  const Interruption& interruption, MapOutput& map, report::RunRecord& run) {
+                  const Interruption& interruption, PointsOutput& points, report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
   bench::add_saved_variants(device, run.config);
@@ -151,7 +151,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   int lost = 0;
   const auto write_loops = [&] {
     if (!loops) return;
-    map.correct(loops->map());
+    points.correct(loops->map());
     run.loops = loops->write(options.output, options.saved_map);
   };
   try {
@@ -162,7 +162,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       files.add(record.result);
       report_doubts(record.result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
-      map.add(*frame, record.result, odometry);
+      points.add(*frame, record.result, odometry);
       if (loops) loops->add(record.result);
       lost += is_tracked(record.result.status) ? 0 : 1;
       run.frames.push_back(std::move(record));
@@ -301,23 +301,23 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   check_output_file(options.trace, options.force);
   check_output_file(options.offset_file, true);
   check_output_file(options.saved_map, options.force);
-  options.map.check(options.force);
-  MapOutput map(options.map, run.config);
+  options.points.check(options.force);
+  PointsOutput points(options.points, run.config);
   try {
-    track_frames(source, method, options, interruption, map, run);
+    track_frames(source, method, options, interruption, points, run);
   } catch (const DataError& error) {
     if (run.frames.empty()) throw;
     run.ended_early = error.what();
     end_with_error(error, run.frames.size(), options.output,
                    {[&] {
-                      map.write();
-                      run.map = map.facts();
+                      points.write();
+                      run.points = points.facts();
                     },
                     [&] { write_results(source, options, run); }});
   }
   if (run.frames.empty()) end_if_interrupted(interruption, source);
-  map.write();
-  run.map = map.facts();
+  points.write();
+  run.points = points.facts();
   if (options.profile && interruption.signal() == 0) profile_frames(source, method, options, interruption, run);
   if (interruption.signal() != 0) {
     const bool knows_all = run.input.frames > static_cast<int>(run.frames.size());

@@ -7,8 +7,8 @@
 
 #include "cli/frame_source.hpp"
 #include "cli/interruption.hpp"
-#include "cli/map_output.hpp"
 #include "cli/method_options.hpp"
+#include "cli/points_output.hpp"
 #include "quadedge/error.hpp"
 #include "report/run_record.hpp"
 
@@ -23,7 +23,7 @@ struct SequenceRunOptions {
   /// Drawings of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
   int draw_every = 0;
   int draw_frame = -1;
-  MapFiles map;
+  PointFiles points;
   std::string saved_map;    ///< file for the places of the recording, which need `loops`; empty: none
   bool loops = false;       ///< recognise places, and write the corrected trajectory and the closures
   std::string offset_file;  ///< the rig's disparity offset: read if it exists, written at the end; empty: none

@@ -9,7 +9,7 @@ namespace quadedge::frontend {
 
 /// The output of a front end for two frames.
 struct FrontendOutput {
-  RigHandle first;  ///< the first frame's rig
+  FrameEdgesHandle first;  ///< the first frame's rig
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
   TemporalMatches coarse, quads;   ///< of a coarse search with its strict limits, and of a guided search

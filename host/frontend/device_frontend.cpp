@@ -12,7 +12,7 @@
 
 namespace quadedge::frontend {
 
-DeviceRig::DeviceRig(const StereoRig& calibration) {
+DeviceFrameEdges::DeviceFrameEdges(const StereoRig& calibration) {
   on_device.left_image.width = calibration.left.width;
   on_device.left_image.height = calibration.left.height;
   on_device.right_image.width = calibration.right.width;
@@ -55,7 +55,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
   itself_.write(context, itself);
 }
 
-void DeviceFrontend::detect(Rig& current) {
+void DeviceFrontend::detect(FrameEdges& current) {
   const stages::DeviceStereoEdges& rig = own(current).on_device;
   context_.begin_stage("edge_detection");
   left_.plane.prepare(rig.left_image.pixels);
@@ -83,19 +83,19 @@ void DeviceFrontend::detect(Rig& current) {
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
 }
 
-RigHandle DeviceFrontend::process(const StereoFrame& frame) {
+FrameEdgesHandle DeviceFrontend::process(const StereoFrame& frame) {
   const opencl::CopyGuard guard(context_);  // of the images, which belong to the caller
   return StagedFrontend::process(frame);
 }
 
-Rig& DeviceFrontend::start(const StereoFrame& frame) {
-  DeviceRig& current = rigs_.next(calibration_);
+FrameEdges& DeviceFrontend::start(const StereoFrame& frame) {
+  DeviceFrameEdges& current = rigs_.next(calibration_);
   left_.undistortion.run(frame.left, current.on_device.left_image.pixels);
   right_.undistortion.run(frame.right, current.on_device.right_image.pixels);
   return current;
 }
 
-void DeviceFrontend::describe(const Rig& current, bool by_sift) {
+void DeviceFrontend::describe(const FrameEdges& current, bool by_sift) {
   const stages::DeviceStereoEdges& rig = own(current).on_device;
   left_.patches.prepare(rig.left_image.pixels);
   right_.patches.prepare(rig.right_image.pixels);
@@ -115,7 +115,7 @@ const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStere
   return &coarse_;
 }
 
-RelaxationTally DeviceFrontend::find_stereo_edges(Rig& current, const EpipolarGeometry& geometry,
+RelaxationTally DeviceFrontend::find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry,
                                                   const DisparityProbe& probe,
                                                   const std::optional<CoarseDisparityArguments>& coarse) {
   stages::DeviceStereoEdges& rig = own(current).on_device;
@@ -134,7 +134,7 @@ RelaxationTally DeviceFrontend::find_stereo_edges(Rig& current, const EpipolarGe
   return relaxed_.host_tally;
 }
 
-void DeviceFrontend::finish(Rig& current) {
+void DeviceFrontend::finish(FrameEdges& current) {
   own(current).on_device.has_sift = false;
   indexed_ = false;
   wide_step_ = 0;
@@ -153,7 +153,7 @@ stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges
   return {rig.left_patches, rig.left_index, rig.left_sift};
 }
 
-void DeviceFrontend::describe_by_sift(Rig& rig) {
+void DeviceFrontend::describe_by_sift(FrameEdges& rig) {
   stages::DeviceStereoEdges& edges = own(rig).on_device;
   if (edges.has_sift) return;
   left_.sift.prepare(edges.left_image.pixels);
@@ -163,7 +163,7 @@ void DeviceFrontend::describe_by_sift(Rig& rig) {
   edges.has_sift = true;
 }
 
-void DeviceFrontend::match_side(Side side, const DeviceRig& base, const TemporalSearch& search,
+void DeviceFrontend::match_side(Side side, const DeviceFrameEdges& base, const TemporalSearch& search,
                                 stages::DeviceCandidates& candidates) {
   temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius,
                            static_cast<float>(kTemporalOrientation), candidates);
@@ -171,12 +171,13 @@ void DeviceFrontend::match_side(Side side, const DeviceRig& base, const Temporal
                temporal_limits(config_.temporal, search), search.step, tap_ != nullptr, candidates);
 }
 
-void DeviceFrontend::match_by_lists(const DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
+void DeviceFrontend::match_by_lists(const DeviceFrameEdges& base, const TemporalSearch& search,
+                                    TemporalMatches& matches) {
   match_side(Side::left, base, search, temporal_left_);
   match_side(Side::right, base, search, temporal_right_);
   const int alive_left = temporal_left_.living_rows(), alive_right = temporal_right_.living_rows();
   temporal_quads_.agree(temporal_left_, temporal_right_);
-  const DeviceRig& current = rigs_.current();
+  const DeviceFrameEdges& current = rigs_.current();
   matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_.list(index_of(Side::left)),
                                     temporal_left_);
   matches.alive_left = alive_left;
@@ -184,8 +185,8 @@ void DeviceFrontend::match_by_lists(const DeviceRig& base, const TemporalSearch&
   if (tap_ != nullptr) tap_temporal(search);
 }
 
-void DeviceFrontend::search_in_time(Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
-  const DeviceRig &base = own(base_rig), &current = rigs_.current();
+void DeviceFrontend::search_in_time(FrameEdges& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
+  const DeviceFrameEdges &base = own(base_rig), &current = rigs_.current();
   const opencl::CopyGuard guard(context_);  // of the predictions
   index_current();
   predicted_.write(context_, {search.left, search.right});
@@ -196,7 +197,7 @@ void DeviceFrontend::search_in_time(Rig& base_rig, const TemporalSearch& search,
   if (!found) match_by_lists(base, search, matches);
 }
 
-stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceRig& rig, const WideSubset& subset,
+stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& rig, const WideSubset& subset,
                                                         WideSide& side) {
   if (rig.is_restored) return {rig.on_device, 1, rig.on_device.count, rig.wide};
   const bool is_given = &subset.edges != &rig.edges;
@@ -218,9 +219,9 @@ stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceRig& rig, co
   return {edges, subset.step, side.rows, side.descriptors};
 }
 
-TemporalMatches DeviceFrontend::search_globally(const Rig& base, const WideSubset& of_base,
+TemporalMatches DeviceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
                                                 const WideSubset& of_current) {
-  const DeviceRig& current = rigs_.current();
+  const DeviceFrameEdges& current = rigs_.current();
   const opencl::CopyGuard guard(context_);  // until the given edges have been copied
   // Descriptions of every step-th edge of the current rig serve all searches of a frame.
   WideSide& now = &of_current.edges == &current.edges ? wide_now_ : wide_some_;
@@ -228,8 +229,8 @@ TemporalMatches DeviceFrontend::search_globally(const Rig& base, const WideSubse
   return wide_matching_.run(earlier, describe_widely(current, of_current, now), of_current.edges);
 }
 
-KeptRig DeviceFrontend::keep() {
-  const DeviceRig& current = rigs_.current();
+KeptFrameEdges DeviceFrontend::keep() {
+  const DeviceFrameEdges& current = rigs_.current();
   const stages::DeviceStereoEdges& rig = current.on_device;
   const stages::DeviceWideEdges described =
       describe_widely(current, about(2 * config_.temporal.wide_edges, current), wide_now_);
@@ -239,7 +240,7 @@ KeptRig DeviceFrontend::keep() {
   return keep_edges(current, {described.step, wide}, left, current.edges.left_index, right);
 }
 
-void DeviceFrontend::load(const KeptRig& kept, Rig& restored) {
+void DeviceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
   const std::size_t count = kept.edges.size();
   stages::DeviceStereoEdges& rig = own(restored).on_device;
   rig.reserve(context_, count);

@@ -15,8 +15,8 @@
 namespace quadedge::frontend {
 
 /// A rig with its buffers on the device.
-struct DeviceRig : Rig {
-  explicit DeviceRig(const StereoRig& calibration);
+struct DeviceFrameEdges : FrameEdges {
+  explicit DeviceFrameEdges(const StereoRig& calibration);
   stages::DeviceStereoEdges on_device;
   opencl::Buffer<cl_uchar> wide;  ///< wide descriptors of all edges, only of a restored rig
 };
@@ -26,8 +26,8 @@ class DeviceFrontend : public StagedFrontend {
  public:
   DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
 
-  RigHandle process(const StereoFrame& frame) override;
-  KeptRig keep() override;
+  FrameEdgesHandle process(const StereoFrame& frame) override;
+  KeptFrameEdges keep() override;
   EdgeSet edges(Side side) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
@@ -45,20 +45,21 @@ class DeviceFrontend : public StagedFrontend {
            const PixelMask& hidden, int max_value, const Config& config);
   };
 
-  Rig& start(const StereoFrame& frame) override;
-  void detect(Rig& current) override;
-  void describe(const Rig& current, bool by_sift) override;
-  RelaxationTally find_stereo_edges(Rig& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
+  FrameEdges& start(const StereoFrame& frame) override;
+  void detect(FrameEdges& current) override;
+  void describe(const FrameEdges& current, bool by_sift) override;
+  RelaxationTally find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
                                     const std::optional<CoarseDisparityArguments>& coarse) override;
-  void finish(Rig& current) override;
+  void finish(FrameEdges& current) override;
   void tap_stereo() override;
-  void describe_by_sift(Rig& rig) override;
-  void search_in_time(Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  TemporalMatches search_globally(const Rig& base, const WideSubset& of_base, const WideSubset& of_current) override;
-  std::shared_ptr<Rig> spare() override { return rigs_.restored(calibration_); }
-  void load(const KeptRig& kept, Rig& restored) override;
-  RigHandle current_handle() const override { return rigs_.current_handle(); }
-  DeviceRig& own(const Rig& rig) override { return rigs_.own(rig); }
+  void describe_by_sift(FrameEdges& rig) override;
+  void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
+  TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
+                                  const WideSubset& of_current) override;
+  std::shared_ptr<FrameEdges> spare() override { return rigs_.restored(calibration_); }
+  void load(const KeptFrameEdges& kept, FrameEdges& restored) override;
+  FrameEdgesHandle current_handle() const override { return rigs_.current_handle(); }
+  DeviceFrameEdges& own(const FrameEdges& rig) override { return rigs_.own(rig); }
 
   /// One side of a global search.
   struct WideSide {
@@ -75,13 +76,14 @@ class DeviceFrontend : public StagedFrontend {
   void index_current();
   /// Wide descriptors of a subset of a rig's edges; given ones are copied to the device from `packed`, which must
   /// outlive the copy.
-  stages::DeviceWideEdges describe_widely(const DeviceRig& rig, const WideSubset& subset, WideSide& side);
+  stages::DeviceWideEdges describe_widely(const DeviceFrameEdges& rig, const WideSubset& subset, WideSide& side);
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
   stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, Side side) const;
   /// Runs the search with candidate lists: for searches with SIFT, for too many candidates, for taps, and for the
   /// corresponding variant.
-  void match_by_lists(const DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches);
-  void match_side(Side side, const DeviceRig& base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
+  void match_by_lists(const DeviceFrameEdges& base, const TemporalSearch& search, TemporalMatches& matches);
+  void match_side(Side side, const DeviceFrameEdges& base, const TemporalSearch& search,
+                  stages::DeviceCandidates& candidates);
   void tap_temporal(const TemporalSearch& search);
 
   opencl::Context& context_;
@@ -117,7 +119,7 @@ class DeviceFrontend : public StagedFrontend {
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
       right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT
   opencl::Buffer<cl_int> itself_;  ///< the identity permutation 0, 1, 2 ...
-  RigPool<DeviceRig> rigs_;
+  FrameEdgesPool<DeviceFrameEdges> rigs_;
 };
 
 }  // namespace quadedge::frontend

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "common/filter_limits.hpp"
-#include "frontend/kept_rig.hpp"
+#include "frontend/frame_edges.hpp"
+#include "frontend/kept_frame_edges.hpp"
 #include "frontend/rectification_follower.hpp"
-#include "frontend/rig.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
@@ -35,23 +35,23 @@ class Frontend {
 
   /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. \returns the rig, which is the current one until
   /// the next call and is then reused unless a handle exists
-  virtual RigHandle process(const StereoFrame& frame) = 0;
+  virtual FrameEdgesHandle process(const StereoFrame& frame) = 0;
   /// Stage 6: quads between an earlier rig, the base, and the current one. `search` has one entry per stereo edge of
   /// the base. Replaces `matches`, as does match_globally().
-  virtual void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
+  virtual void match(const FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Quads between a subset of the base's edges and the current rig, matched over the whole left image by wide
   /// descriptors.
   /// \param edges approximate number of the base's edges and, twice as many, of the current rig's that take part;
   /// ignored for a restored rig, which has its own
-  virtual void match_globally(const Rig& base, int edges, TemporalMatches& matches) = 0;
+  virtual void match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) = 0;
   /// The same among the given edges only. For a restored base, of_base is ignored: all its edges take part.
-  virtual void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) = 0;
-  TemporalMatches match(const Rig& base, const TemporalSearch& search) {
+  virtual void match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) = 0;
+  TemporalMatches match(const FrameEdges& base, const TemporalSearch& search) {
     TemporalMatches matches;
     match(base, search, matches);
     return matches;
   }
-  TemporalMatches match_globally(const Rig& base, int edges) {
+  TemporalMatches match_globally(const FrameEdges& base, int edges) {
     TemporalMatches matches;
     match_globally(base, edges, matches);
     return matches;
@@ -61,9 +61,9 @@ class Frontend {
   void take(const rig::EpipolarFit& fit) { rectification_.take(fit); }
 
   /// Keeps the current rig in a compact form.
-  virtual KeptRig keep() = 0;
+  virtual KeptFrameEdges keep() = 0;
   /// Restores a kept rig as a base of match() and match_globally().
-  virtual RigHandle restore(const KeptRig& kept) = 0;
+  virtual FrameEdgesHandle restore(const KeptFrameEdges& kept) = 0;
 
   const FrontendCounts& counts() const { return counts_; }
 

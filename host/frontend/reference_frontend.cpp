@@ -63,16 +63,16 @@ std::vector<std::uint8_t> sift_of(const Image& image, const EdgePositionsView& e
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
     : StagedFrontend(rig, config), threshold_(config.edges) {}
 
-Rig& ReferenceFrontend::start(const StereoFrame& frame) {
-  ReferenceRig& now = rigs_.next();
+FrameEdges& ReferenceFrontend::start(const StereoFrame& frame) {
+  ReferenceFrameEdges& now = rigs_.next();
   now.left = pinhole_image(frame.left, calibration_.left_undistortion);
   now.right = pinhole_image(frame.right, calibration_.right_undistortion);
   counts_.edge_threshold = threshold_.next({now.left.view(), now.right.view()});
   return now;
 }
 
-void ReferenceFrontend::detect(Rig& current) {
-  const ReferenceRig& now = own(current);
+void ReferenceFrontend::detect(FrameEdges& current) {
+  const ReferenceFrameEdges& now = own(current);
   const double threshold = counts_.edge_threshold;
   reference::ReferenceEdges left = reference::outside_mask(
       reference::detect_edges(now.left.view(), config_.edges, threshold), calibration_.left_mask, config_.edges.margin);
@@ -96,8 +96,8 @@ void ReferenceFrontend::detect(Rig& current) {
   counts_.edges_right = static_cast<int>(right_edges_.size());
 }
 
-void ReferenceFrontend::describe(const Rig& current, bool by_sift) {
-  const ReferenceRig& now = own(current);
+void ReferenceFrontend::describe(const FrameEdges& current, bool by_sift) {
+  const ReferenceFrameEdges& now = own(current);
   const auto describe_side = [&](const Image& image, const EdgeSet& edges, reference::EdgeDescriptions& described) {
     described.patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, config_.patches);
     described.sift.clear();
@@ -107,10 +107,10 @@ void ReferenceFrontend::describe(const Rig& current, bool by_sift) {
   describe_side(now.right, right_edges_, right_described_);
 }
 
-RelaxationTally ReferenceFrontend::find_stereo_edges(Rig& current, const EpipolarGeometry& geometry,
+RelaxationTally ReferenceFrontend::find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry,
                                                      const DisparityProbe& probe,
                                                      const std::optional<CoarseDisparityArguments>& coarse) {
-  const ReferenceRig& now = own(current);
+  const ReferenceFrameEdges& now = own(current);
   candidates_ = reference::stereo_candidates(left_edges_, right_edges_, geometry, probe);
   scores_ = reference::candidate_filters(candidates_, left_described_, right_described_, stereo_limits(config_.stereo));
   const auto refined = reference::stereo_refinement(now.left.view(), now.right.view(), left_described_.patches,
@@ -125,8 +125,8 @@ RelaxationTally ReferenceFrontend::find_stereo_edges(Rig& current, const Epipola
   return relaxation_.tally;
 }
 
-void ReferenceFrontend::finish(Rig& current) {
-  ReferenceRig& now = own(current);
+void ReferenceFrontend::finish(FrameEdges& current) {
+  ReferenceFrameEdges& now = own(current);
   const StereoEdges& edges = now.edges;
   now.wide.clear();
   now.left_descriptions = {rows_of(left_described_.patches, edges.left_index, kEdgePatchBytes), {}};
@@ -135,15 +135,15 @@ void ReferenceFrontend::finish(Rig& current) {
       {}};
 }
 
-void ReferenceFrontend::describe_by_sift(Rig& rig) {
-  ReferenceRig& now = own(rig);
+void ReferenceFrontend::describe_by_sift(FrameEdges& rig) {
+  ReferenceFrameEdges& now = own(rig);
   if (!now.left_descriptions.sift.empty()) return;
   now.left_descriptions.sift = sift_of(now.left, now.edges.positions(Side::left));
   now.right_descriptions.sift = sift_of(now.right, now.edges.positions(Side::right));
 }
 
-void ReferenceFrontend::search_in_time(Rig& base, const TemporalSearch& search, TemporalMatches& matches) {
-  const ReferenceRig &before = own(base), &now = rigs_.current();
+void ReferenceFrontend::search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) {
+  const ReferenceFrameEdges &before = own(base), &now = rigs_.current();
   auto result = reference::temporal_match(
       search, now.edges,
       {before.left_descriptions, now.left_descriptions, calibration_.left.width, calibration_.left.height},
@@ -155,7 +155,7 @@ void ReferenceFrontend::search_in_time(Rig& base, const TemporalSearch& search, 
 
 namespace {
 
-reference::WideEdges describe_widely(const ReferenceRig& rig, const WideSubset& subset) {
+reference::WideEdges describe_widely(const ReferenceFrameEdges& rig, const WideSubset& subset) {
   if (rig.is_restored) return {rig.edges, 1, rig.wide};
   return {subset.edges, subset.step,
           reference::wide_descriptions(reference::shrink(rig.left.view()), subset.edges, subset.step)};
@@ -163,13 +163,13 @@ reference::WideEdges describe_widely(const ReferenceRig& rig, const WideSubset& 
 
 }  // namespace
 
-TemporalMatches ReferenceFrontend::search_globally(const Rig& base, const WideSubset& of_base,
+TemporalMatches ReferenceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
                                                    const WideSubset& of_current) {
   return reference::wide_matches(describe_widely(own(base), of_base), describe_widely(rigs_.current(), of_current));
 }
 
-KeptRig ReferenceFrontend::keep() {
-  const ReferenceRig& now = rigs_.current();
+KeptFrameEdges ReferenceFrontend::keep() {
+  const ReferenceFrameEdges& now = rigs_.current();
   const reference::WideEdges described = describe_widely(now, about(2 * config_.temporal.wide_edges, now));
   std::vector<std::int32_t> itself(now.edges.size());
   std::iota(itself.begin(), itself.end(), 0);
@@ -177,8 +177,8 @@ KeptRig ReferenceFrontend::keep() {
                     now.right_descriptions.patches);
 }
 
-void ReferenceFrontend::load(const KeptRig& kept, Rig& restored) {
-  ReferenceRig& rig = own(restored);
+void ReferenceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
+  ReferenceFrameEdges& rig = own(restored);
   KeptPatches patches = unpack_patches(kept);
   const std::vector<std::uint8_t> no_sift(kept.edges.size() * kEdgeSiftBytes);
   rig.left_descriptions = {std::move(patches.left), no_sift};

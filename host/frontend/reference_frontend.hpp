@@ -13,7 +13,7 @@
 namespace quadedge::frontend {
 
 /// A rig with its images and the descriptors of its stereo edges.
-struct ReferenceRig : Rig {
+struct ReferenceFrameEdges : FrameEdges {
   Image left, right;
   reference::EdgeDescriptions left_descriptions, right_descriptions;
   std::vector<std::uint8_t> wide;  ///< wide descriptors of all edges, only of a restored rig
@@ -24,25 +24,26 @@ class ReferenceFrontend : public StagedFrontend {
  public:
   ReferenceFrontend(const StereoRig& rig, const Config& config);
 
-  KeptRig keep() override;
+  KeptFrameEdges keep() override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  Rig& start(const StereoFrame& frame) override;
-  void detect(Rig& current) override;
-  void describe(const Rig& current, bool by_sift) override;
-  RelaxationTally find_stereo_edges(Rig& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
+  FrameEdges& start(const StereoFrame& frame) override;
+  void detect(FrameEdges& current) override;
+  void describe(const FrameEdges& current, bool by_sift) override;
+  RelaxationTally find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
                                     const std::optional<CoarseDisparityArguments>& coarse) override;
-  void finish(Rig& current) override;
+  void finish(FrameEdges& current) override;
   void tap_stereo() override;
-  void describe_by_sift(Rig& rig) override;
-  void search_in_time(Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  TemporalMatches search_globally(const Rig& base, const WideSubset& of_base, const WideSubset& of_current) override;
-  std::shared_ptr<Rig> spare() override { return rigs_.restored(); }
-  void load(const KeptRig& kept, Rig& restored) override;
-  RigHandle current_handle() const override { return rigs_.current_handle(); }
-  ReferenceRig& own(const Rig& rig) override { return rigs_.own(rig); }
+  void describe_by_sift(FrameEdges& rig) override;
+  void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
+  TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
+                                  const WideSubset& of_current) override;
+  std::shared_ptr<FrameEdges> spare() override { return rigs_.restored(); }
+  void load(const KeptFrameEdges& kept, FrameEdges& restored) override;
+  FrameEdgesHandle current_handle() const override { return rigs_.current_handle(); }
+  ReferenceFrameEdges& own(const FrameEdges& rig) override { return rigs_.own(rig); }
   void tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result);
 
   reference::EdgeThreshold threshold_;
@@ -53,7 +54,7 @@ class ReferenceFrontend : public StagedFrontend {
   reference::CandidateScores scores_;
   reference::StereoClusters clusters_;
   reference::StereoRelaxation relaxation_;
-  RigPool<ReferenceRig> rigs_;
+  FrameEdgesPool<ReferenceFrameEdges> rigs_;
 };
 
 }  // namespace quadedge::frontend

@@ -14,10 +14,10 @@ StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
       range_(rig, config),
       gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()) {}
 
-RigHandle StagedFrontend::process(const StereoFrame& frame) {
+FrameEdgesHandle StagedFrontend::process(const StereoFrame& frame) {
   counts_ = {};
   searches_ = 0;
-  Rig& current = start(frame);
+  FrameEdges& current = start(frame);
   rectification_.start_frame();
   do {
     detect(current);
@@ -37,7 +37,7 @@ RigHandle StagedFrontend::process(const StereoFrame& frame) {
   return current_handle();
 }
 
-bool StagedFrontend::search_stereo(Rig& current) {
+bool StagedFrontend::search_stereo(FrameEdges& current) {
   const auto coarse = gate_.is_open() ? coarse_search(calibration_, range_.geometry()) : std::nullopt;
   const RelaxationTally tally =
       find_stereo_edges(current, corrected_geometry(), range_.probe(counts_.edges_left), coarse);
@@ -45,8 +45,8 @@ bool StagedFrontend::search_stereo(Rig& current) {
   return gate_.suffices(tally) && range_suffices;
 }
 
-void StagedFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
-  Rig& base = own(base_rig);
+void StagedFrontend::match(const FrameEdges& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
+  FrameEdges& base = own(base_rig);
   if (tap_ != nullptr || temporal_limits(config_.temporal, search).sift_max > 0) {
     describe_by_sift(base);
     describe_by_sift(own(*current_handle()));
@@ -58,11 +58,11 @@ void StagedFrontend::match(const Rig& base_rig, const TemporalSearch& search, Te
   if (tap_ != nullptr) tap_->quads(matches);
 }
 
-void StagedFrontend::match_globally(const Rig& base, int edges, TemporalMatches& matches) {
+void StagedFrontend::match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) {
   matches = search_globally(own(base), about(edges, base), about(2 * edges, *current_handle()));
 }
 
-void StagedFrontend::match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) {
+void StagedFrontend::match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) {
   matches.clear();
   own(base);
   const StereoEdges before = edges_of(base.edges, among.of_base),
@@ -73,9 +73,9 @@ void StagedFrontend::match_globally(const Rig& base, const GlobalSearch& among, 
   renumber(among.of_current, matches.current);
 }
 
-RigHandle StagedFrontend::restore(const KeptRig& kept) {
+FrameEdgesHandle StagedFrontend::restore(const KeptFrameEdges& kept) {
   if (tap_ != nullptr) throw std::logic_error("a restored rig has no images, which a tap needs");
-  const std::shared_ptr<Rig> restored = spare();
+  const std::shared_ptr<FrameEdges> restored = spare();
   restored->start(kept.frame);
   restored->edges = kept.edges;
   restored->edges_spacing = kept.edges_spacing;

@@ -20,54 +20,58 @@ struct WideSubset {
 /// Decides what is computed, how often a frame is searched, and which counts it has.
 class StagedFrontend : public Frontend {
  public:
-  RigHandle process(const StereoFrame& frame) override;
-  void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_globally(const Rig& base, int edges, TemporalMatches& matches) override;
-  void match_globally(const Rig& base, const GlobalSearch& among, TemporalMatches& matches) override;
-  RigHandle restore(const KeptRig& kept) override;
+  FrameEdgesHandle process(const StereoFrame& frame) override;
+  void match(const FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
+  void match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) override;
+  void match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) override;
+  FrameEdgesHandle restore(const KeptFrameEdges& kept) override;
 
  protected:
   StagedFrontend(const StereoRig& rig, const Config& config);
 
   /// Starts the next rig, with the undistorted images of `frame`.
-  virtual Rig& start(const StereoFrame& frame) = 0;
+  virtual FrameEdges& start(const StereoFrame& frame) = 0;
   /// Detects and selects the edges of both images. Sets their spacing and all counts of edges.
-  virtual void detect(Rig& current) = 0;
+  virtual void detect(FrameEdges& current) = 0;
   /// Describes the edges of both images by patches and, if asked, by SIFT.
-  virtual void describe(const Rig& current, bool by_sift) = 0;
+  virtual void describe(const FrameEdges& current, bool by_sift) = 0;
   /// The stereo cascade, from the candidates to the stereo edges. \param coarse search of the coarse disparity that is
   /// consulted, if any
-  virtual RelaxationTally find_stereo_edges(Rig& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
+  virtual RelaxationTally find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry,
+                                            const DisparityProbe& probe,
                                             const std::optional<CoarseDisparityArguments>& coarse) = 0;
   /// Describes the stereo edges for the searches in time.
-  virtual void finish(Rig& current) = 0;
+  virtual void finish(FrameEdges& current) = 0;
   /// Passes the stereo cascade to the tap, up to the last filter.
   virtual void tap_stereo() = 0;
   /// Computes SIFT descriptors of a rig's stereo edges, unless they exist.
-  virtual void describe_by_sift(Rig& rig) = 0;
-  virtual void search_in_time(Rig& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
+  virtual void describe_by_sift(FrameEdges& rig) = 0;
+  virtual void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Matches by wide descriptors. Of a restored base all edges take part.
-  virtual TemporalMatches search_globally(const Rig& base, const WideSubset& of_base, const WideSubset& of_current) = 0;
+  virtual TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
+                                          const WideSubset& of_current) = 0;
   /// A rig that is not in use, for one that is restored.
-  virtual std::shared_ptr<Rig> spare() = 0;
+  virtual std::shared_ptr<FrameEdges> spare() = 0;
   /// Takes over the kept descriptions of a rig whose edges are restored.
-  virtual void load(const KeptRig& kept, Rig& restored) = 0;
-  virtual RigHandle current_handle() const = 0;
+  virtual void load(const KeptFrameEdges& kept, FrameEdges& restored) = 0;
+  virtual FrameEdgesHandle current_handle() const = 0;
   /// The rig, to be changed. \throws std::invalid_argument for a rig of another front end
-  virtual Rig& own(const Rig& rig) = 0;
+  virtual FrameEdges& own(const FrameEdges& rig) = 0;
 
   EpipolarGeometry corrected_geometry() const {
     return corrected(range_.geometry(), rectification_.error(), calibration_.left);
   }
   /// All edges of a rig that a search for about `wanted` uses.
-  static WideSubset about(int wanted, const Rig& rig) { return {rig.edges, wide_step(rig.edges.size(), wanted)}; }
+  static WideSubset about(int wanted, const FrameEdges& rig) {
+    return {rig.edges, wide_step(rig.edges.size(), wanted)};
+  }
 
   Config config_;
   RangeFollower range_;
 
  private:
   /// Runs the stereo cascade. \returns false if the frame is to be searched again
-  bool search_stereo(Rig& current);
+  bool search_stereo(FrameEdges& current);
 
   CoarseGate gate_;
 };

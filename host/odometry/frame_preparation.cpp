@@ -20,7 +20,7 @@ FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& r
       rig_monitor_(rig) {}
 
 /// The previous rig is recycled unless somebody holds it.
-frontend::RigHandle FramePreparation::process(const StereoFrame& frame) {
+frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame) {
   current_ = nullptr;
   current_ = frontend_->process(frame);
   return current_;

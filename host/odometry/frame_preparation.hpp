@@ -37,7 +37,7 @@ class FramePreparation {
   /// \throws DataError for images that do not fit the rig
   void check(const StereoFrame& frame) const { recorded_.check(frame.left, frame.right); }
   /// Turns the images into the front end's current rig.
-  frontend::RigHandle process(const StereoFrame& frame);
+  frontend::FrameEdgesHandle process(const StereoFrame& frame);
   bool has_enough_edges() const { return static_cast<int>(current_->edges.size()) >= min_edges_; }
   /// Compares the images with the calibration; may run beside the search for matches.
   rig::RigReport judge(const StereoFrame& frame);
@@ -60,7 +60,7 @@ class FramePreparation {
   std::set<WarningKind> reported_;
   std::unique_ptr<frontend::Frontend> frontend_;
   rig::RigMonitor rig_monitor_;
-  frontend::RigHandle current_;
+  frontend::FrameEdgesHandle current_;
 };
 
 }  // namespace quadedge::odometry

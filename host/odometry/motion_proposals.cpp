@@ -34,7 +34,7 @@ void collect_free(const ExplainedCells& cells, const std::vector<float>& x, cons
 
 }  // namespace
 
-StepHandle MotionFits::new_step(const frontend::RigHandle& base) {
+StepHandle MotionFits::new_step(const frontend::FrameEdgesHandle& base) {
   StepHandle step = steps_.take();
   step->base = base;
   return step;
@@ -51,7 +51,7 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
   pose_ms_ += milliseconds_since(start);
 }
 
-const pose::MeasuredEdges& MotionFits::measured(const frontend::Rig& rig) const {
+const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& rig) const {
   return rig.measured_edges(calibration(), kMinEpipolarAngle);
 }
 

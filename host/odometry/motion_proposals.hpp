@@ -23,7 +23,7 @@ class MotionFits {
   MotionFits(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
 
   /// Returns a step from `base` without matches.
-  StepHandle new_step(const frontend::RigHandle& base);
+  StepHandle new_step(const frontend::FrameEdgesHandle& base);
 
   /// Estimates the motion of the step's matches; covariance and offset only for RefinementGoal::pose_and_covariance,
   /// which a confirmed motion needs. \param initial a hypothesis besides the samples, current_from_base
@@ -33,7 +33,7 @@ class MotionFits {
   double take_pose_ms() { return std::exchange(pose_ms_, 0); }
 
   /// The rig's edges, measured with calibration().
-  const pose::MeasuredEdges& measured(const frontend::Rig& rig) const;
+  const pose::MeasuredEdges& measured(const frontend::FrameEdges& rig) const;
   /// The calibration, corrected by the disparity offset estimated so far.
   const StereoRig& calibration() const { return offset_.rig(); }
 

@@ -142,7 +142,7 @@ void MotionSearch::use_support_of_base(const MotionQuery& query, const PoseConfi
 
 /// Matches all edges of a rig within a few pixels of the positions that a motion predicts, and repeats this with the
 /// motion found until the predicted positions no longer change.
-StepHandle MotionSearch::confirm_with(const frontend::RigHandle& base, const MotionQuery& query,
+StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query,
                                       const PoseConfig& limits, Eigen::Isometry3d current_from_base,
                                       const Others& others) {
   const auto predict = [&](const Eigen::Isometry3d& motion, int every, TemporalSearch& search) {

@@ -64,7 +64,7 @@ class MotionSearch {
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                      const MotionStep* known);
   void use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
-  StepHandle confirm_with(const frontend::RigHandle& base, const MotionQuery& query, const PoseConfig& limits,
+  StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
                           Eigen::Isometry3d current_from_base, const Others& others);
   std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;
   Selection choose(const std::vector<Verdict>& verdicts, const Candidates& candidates, const MotionQuery& query) const;

@@ -81,7 +81,8 @@ void MotionStep::clear() {
   is_checked = false;
 }
 
-Eigen::Isometry3d motion_since(const frontend::RigHandle& rig, const MotionQuery& query, const MotionStep& step) {
+Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& rig, const MotionQuery& query,
+                               const MotionStep& step) {
   if (step.base == rig) return step.motion.current_from_previous;
   return step.motion.current_from_previous * (rig == query.base ? query.base_from_key.inverse() : query.base_from_key);
 }

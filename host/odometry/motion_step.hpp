@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/pool.hpp"
-#include "frontend/rig.hpp"
+#include "frontend/frame_edges.hpp"
 #include "odometry/motion_selection.hpp"
 #include "pose/motion.hpp"
 #include "quadedge/camera.hpp"
@@ -17,9 +17,9 @@ namespace quadedge::odometry {
 
 /// What is known about the current frame before its edges are matched with earlier ones.
 struct MotionQuery {
-  frontend::RigHandle current;
-  frontend::RigHandle base;  ///< the rig that the motion starts from
-  frontend::RigHandle key;   ///< the key rig, preferred while in view; null if the base is the key rig
+  frontend::FrameEdgesHandle current;
+  frontend::FrameEdgesHandle base;  ///< the rig that the motion starts from
+  frontend::FrameEdgesHandle key;   ///< the key rig, preferred while in view; null if the base is the key rig
   Eigen::Isometry3d base_from_key = Eigen::Isometry3d::Identity();  ///< valid if `key` is not null
   std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
   std::uint64_t seed = 0;
@@ -70,7 +70,7 @@ class ExplainedCells {
 
 /// Quads between an earlier rig and the current one, and the motion that they support.
 struct MotionStep {
-  frontend::RigHandle base;  ///< the earlier rig
+  frontend::FrameEdgesHandle base;  ///< the earlier rig
   TemporalMatches matches;
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
@@ -95,7 +95,7 @@ struct MotionStep {
 };
 
 /// A step's motion since `rig`, which, like the step's own rig, is the query's base or key.
-Eigen::Isometry3d motion_since(const frontend::RigHandle& rig, const MotionQuery& query, const MotionStep& step);
+Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& rig, const MotionQuery& query, const MotionStep& step);
 
 /// A step from a pool.
 using StepHandle = Pool<MotionStep>::Handle;

@@ -8,9 +8,9 @@
 #include "common/timing.hpp"
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
-#include "odometry/current_rig.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "odometry/frame_preparation.hpp"
+#include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
@@ -82,7 +82,7 @@ class StereoOdometry::Implementation {
     static const StereoEdges none;
     return current_ ? current_->edges : none;
   }
-  odometry::CurrentRig current_rig() const { return {preparation_.frontend(), current_, offset_}; }
+  odometry::LatestFrame latest_frame() const { return {preparation_.frontend(), current_, offset_}; }
   const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
   Device& device() const { return device_; }
@@ -107,8 +107,8 @@ class StereoOdometry::Implementation {
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
-  frontend::RigHandle current_;  ///< of the last frame tracked; null before the first frame
-  odometry::StepHandle step_;    ///< its motion; null if none was searched for
+  frontend::FrameEdgesHandle current_;  ///< of the last frame tracked; null before the first frame
+  odometry::StepHandle step_;           ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
   std::vector<double> distances_;  ///< buffer of median_parallax()
 };
@@ -337,7 +337,7 @@ StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
-odometry::CurrentRig StereoOdometry::current_rig() const { return implementation_->current_rig(); }
+odometry::LatestFrame StereoOdometry::latest_frame() const { return implementation_->latest_frame(); }
 const StereoRig& StereoOdometry::rig() const { return implementation_->rig(); }
 const Config& StereoOdometry::config() const { return implementation_->config(); }
 const DeviceInfo& StereoOdometry::device() const { return implementation_->device().info(); }

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "frontend/rig.hpp"
+#include "frontend/frame_edges.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
@@ -60,10 +60,10 @@ class KeyRig {
  public:
   /// No key rig.
   KeyRig() = default;
-  KeyRig(frontend::RigHandle rig, pose::UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
+  KeyRig(frontend::FrameEdgesHandle rig, pose::UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
       : rig_(std::move(rig)), pose_(std::move(pose)), origin_(origin) {}
 
-  const frontend::RigHandle& rig() const { return rig_; }
+  const frontend::FrameEdgesHandle& rig() const { return rig_; }
   /// Frame number of the rig; -1 if there is none.
   int frame() const { return rig_ ? rig_->frame : -1; }
   const Eigen::Isometry3d& world_from_left() const { return pose_.fixed_from_camera; }
@@ -75,7 +75,7 @@ class KeyRig {
   bool needs_replacement(const KeyRigFitness& fitness, const OdometryConfig& config);
 
  private:
-  frontend::RigHandle rig_;
+  frontend::FrameEdgesHandle rig_;
   pose::UncertainPose pose_;  ///< in the world
   PoseOrigin origin_ = PoseOrigin::found;
   int first_quads_ = -1;  ///< of the first frame located against it
@@ -83,14 +83,14 @@ class KeyRig {
 
 /// The rig that the next frame is matched with: that of the last frame with a pose, which may be the key rig.
 struct BaseRig {
-  frontend::RigHandle rig;      ///< null before the first frame with edges
-  pose::RelativePose from_key;  ///< base_from_key, left cameras
-  pose::UncertainPose in_key;   ///< the same motion, as key_from_base
+  frontend::FrameEdgesHandle rig;  ///< null before the first frame with edges
+  pose::RelativePose from_key;     ///< base_from_key, left cameras
+  pose::UncertainPose in_key;      ///< the same motion, as key_from_base
 };
 
 /// The latest frame that has edges but no pose.
 struct LostRig {
-  frontend::RigHandle rig;
+  frontend::FrameEdgesHandle rig;
   Eigen::Isometry3d world_from_left;  ///< predicted
 };
 
@@ -107,7 +107,7 @@ struct TrackingState {
   pose::UncertainPose world_from_base() const { return key.pose() * base.in_key; }
 
   /// Makes a rig the key rig and the base.
-  void set_key(frontend::RigHandle rig, const pose::UncertainPose& pose, PoseOrigin origin = PoseOrigin::found) {
+  void set_key(frontend::FrameEdgesHandle rig, const pose::UncertainPose& pose, PoseOrigin origin = PoseOrigin::found) {
     key = KeyRig(rig, pose, origin);
     base = {std::move(rig), {}, {}};
   }

@@ -6,8 +6,8 @@
 
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "quadedge/edge_map.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/point_cloud.hpp"
 
 namespace quadedge {
 namespace {
@@ -45,7 +45,7 @@ struct Place {
   std::size_t point;
 };
 
-std::string images_text(const StereoRig& rig, const std::vector<MapView>& views,
+std::string images_text(const StereoRig& rig, const std::vector<CloudView>& views,
                         const std::vector<std::vector<Place>>& places) {
   std::string text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then POINTS2D[] as X Y POINT3D_ID\n";
   char part[80];
@@ -65,8 +65,8 @@ std::string images_text(const StereoRig& rig, const std::vector<MapView>& views,
 }
 
 /// Mean distance of a point from where it was seen [px].
-double reprojection_error(const StereoRig& rig, const std::vector<MapView>& views, const MapPoint& point,
-                          const std::vector<MapSighting>& sightings) {
+double reprojection_error(const StereoRig& rig, const std::vector<CloudView>& views, const CloudPoint& point,
+                          const std::vector<CloudSighting>& sightings) {
   double sum = 0;
   for (const auto& seen : sightings) {
     const Eigen::Vector3d at = views[static_cast<std::size_t>(seen.view)].world_from_left.inverse() * point.position;
@@ -77,23 +77,23 @@ double reprojection_error(const StereoRig& rig, const std::vector<MapView>& view
 
 }  // namespace
 
-void write_colmap(const std::string& folder, const StereoRig& rig, const EdgeMap& map) {
+void write_colmap(const std::string& folder, const StereoRig& rig, const PointCloud& cloud) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw DataError(folder + ": the folder cannot be made: " + error.message());
-  const auto points = map.points();
-  const auto sightings = map.sightings();
-  std::vector<std::vector<Place>> places(map.views().size());
+  const auto points = cloud.points();
+  const auto sightings = cloud.sightings();
+  std::vector<std::vector<Place>> places(cloud.views().size());
   std::string text = "# POINT3D_ID X Y Z R G B ERROR TRACK[] as IMAGE_ID POINT2D_IDX\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const MapPoint& point = points[i];
+    const CloudPoint& point = points[i];
     text += std::to_string(i + 1);
     for (int k = 0; k < 3; ++k) text += " " + data::format_exact(point.position[k]);
     const std::string grey = " " + std::to_string(std::lround(point.grey));
     text += grey + grey + grey;
-    static const std::vector<MapSighting> none;
+    static const std::vector<CloudSighting> none;
     const auto& seen = sightings.empty() ? none : sightings[i];
-    text += " " + data::format_exact(reprojection_error(rig, map.views(), point, seen));
+    text += " " + data::format_exact(reprojection_error(rig, cloud.views(), point, seen));
     for (const auto& sighting : seen) {
       auto& in_image = places[static_cast<std::size_t>(sighting.view)];
       text += " " + std::to_string(left_image(static_cast<std::size_t>(sighting.view))) + " " +
@@ -104,7 +104,7 @@ void write_colmap(const std::string& folder, const StereoRig& rig, const EdgeMap
   }
   data::write_atomically(folder + "/cameras.txt", "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n" +
                                                       camera_row(1, rig.left) + camera_row(2, rig.right));
-  data::write_atomically(folder + "/images.txt", images_text(rig, map.views(), places));
+  data::write_atomically(folder + "/images.txt", images_text(rig, cloud.views(), places));
   data::write_atomically(folder + "/points3D.txt", text);
 }
 

@@ -100,8 +100,9 @@ std::string report_json(const RunRecord& run) {
   report["memory_mb"] = {{"host_peak", run.host_peak_mb}, {"device_peak", run.device_peak_mb}};
   report["counts"] = Json::object();
   for (const auto& [name, value] : count_medians(run.frames)) report["counts"][name] = to_json(value);
-  if (run.map) {
-    report["map"] = {{"points", run.map->points}, {"key_rigs", run.map->views}, {"dropped", run.map->dropped}};
+  if (run.points) {
+    report["points"] = {
+        {"count", run.points->points}, {"key_rigs", run.points->views}, {"dropped", run.points->dropped}};
   }
   if (run.loops) report["loops"] = loops_json(*run.loops);
   if (run.accuracy) {

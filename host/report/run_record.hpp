@@ -38,8 +38,8 @@ struct DeviceTrust {
   SelfTestResult test;
 };
 
-/// The map that a run wrote.
-struct MapFacts {
+/// The points that a run wrote.
+struct PointFacts {
   std::size_t points = 0;
   std::size_t views = 0;    ///< key stereo rigs that it was made from
   std::size_t dropped = 0;  ///< points dropped because memory was full
@@ -76,7 +76,7 @@ struct RunRecord {
   double host_peak_mb = 0, device_peak_mb = 0;
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
   std::vector<std::vector<StageTime>> kernel_times;
-  std::optional<MapFacts> map;                                ///< only if requested
+  std::optional<PointFacts> points;                           ///< only if requested
   std::optional<LoopFacts> loops;                             ///< only with --loops
   std::string truth_file;                                     ///< empty without ground truth
   std::optional<TrajectoryEvaluation> accuracy;               ///< only with ground truth

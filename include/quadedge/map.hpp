@@ -15,17 +15,17 @@
 
 namespace quadedge {
 
-namespace map {
+namespace places {
 struct Place;
 struct SavedPlaces;
-}  // namespace map
+}  // namespace places
 
 /// Key stereo rigs with their poses in the frame of a map, and the cameras that recorded them. Copies share the rigs.
 /// Map::saved() makes one, Localiser locates frames in it.
 class SavedMap {
  public:
   /// \param header everything but the places \param places in the order of the header's poses
-  SavedMap(map::SavedPlaces header, std::vector<map::Place> places);
+  SavedMap(places::SavedPlaces header, std::vector<places::Place> places);
 
   std::size_t key_rigs() const;
   /// The pinhole cameras of the recording, without undistortion tables.
@@ -37,10 +37,10 @@ class SavedMap {
   /// \param source name for messages \throws DataError for anything that bytes() does not write
   static SavedMap from_bytes(std::string_view bytes, const std::string& source);
 
-  const map::SavedPlaces& places() const { return *places_; }
+  const places::SavedPlaces& places() const { return *places_; }
 
  private:
-  std::shared_ptr<const map::SavedPlaces> places_;
+  std::shared_ptr<const places::SavedPlaces> places_;
 };
 
 /// Writes a map file, completely or not at all. \throws DataError if it cannot be written, or would have more than 2

@@ -8,10 +8,10 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
-#include "quadedge/edge_map.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/point_cloud.hpp"
 
 namespace quadedge {
 
@@ -38,7 +38,7 @@ struct StereoMatches {
   StereoEdges edges;
   /// One per stereo edge, in the left camera frame; nothing if the disparity does not correspond to a point in front of
   /// both cameras.
-  std::vector<std::optional<MapPoint>> points;
+  std::vector<std::optional<CloudPoint>> points;
   StereoRig rig;  ///< the cameras that edge positions refer to; see StereoOdometry::rig()
   std::vector<Warning> warnings;
 };

@@ -127,7 +127,7 @@ struct FrameDetails {
 class Tap;
 
 namespace odometry {
-struct CurrentRig;
+struct LatestFrame;
 }
 
 /// Tracks the camera through one sequence. Deterministic: identical frames, device and configuration give identical
@@ -161,8 +161,8 @@ class StereoOdometry {
   /// The device that it runs on.
   const DeviceInfo& device() const;
 
-  /// The frame tracked last, as the map sees it (host/odometry/current_rig.hpp).
-  odometry::CurrentRig current_rig() const;
+  /// The frame tracked last, as the map sees it (host/odometry/latest_frame.hpp).
+  odometry::LatestFrame latest_frame() const;
 
   /// Observes all filters in the following frames; null stops. A tap cannot change results.
   void set_tap(Tap* tap);

@@ -265,7 +265,7 @@ def bag_command(program):
 
 def test_from_the_shell(room_bag, bag_command, command, tmp_path):
     out = tmp_path / "out"
-    done = bag_command(room_bag, "-o", out, "--preset", "fast", "--", "--map", tmp_path / "map.ply")
+    done = bag_command(room_bag, "-o", out, "--preset", "fast", "--", "--points", tmp_path / "map.ply")
     assert done.returncode == 0, done.stderr
     assert "6 pairs" in done.stdout and "tracked    6 of 6" in done.stdout
     recording = quadedge.bag.open_bag(room_bag)

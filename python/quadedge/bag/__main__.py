@@ -25,7 +25,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="python -m quadedge.bag",
         description="Tracks a stereo recording of ROS 1 (.bag), ROS 2 (a folder) or MCAP. Writes the results of "
                     "`quadedge run` to OUT, and OUT/odometry, an MCAP of nav_msgs/Odometry with covariances.",
-        epilog="Options after -- are passed to `quadedge run`: python -m quadedge.bag flight.bag -o out -- --map m.ply")
+        epilog="Options after -- are passed to `quadedge run`: python -m quadedge.bag f.bag -o out -- --points m.ply")
     parser.add_argument("bag", nargs="+", help="the recording; a ROS 1 recording may consist of several .bag files")
     parser.add_argument("-o", "--output", metavar="OUT",
                         help="results folder; without it the recording is described but not tracked")

@@ -3,7 +3,7 @@
 #include "common/images.hpp"
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
-#include "map/measured_points.hpp"
+#include "points/measured_points.hpp"
 
 namespace quadedge {
 namespace {
@@ -22,11 +22,11 @@ StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Devic
   const auto frontend = frontend::make_frontend(matches.rig, device, config, &matches.warnings);
   matches.edges = frontend->process(frame)->edges;
   matches.left_edges = frontend->edges(Side::left);
-  for (const auto& point : map::measure_points(matches.rig, matches.edges, frame.left, config)) {
+  for (const auto& point : points::measure_points(matches.rig, matches.edges, frame.left, config)) {
     auto& result = matches.points.emplace_back();
     if (point)
-      result = MapPoint{point->position, point->tangent.cast<float>(), point->grey,
-                        map::largest_sigma(point->information), 1};
+      result = CloudPoint{point->position, point->tangent.cast<float>(), point->grey,
+                          points::largest_sigma(point->information), 1};
   }
   return matches;
 }

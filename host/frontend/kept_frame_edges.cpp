@@ -1,4 +1,4 @@
-#include "frontend/kept_rig.hpp"
+#include "frontend/kept_frame_edges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -52,17 +52,18 @@ void restore_patches(const std::uint8_t* bytes, std::size_t first, std::int8_t* 
 
 }  // namespace
 
-std::size_t KeptRig::bytes() const {
+std::size_t KeptFrameEdges::bytes() const {
   constexpr std::size_t kColumns = 10;
-  return sizeof(KeptRig) + edges.size() * kColumns * sizeof(float) + patches.size() + wide.size();
+  return sizeof(KeptFrameEdges) + edges.size() * kColumns * sizeof(float) + patches.size() + wide.size();
 }
 
-KeptRig keep_edges(const Rig& rig, const DescribedRows& described, const std::vector<std::int8_t>& left_patches,
-                   const std::vector<std::int32_t>& left_entry, const std::vector<std::int8_t>& right_patches) {
+KeptFrameEdges keep_edges(const FrameEdges& rig, const DescribedRows& described,
+                          const std::vector<std::int8_t>& left_patches, const std::vector<std::int32_t>& left_entry,
+                          const std::vector<std::int8_t>& right_patches) {
   const std::size_t rows = described.wide.size() / kWideBytes, count = std::min(rows, kKeptEdges);
   const auto row_of = [&](std::size_t k) { return k * rows / count; };
   const auto edge_of = [&](std::size_t k) { return row_of(k) * static_cast<std::size_t>(described.step); };
-  KeptRig kept;
+  KeptFrameEdges kept;
   kept.frame = rig.frame;
   kept.edges_spacing = rig.edges_spacing;
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
@@ -94,7 +95,7 @@ KeptRig keep_edges(const Rig& rig, const DescribedRows& described, const std::ve
   return kept;
 }
 
-KeptPatches unpack_patches(const KeptRig& kept) {
+KeptPatches unpack_patches(const KeptFrameEdges& kept) {
   const std::size_t count = kept.edges.size();
   KeptPatches patches{std::vector<std::int8_t>(count * kEdgePatchBytes),
                       std::vector<std::int8_t>(count * kEdgePatchBytes)};
@@ -106,7 +107,7 @@ KeptPatches unpack_patches(const KeptRig& kept) {
   return patches;
 }
 
-std::vector<std::uint8_t> unpack_wide(const KeptRig& kept) {
+std::vector<std::uint8_t> unpack_wide(const KeptFrameEdges& kept) {
   std::vector<std::uint8_t> wide(kept.edges.size() * kWideBytes);
   for (std::size_t i = 0; i < wide.size(); ++i)
     wide[i] = static_cast<std::uint8_t>(kWideUnit * nibble(kept.wide.data(), i));

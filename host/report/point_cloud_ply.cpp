@@ -1,10 +1,10 @@
-/// \file map_ply.cpp  Edges in space as a PLY file.
+/// \file point_cloud_ply.cpp  Edges in space as a PLY file.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
 #include "data/atomic_file.hpp"
-#include "quadedge/edge_map.hpp"
+#include "quadedge/point_cloud.hpp"
 
 namespace quadedge {
 namespace {
@@ -19,7 +19,7 @@ void append(std::string& bytes, T value) {
 
 }  // namespace
 
-void write_ply(const std::string& file, const std::vector<MapPoint>& points) {
+void write_ply(const std::string& file, const std::vector<CloudPoint>& points) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment edges in space, metres\nelement vertex " +
                       std::to_string(points.size()) + "\n";
   for (const char* name : {"x", "y", "z"}) bytes += std::string("property double ") + name + "\n";

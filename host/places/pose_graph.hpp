@@ -9,7 +9,7 @@
 #include "quadedge/config.hpp"
 #include "quadedge/trajectory.hpp"
 
-namespace quadedge::map {
+namespace quadedge::places {
 
 /// A measured motion between two nodes. Edge errors are independent of those of other motions, calibration errors are
 /// the same in all.
@@ -86,4 +86,4 @@ class PoseGraph {
   Eigen::Matrix<double, kRigErrors, 1> rig_sigma_;
 };
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

@@ -1,5 +1,5 @@
 #pragma once
-/// \file rig.hpp  Handles to the stereo edges of a frame, valid for as long as they are held.
+/// \file frame_edges.hpp  Handles to the stereo edges of a frame, valid for as long as they are held.
 
 #include <Eigen/Core>
 #include <limits>
@@ -14,9 +14,9 @@
 namespace quadedge::frontend {
 
 /// The stereo rig of one frame. Each front end derives a class with the data it needs to match the rig's edges later.
-class Rig {
+class FrameEdges {
  public:
-  virtual ~Rig() = default;
+  virtual ~FrameEdges() = default;
 
   int frame = -1;     ///< frame number, counted from 0 by the front end
   StereoEdges edges;  ///< on the host
@@ -57,13 +57,13 @@ class Rig {
 };
 
 /// Keeps a rig; its memory is reused when the last handle is released. Must not outlive the device.
-using RigHandle = std::shared_ptr<const Rig>;
+using FrameEdgesHandle = std::shared_ptr<const FrameEdges>;
 
 /// The rigs of a front end. Their number is the maximum ever held at once, so that nothing is allocated in steady
 /// state.
 /// \tparam T the rig type of the front end
 template <class T>
-class RigPool {
+class FrameEdgesPool {
  public:
   /// Returns the rig for the next frame: one that is no longer held, with its memory unchanged, or a new one
   /// constructed from `arguments`.
@@ -79,10 +79,10 @@ class RigPool {
     return rigs_[spare(current_, arguments...)];
   }
   T& current() { return *rigs_.at(current_); }
-  RigHandle current_handle() const { return rigs_.at(current_); }
+  FrameEdgesHandle current_handle() const { return rigs_.at(current_); }
 
   /// The front end's own type of a rig that it has created. \throws std::invalid_argument for any other rig
-  T& own(const Rig& rig) {
+  T& own(const FrameEdges& rig) {
     for (const auto& own : rigs_)
       if (own.get() == &rig) return *own;
     throw std::invalid_argument("a rig of another front end");

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace quadedge::map {
+namespace quadedge::points {
 
 /// Finds the edges near a position. The side of a cell is 2 px, the search radius around an edge.
 class EdgeGrid {
@@ -46,4 +46,4 @@ class EdgeGrid {
   std::vector<std::size_t> edges_;
 };
 
-}  // namespace quadedge::map
+}  // namespace quadedge::points

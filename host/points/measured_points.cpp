@@ -1,4 +1,4 @@
-#include "map/measured_points.hpp"
+#include "points/measured_points.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "pose/oriented_point.hpp"
 #include "pose/residuals.hpp"
 
-namespace quadedge::map {
+namespace quadedge::points {
 namespace {
 
 constexpr double kEdgeReach = 0.5;  // half length of the segment of curve that an edge represents [px]
@@ -64,4 +64,4 @@ float largest_sigma(const Eigen::Matrix3d& information) {
   return static_cast<float>(1 / std::sqrt(solver.eigenvalues()[0]));
 }
 
-}  // namespace quadedge::map
+}  // namespace quadedge::points

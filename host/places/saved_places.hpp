@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "map/place_store.hpp"
+#include "places/place_store.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
-namespace quadedge::map {
+namespace quadedge::places {
 
 struct SavedPlaces {
   StereoRig rig;  ///< without undistortion tables and masks
@@ -31,4 +31,4 @@ void check_map_config(const Config& config);
 /// of a map and the frames located in it.
 std::vector<std::pair<std::string, std::string>> descriptor_settings(const Config& config);
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

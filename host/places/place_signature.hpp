@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 
 #include "common/layouts.hpp"
-#include "frontend/kept_rig.hpp"
+#include "frontend/kept_frame_edges.hpp"
 
-namespace quadedge::map {
+namespace quadedge::places {
 
 constexpr int kWordNumbers = 16;  ///< numbers of a descriptor after its projection
 constexpr int kWords = 16;
@@ -23,10 +23,10 @@ struct PlaceWords {
 const PlaceWords& place_words();
 
 /// Wide descriptors of a kept rig as columns: square roots of their values.
-Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptRig& rig);
+Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& rig);
 
 /// Vector of locally aggregated descriptors: for every word the sum of the differences from it of all descriptors
 /// nearest to it, each sum of unit length.
-PlaceSignature place_signature(const frontend::KeptRig& rig);
+PlaceSignature place_signature(const frontend::KeptFrameEdges& rig);
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

@@ -1,4 +1,4 @@
-#include "map/pose_graph.hpp"
+#include "places/pose_graph.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-namespace quadedge::map {
+namespace quadedge::places {
 namespace {
 
 /// Squared error at which the kernel halves the weight: 95 % of chi^2 with six degrees of freedom.
@@ -247,4 +247,4 @@ Eigen::Matrix<double, 6, 6> PoseGraph::whole_covariance(const GraphEdge& edge) c
   return edge.measured.covariance + edge.by_rig * rig_sigma_.cwiseAbs2().asDiagonal() * edge.by_rig.transpose();
 }
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

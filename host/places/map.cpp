@@ -8,20 +8,20 @@
 #include <utility>
 
 #include "common/matching_constants.hpp"
-#include "map/place_store.hpp"
-#include "map/pose_graph.hpp"
-#include "map/saved_places.hpp"
-#include "map/view_change.hpp"
-#include "odometry/current_rig.hpp"
+#include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
+#include "places/place_store.hpp"
+#include "places/pose_graph.hpp"
+#include "places/saved_places.hpp"
+#include "places/view_change.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 
 namespace quadedge {
 namespace {
 
-using map::GraphEdge;
+using places::GraphEdge;
 
 constexpr double kBytesPerMegabyte = 1e6;
 
@@ -77,8 +77,8 @@ class Map::Implementation {
         config_(odometry.config()),
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
-        search_(config_, odometry.current_rig().frontend, odometry.current_rig().offset) {
-    map::check_map_config(config_);
+        search_(config_, odometry.latest_frame().frontend, odometry.latest_frame().offset) {
+    places::check_map_config(config_);
   }
 
   bool add(const FrameResult& result);
@@ -88,27 +88,27 @@ class Map::Implementation {
   int segments() const;
   const Eigen::Isometry3d& map_from_odometry() const { return map_from_odometry_; }
   const std::vector<Closure>& closures() const { return closures_; }
-  const map::PlaceStore& store() const { return store_; }
+  const places::PlaceStore& store() const { return store_; }
 
  private:
   void locate(const FrameResult& result);
   int node_of_reference(int frame);
   bool recognise(int node);
   bool is_joined(int one, int other) const { return graph_.component(one) == graph_.component(other); }
-  const map::Place* nearest(int node, int max_gap, int min_gap, double most_change, double inverse_depth) const;
+  const places::Place* nearest(int node, int max_gap, int min_gap, double most_change, double inverse_depth) const;
   double mean_inverse_depth() const;
   double spread(const GraphEdge& motion, double inverse_depth) const;
   bool may_overlap(const GraphEdge& motion, double inverse_depth) const;
   bool is_predictable(const GraphEdge& motion, double inverse_depth) const;
   bool is_worthwhile(const GraphEdge& motion) const;
-  std::optional<ListedClosure> compare(const map::PlaceStore::Similar& similar, int node, bool near_prediction);
-  std::optional<GraphEdge> search(const map::Place& place, int node, bool near_prediction, Closure& closure);
+  std::optional<ListedClosure> compare(const places::PlaceStore::Similar& similar, int node, bool near_prediction);
+  std::optional<GraphEdge> search(const places::Place& place, int node, bool near_prediction, Closure& closure);
   Closure& listed(const ListedClosure& closure) { return closures_[closure.number]; }
   /// Whether its support, which a wrong motion does not reach by chance, suffices to join two segments.
   bool is_certain(const ListedClosure& closure) const {
     return closures_[closure.number].support > odometry::kChanceSupport;
   }
-  bool is_rival(const map::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
+  bool is_rival(const places::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
   void reject_contradictions(const std::vector<ListedClosure>& joining);
   bool decide(const ListedClosure& closure);
   bool agree(GraphEdge witness, const GraphEdge& edge) const;
@@ -119,8 +119,8 @@ class Map::Implementation {
 
   StereoOdometry& odometry_;
   Config config_;
-  map::PlaceStore store_;
-  map::PoseGraph graph_;
+  places::PlaceStore store_;
+  places::PoseGraph graph_;
   odometry::MotionSearch search_;
   std::vector<LocatedFrame> frames_;
   std::vector<int> frame_of_node_;
@@ -175,7 +175,7 @@ bool Map::Implementation::add(const FrameResult& result) {
 
 /// Mean inverse depth of the current rig's edges [1/m].
 double Map::Implementation::mean_inverse_depth() const {
-  const odometry::CurrentRig now = odometry_.current_rig();
+  const odometry::LatestFrame now = odometry_.latest_frame();
   const auto& edges = now.rig->measured_edges(now.offset.rig(), kMinEpipolarAngle);
   double sum = 0, count = 0;
   for (const auto& edge : edges) {
@@ -188,15 +188,15 @@ double Map::Implementation::mean_inverse_depth() const {
 
 /// The place of the node's segment, at least `min_gap` and at most `max_gap` nodes before it, whose view differs least
 /// by the map; null if all differ by `most_change` [rad].
-const map::Place* Map::Implementation::nearest(int node, int max_gap, int min_gap, double most_change,
-                                               double inverse_depth) const {
-  const map::Place* best = nullptr;
+const places::Place* Map::Implementation::nearest(int node, int max_gap, int min_gap, double most_change,
+                                                  double inverse_depth) const {
+  const places::Place* best = nullptr;
   double smallest = most_change;
-  for (const map::Place& place : store_.places()) {
+  for (const places::Place& place : store_.places()) {
     const int gap = node - place.node;
     if (!is_joined(place.node, node) || gap < min_gap || gap > max_gap) continue;
     const Eigen::Isometry3d motion = graph_.pose(node).inverse() * graph_.pose(place.node);
-    const double angle = map::view_change(motion, inverse_depth);
+    const double angle = places::view_change(motion, inverse_depth);
     if (angle >= smallest) continue;
     smallest = angle;
     best = &place;
@@ -214,13 +214,13 @@ double Map::Implementation::spread(const GraphEdge& motion, double inverse_depth
 
 /// Whether a search near the predicted positions covers the uncertainty of a motion.
 bool Map::Implementation::is_predictable(const GraphEdge& motion, double inverse_depth) const {
-  const double focal = odometry_.current_rig().offset.rig().left.fx;
+  const double focal = odometry_.latest_frame().offset.rig().left.fx;
   return focal * spread(motion, inverse_depth) < config_.temporal.coarse_radius;
 }
 
 /// Whether both ends of a motion of the map may see the same.
 bool Map::Implementation::may_overlap(const GraphEdge& motion, double inverse_depth) const {
-  return map::view_change(motion.measured.transform, inverse_depth) < kMostChange + spread(motion, inverse_depth);
+  return places::view_change(motion.measured.transform, inverse_depth) < kMostChange + spread(motion, inverse_depth);
 }
 
 bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
@@ -229,10 +229,10 @@ bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
 
 /// Compares the current rig, which is a node, with places, and keeps it unless that adds no view.
 bool Map::Implementation::recognise(int node) {
-  const odometry::CurrentRig now = odometry_.current_rig();
+  const odometry::LatestFrame now = odometry_.latest_frame();
   const double inverse_depth = mean_inverse_depth();
   const int min_gap = config_.map.min_gap;
-  if (const map::Place* seen = nearest(node, node, min_gap + 1, map::kSameView, inverse_depth)) {
+  if (const places::Place* seen = nearest(node, node, min_gap + 1, places::kSameView, inverse_depth)) {
     const GraphEdge motion = graph_.motion(seen->node, node);
     if (is_predictable(motion, inverse_depth)) {
       const auto closure = is_worthwhile(motion) ? compare({seen, 0}, node, true) : std::nullopt;
@@ -241,17 +241,18 @@ bool Map::Implementation::recognise(int node) {
   } else if (nearest(node, min_gap, 1, kNewView, inverse_depth) != nullptr) {
     return false;
   }
-  map::Place place{now.frontend.keep(), {}, node};
-  place.signature = map::place_signature(place.rig);
-  const auto may_be = [&](const map::Place& other) {
+  places::Place place{now.frontend.keep(), {}, node};
+  place.signature = places::place_signature(place.rig);
+  const auto may_be = [&](const places::Place& other) {
     return !is_joined(other.node, node) || node - other.node > min_gap;
   };
   bool is_own_compared = false;
   std::optional<ListedClosure> own;
   std::vector<ListedClosure> joining;
   int rank = 0;
-  for (const auto& similar : store_.most_similar(place.signature, map::kCandidateBatches * map::kCandidates, may_be)) {
-    const bool is_candidate = rank++ < map::kCandidates;
+  for (const auto& similar :
+       store_.most_similar(place.signature, places::kCandidateBatches * places::kCandidates, may_be)) {
+    const bool is_candidate = rank++ < places::kCandidates;
     if (!is_joined(similar.place->node, node)) {
       if (!is_candidate && !is_rival(*similar.place, joining, inverse_depth)) continue;
       if (auto closure = compare(similar, node, false)) joining.push_back(*std::move(closure));
@@ -269,7 +270,7 @@ bool Map::Implementation::recognise(int node) {
 }
 
 /// Lists the comparison of the current rig with a place. \returns the closure, if a motion was found
-std::optional<ListedClosure> Map::Implementation::compare(const map::PlaceStore::Similar& similar, int node,
+std::optional<ListedClosure> Map::Implementation::compare(const places::PlaceStore::Similar& similar, int node,
                                                           bool near_prediction) {
   Closure closure;
   closure.frame = static_cast<int>(frames_.size()) - 1;
@@ -282,9 +283,9 @@ std::optional<ListedClosure> Map::Implementation::compare(const map::PlaceStore:
 }
 
 /// Searches for the motion from a place to the current rig, only near the map's if that is known well enough.
-std::optional<GraphEdge> Map::Implementation::search(const map::Place& place, int node, bool near_prediction,
+std::optional<GraphEdge> Map::Implementation::search(const places::Place& place, int node, bool near_prediction,
                                                      Closure& closure) {
-  const odometry::CurrentRig now = odometry_.current_rig();
+  const odometry::LatestFrame now = odometry_.latest_frame();
   odometry::MotionQuery query;
   query.current = now.rig;
   query.base = now.frontend.restore(place.rig);
@@ -324,13 +325,13 @@ bool Map::Implementation::agree(GraphEdge witness, const GraphEdge& edge) const 
 }
 
 /// Whether a place lies in a segment that a closure would join, but where it does not see what the current rig sees.
-bool Map::Implementation::is_rival(const map::Place& place, const std::vector<ListedClosure>& joining,
+bool Map::Implementation::is_rival(const places::Place& place, const std::vector<ListedClosure>& joining,
                                    double inverse_depth) const {
   return std::any_of(joining.begin(), joining.end(), [&](const ListedClosure& closure) {
     const GraphEdge& edge = closure.edge;
     if (!is_certain(closure) || !is_joined(place.node, edge.from)) return false;
     const Eigen::Isometry3d map_from_now = graph_.pose(edge.from) * edge.measured.transform.inverse();
-    return map::view_change(map_from_now.inverse() * graph_.pose(place.node), inverse_depth) > map::kSameView;
+    return places::view_change(map_from_now.inverse() * graph_.pose(place.node), inverse_depth) > places::kSameView;
   });
 }
 
@@ -409,17 +410,17 @@ std::optional<Eigen::Isometry3d> Map::Implementation::pose(std::size_t frame) co
 }
 
 SavedMap Map::Implementation::saved() const {
-  map::SavedPlaces saved;
+  places::SavedPlaces saved;
   const StereoRig& rig = odometry_.rig();
   saved.rig = odometry::with_disparity_offset(rig, 0);
   saved.is_undistorted = rig.left_undistortion.empty() && rig.right_undistortion.empty() ? 0 : 1;
-  const odometry::DisparityOffset& offset = odometry_.current_rig().offset;
+  const odometry::DisparityOffset& offset = odometry_.latest_frame().offset;
   saved.offset = offset.value();
   saved.offset_variance = offset.variance();
-  saved.settings = map::descriptor_settings(config_);
-  std::vector<map::Place> places;
+  saved.settings = places::descriptor_settings(config_);
+  std::vector<places::Place> places;
   const int largest = largest_segment();
-  for (const map::Place& place : store_.places()) {
+  for (const places::Place& place : store_.places()) {
     if (graph_.component(place.node) != largest) continue;
     places.push_back(place);
     saved.poses.push_back(graph_.pose(place.node));

@@ -1,5 +1,5 @@
 #pragma once
-/// \file current_rig.hpp  What a map needs of the frame tracked last.
+/// \file latest_frame.hpp  What a map needs of the frame tracked last.
 
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
@@ -7,9 +7,9 @@
 namespace quadedge::odometry {
 
 /// Refers to parts of a StereoOdometry, which must outlive it.
-struct CurrentRig {
+struct LatestFrame {
   frontend::Frontend& frontend;
-  frontend::RigHandle rig;  ///< null before the first frame
+  frontend::FrameEdgesHandle rig;  ///< null before the first frame
   const DisparityOffset& offset;
 };
 

@@ -4,8 +4,8 @@
 
 #include "devices.hpp"
 #include "own_camera.hpp"
-#include "quadedge/edge_map.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/point_cloud.hpp"
 #include "quadedge/synthetic.hpp"
 
 using Catch::Matchers::Contains;
@@ -30,12 +30,12 @@ struct TrackedRoom {
     config.odometry.key_rig = false;
     for (int i = 0; i < sequence.frames(); ++i) pairs.push_back(sequence.pair(i));
   }
-  void track_into(const std::vector<EdgeMap*>& maps) const {
+  void track_into(const std::vector<PointCloud*>& maps) const {
     Device device("auto", kept_programs());
     StereoOdometry odometry(sequence.rig(), device, config);
     for (const StereoPair& pair : pairs) {
       const FrameResult result = odometry.track(pair.view());
-      for (EdgeMap* map : maps) map->add(pair.view(), result, odometry);
+      for (PointCloud* map : maps) map->add(pair.view(), result, odometry);
     }
   }
 };
@@ -45,8 +45,8 @@ const TrackedRoom& tracked_room() {
   return all;
 }
 
-EdgeMapOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = false) {
-  EdgeMapOptions options;
+PointCloudOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = false) {
+  PointCloudOptions options;
   options.min_views = views;
   options.most_points = most;
   options.tracks = tracks;
@@ -54,7 +54,7 @@ EdgeMapOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = fa
 }
 
 /// Relative depth errors of points in the first view against the rendered depth, as sorted magnitudes.
-std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
+std::vector<double> depth_errors(const std::vector<CloudPoint>& points) {
   const auto depth = tracked_room().sequence.render(0, Side::left).depth;
   const PinholeCamera& camera = tracked_room().sequence.rig().left;
   std::vector<double> errors;
@@ -77,8 +77,8 @@ std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
 
 }  // namespace
 
-TEST_CASE("edge map: points lie on the rendered surfaces, the closer the more rigs have seen them", "[map][device]") {
-  EdgeMap once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
+TEST_CASE("edge map: points lie on the rendered surfaces, the closer the more rigs have seen them", "[points][device]") {
+  PointCloud once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
       often(tracked_room().config, seen_by(5, 2'000'000, true));
   tracked_room().track_into({&once, &twice, &often});
   CHECK(once.views().size() == 6);
@@ -122,9 +122,9 @@ TEST_CASE("edge map: points lie on the rendered surfaces, the closer the more ri
   CHECK(at(misses, 0.95) < 2);
 }
 
-TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded", "[map][device]") {
+TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded", "[points][device]") {
   const TemporaryFolder folder;
-  EdgeMap first(tracked_room().config, seen_by(2)), second(tracked_room().config, seen_by(2)),
+  PointCloud first(tracked_room().config, seen_by(2)), second(tracked_room().config, seen_by(2)),
       small(tracked_room().config, seen_by(2, 1000));
   tracked_room().track_into({&first, &small});
   tracked_room().track_into({&second});
@@ -136,15 +136,15 @@ TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded"
   CHECK(small.points().size() > 100);
 }
 
-TEST_CASE("edge map: corrected poses move the views with their points, other views stay", "[map][device]") {
-  EdgeMap map(tracked_room().config, seen_by(1));
+TEST_CASE("edge map: corrected poses move the views with their points, other views stay", "[points][device]") {
+  PointCloud map(tracked_room().config, seen_by(1));
   tracked_room().track_into({&map});
   const auto before = map.points();
   const auto views = map.views();
   Eigen::Isometry3d moved(Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()));
   moved.translation() = Eigen::Vector3d(4, 5, 6);
   const auto pose_of = [&](int frame) {
-    for (const MapView& view : views)
+    for (const CloudView& view : views)
       if (view.frame == frame) return view.world_from_left;
     return Eigen::Isometry3d::Identity();
   };
@@ -165,7 +165,7 @@ TEST_CASE("edge map: corrected poses move the views with their points, other vie
   for (std::size_t i = 0; i < views.size(); ++i)
     CHECK((map.views()[i].world_from_left.matrix() - (moved * views[i].world_from_left).matrix()).norm() < 1e-12);
   // Only the last view moves: so do the points that it observed last, and no others.
-  EdgeMap other(tracked_room().config, seen_by(1));
+  PointCloud other(tracked_room().config, seen_by(1));
   tracked_room().track_into({&other});
   other.correct([&](int frame) -> std::optional<Eigen::Isometry3d> {
     if (frame != views.back().frame) return std::nullopt;
@@ -182,9 +182,9 @@ TEST_CASE("edge map: corrected poses move the views with their points, other vie
   CHECK(same + with_view == some.size());
 }
 
-TEST_CASE("edge map: files describe their content and are either complete or absent", "[map]") {
+TEST_CASE("edge map: files describe their content and are either complete or absent", "[points]") {
   const TemporaryFolder folder;
-  MapPoint point;
+  CloudPoint point;
   point.position = {1.25, -2.5, 3};
   point.tangent = {0, 1, 0};
   point.grey = 77.4F;

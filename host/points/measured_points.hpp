@@ -10,7 +10,7 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 
-namespace quadedge::map {
+namespace quadedge::points {
 
 /// A stereo edge in the left camera frame.
 struct MeasuredPoint {
@@ -33,4 +33,4 @@ std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, c
 /// Standard deviation in the least certain direction [m].
 float largest_sigma(const Eigen::Matrix3d& information);
 
-}  // namespace quadedge::map
+}  // namespace quadedge::points

@@ -5,15 +5,15 @@
 #include <cstring>
 #include <numeric>
 
-#include "map/saved_places.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "places/saved_places.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
 
 namespace quadedge {
 namespace {
 
-using map::SavedPlaces;
+using places::SavedPlaces;
 
 class Writer {
  public:
@@ -136,7 +136,7 @@ class Check {
  public:
   explicit Check(const std::string& source) : source_(source) {}
 
-  void operator()(const SavedPlaces& map, const std::vector<map::Place>& places) const {
+  void operator()(const SavedPlaces& map, const std::vector<places::Place>& places) const {
     for (const PinholeCamera* camera : {&map.rig.left, &map.rig.right})
       require(camera->width <= kLargestImage && camera->height <= kLargestImage, "an image size",
               std::max(camera->width, camera->height), "at most " + std::to_string(kLargestImage));
@@ -150,7 +150,7 @@ class Check {
     require(map.poses.size() == places.size(), "a number of poses", static_cast<double>(map.poses.size()),
             std::to_string(places.size()) + ", one per key rig");
     for (const Eigen::Isometry3d& pose : map.poses) check_pose(pose);
-    for (const map::Place& place : places) check_place(place, map.rig);
+    for (const places::Place& place : places) check_place(place, map.rig);
   }
 
  private:
@@ -170,7 +170,7 @@ class Check {
     require(pose.translation().cwiseAbs().maxCoeff() <= kFarthest, "a pose at a distance", pose.translation().norm(),
             "a finite number of metres");
   }
-  void check_place(const map::Place& place, const StereoRig& rig) const {
+  void check_place(const places::Place& place, const StereoRig& rig) const {
     const StereoEdges& edges = place.rig.edges;
     const auto count = edges.left_x.size();
     require(place.rig.frame >= 0, "a frame number", place.rig.frame, "0 or more");
@@ -201,9 +201,9 @@ class Check {
 
 }  // namespace
 
-SavedMap::SavedMap(SavedPlaces header, std::vector<map::Place> places) {
+SavedMap::SavedMap(SavedPlaces header, std::vector<places::Place> places) {
   const auto calibration = std::make_shared<StereoRig>(odometry::with_disparity_offset(header.rig, header.offset));
-  for (map::Place& place : places) {
+  for (places::Place& place : places) {
     place.node = static_cast<int>(header.store.size());
     place.rig.own_calibration = calibration;
     header.store.add(std::move(place));
@@ -224,13 +224,13 @@ std::string SavedMap::bytes() const {
 SavedMap SavedMap::from_bytes(std::string_view bytes, const std::string& source) {
   Reader reader(bytes, source);
   SavedPlaces header;
-  std::vector<map::Place> places;
+  std::vector<places::Place> places;
   exchange(reader, header, places);
   if (reader.rest() > 0)
     throw DataError(source + ": found " + std::to_string(reader.rest()) + " bytes after the map, expected none");
   Check check(source);
   check(header, places);
-  for (map::Place& place : places) {
+  for (places::Place& place : places) {
     place.rig.edges.left_index.resize(place.rig.edges.left_x.size());
     std::iota(place.rig.edges.left_index.begin(), place.rig.edges.left_index.end(), 0);
     place.rig.edges.right_index = place.rig.edges.left_index;

@@ -1,10 +1,10 @@
-#include "map/place_store.hpp"
+#include "places/place_store.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace quadedge::map {
+namespace quadedge::places {
 
 PlaceStore::Rounded PlaceStore::rounded(const PlaceSignature& signature) {
   Rounded result;
@@ -53,4 +53,4 @@ std::vector<PlaceStore::Similar> PlaceStore::most_similar(const PlaceSignature& 
   return found;
 }
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

@@ -7,10 +7,10 @@
 #include <functional>
 #include <vector>
 
-#include "frontend/kept_rig.hpp"
-#include "map/place_signature.hpp"
+#include "frontend/kept_frame_edges.hpp"
+#include "places/place_signature.hpp"
 
-namespace quadedge::map {
+namespace quadedge::places {
 
 /// A rig is compared with this number of places, the most similar ones; one without a known place with up to
 /// kCandidateBatches times as many. If it is found, those of them that see other places are compared as well, in case
@@ -19,7 +19,7 @@ constexpr int kCandidates = 5, kCandidateBatches = 4;
 
 /// A kept rig.
 struct Place {
-  frontend::KeptRig rig;
+  frontend::KeptFrameEdges rig;
   PlaceSignature signature;
   int node = 0;  ///< of the pose graph
 };
@@ -57,4 +57,4 @@ class PlaceStore {
   std::vector<Rounded> rounded_;  ///< their signatures
 };
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

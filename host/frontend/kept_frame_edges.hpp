@@ -1,11 +1,11 @@
 #pragma once
-/// \file kept_rig.hpp  A stereo rig in a compact form on the host, from which a front end can restore it.
+/// \file kept_frame_edges.hpp  A stereo rig in a compact form on the host, from which a front end can restore it.
 
 #include <cstdint>
 #include <vector>
 
 #include "common/layouts.hpp"
-#include "frontend/rig.hpp"
+#include "frontend/frame_edges.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::frontend {
@@ -15,10 +15,10 @@ constexpr std::size_t kKeptEdges = 2400;
 
 /// A subset of a rig's stereo edges, evenly from the list, with what matching needs of them. Samples of patches and
 /// values of descriptors have four bits.
-struct KeptRig {
+struct KeptFrameEdges {
   int frame = -1;
-  double edges_spacing = 0;                          ///< see Rig
-  std::shared_ptr<const StereoRig> own_calibration;  ///< see Rig
+  double edges_spacing = 0;                          ///< see FrameEdges
+  std::shared_ptr<const StereoRig> own_calibration;  ///< see FrameEdges
   StereoEdges edges;                                 ///< left_index and right_index count from 0
   std::vector<std::uint8_t> patches;                 ///< kKeptPatchBytes per edge: left, then right
   std::vector<std::uint8_t> wide;                    ///< kKeptWideBytes per edge
@@ -37,16 +37,17 @@ struct DescribedRows {
 
 /// Keeps at most kKeptEdges of the described edges, evenly. \param left_patches kEdgePatchBytes per entry \param
 /// left_entry the entry of every stereo edge in it \param right_patches kEdgePatchBytes per stereo edge
-KeptRig keep_edges(const Rig& rig, const DescribedRows& described, const std::vector<std::int8_t>& left_patches,
-                   const std::vector<std::int32_t>& left_entry, const std::vector<std::int8_t>& right_patches);
+KeptFrameEdges keep_edges(const FrameEdges& rig, const DescribedRows& described,
+                          const std::vector<std::int8_t>& left_patches, const std::vector<std::int32_t>& left_entry,
+                          const std::vector<std::int8_t>& right_patches);
 
 /// Patches as the stages lay them out, kEdgePatchBytes per edge.
 struct KeptPatches {
   std::vector<std::int8_t> left, right;
 };
-KeptPatches unpack_patches(const KeptRig& kept);
+KeptPatches unpack_patches(const KeptFrameEdges& kept);
 
 /// Wide descriptors, kWideBytes per edge.
-std::vector<std::uint8_t> unpack_wide(const KeptRig& kept);
+std::vector<std::uint8_t> unpack_wide(const KeptFrameEdges& kept);
 
 }  // namespace quadedge::frontend

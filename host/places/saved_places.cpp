@@ -1,11 +1,11 @@
-#include "map/saved_places.hpp"
+#include "places/saved_places.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "quadedge/error.hpp"
 
-namespace quadedge::map {
+namespace quadedge::places {
 
 void check_map_config(const Config& config) {
   if (config.temporal.wide_edges == 0) throw UsageError("a map needs the global search: temporal.wide_edges above 0");
@@ -22,4 +22,4 @@ std::vector<std::pair<std::string, std::string>> descriptor_settings(const Confi
   return settings;
 }
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

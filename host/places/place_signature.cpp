@@ -1,14 +1,14 @@
-#include "map/place_signature.hpp"
+#include "places/place_signature.hpp"
 
 #include <array>
 
-namespace quadedge::map {
+namespace quadedge::places {
 namespace {
 
 constexpr float kWideNorm = 512;  ///< of a wide descriptor
 
 constexpr std::array<float, kWideBytes + kWordNumbers*(kWideBytes + kWords)> kTable = {
-#include "map/place_words.inc"
+#include "places/place_words.inc"
 };
 
 }  // namespace
@@ -29,14 +29,14 @@ const PlaceWords& place_words() {
   return words;
 }
 
-Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptRig& rig) {
+Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& rig) {
   const std::vector<std::uint8_t> wide = frontend::unpack_wide(rig);
   const Eigen::Map<const Eigen::Matrix<std::uint8_t, kWideBytes, Eigen::Dynamic>> bytes(
       wide.data(), kWideBytes, static_cast<Eigen::Index>(rig.edges.size()));
   return (bytes.cast<float>() / kWideNorm).cwiseSqrt();
 }
 
-PlaceSignature place_signature(const frontend::KeptRig& rig) {
+PlaceSignature place_signature(const frontend::KeptFrameEdges& rig) {
   const PlaceWords& table = place_words();
   const Eigen::Matrix<float, kWordNumbers, Eigen::Dynamic> projected =
       table.projection * (rooted_descriptors(rig).colwise() - table.mean);
@@ -52,4 +52,4 @@ PlaceSignature place_signature(const frontend::KeptRig& rig) {
   return signature;
 }
 
-}  // namespace quadedge::map
+}  // namespace quadedge::places

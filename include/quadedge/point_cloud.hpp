@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_map.hpp  A map of the edges of a recording in space, extended with every key stereo rig.
+/// \file point_cloud.hpp  The edges of a recording in space, extended with every key stereo rig.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace quadedge {
 
 /// A point on an edge in space.
-struct MapPoint {
+struct CloudPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3f tangent =
       Eigen::Vector3f::UnitX();  ///< unit length; its sign encodes contrast as in EdgeSet::direction
@@ -28,15 +28,15 @@ struct MapPoint {
   int views = 1;  ///< number of key stereo rigs that observed it
 };
 
-/// Limits of a map.
-struct EdgeMapOptions {
+/// Limits of a point cloud.
+struct PointCloudOptions {
   int min_views = 3;                    ///< points() omits points observed by fewer key stereo rigs
   std::size_t most_points = 2'000'000;  ///< maximum number in memory, at 80 bytes each; 230 bytes with tracks
   bool tracks = false;                  ///< store the observations of each point, for write_colmap()
 };
 
-/// A key stereo rig of a map.
-struct MapView {
+/// A key stereo rig that points were made from.
+struct CloudView {
   int frame = 0;  ///< number of the frame
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
@@ -44,7 +44,7 @@ struct MapView {
 
 /// An observation of a point in the left image of a view. It is the position on the tangent of the observed edge that
 /// is nearest to the projected point, because the position along an edge is arbitrary.
-struct MapSighting {
+struct CloudSighting {
   std::int32_t view = 0;
   float x = 0, y = 0;  ///< [px]
 };
@@ -52,11 +52,11 @@ struct MapSighting {
 /// Stereo edges of key stereo rigs. Edges of a later rig are merged with the existing point whose projection lies on an
 /// edge of the same direction and depth (doc/method.md section 9). Memory is bounded: points with few observations are
 /// discarded first.
-class EdgeMap {
+class PointCloud {
  public:
   /// \param config StereoOdometry::config()
-  explicit EdgeMap(const Config& config, const EdgeMapOptions& options = {});
-  ~EdgeMap();
+  explicit PointCloud(const Config& config, const PointCloudOptions& options = {});
+  ~PointCloud();
 
   /// To be called for every frame after it was tracked. Adds the frame's edges if the frame became the key stereo rig
   /// and its motion is not ambiguous. \returns whether they were added
@@ -68,10 +68,10 @@ class EdgeMap {
   void correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left);
 
   /// Points observed by enough key stereo rigs, in the world frame (the first left camera), oldest first.
-  std::vector<MapPoint> points() const;
-  /// Observations of these points, at most eight per point; empty without EdgeMapOptions::tracks.
-  std::vector<std::vector<MapSighting>> sightings() const;
-  const std::vector<MapView>& views() const;
+  std::vector<CloudPoint> points() const;
+  /// Observations of these points, at most eight per point; empty without PointCloudOptions::tracks.
+  std::vector<std::vector<CloudSighting>> sightings() const;
+  const std::vector<CloudView>& views() const;
   /// Number of points with enough observations that were discarded because memory was full.
   std::size_t dropped() const;
 
@@ -83,11 +83,11 @@ class EdgeMap {
 /// Writes points as a binary PLY file with the properties x y z [m], tangent_x tangent_y tangent_z, grey, sigma [m],
 /// views, and red, green, blue, which repeat the grey value for viewers. The file is written completely or not at all.
 /// \throws DataError if it cannot be written.
-void write_ply(const std::string& file, const std::vector<MapPoint>& points);
+void write_ply(const std::string& file, const std::vector<CloudPoint>& points);
 
 /// Writes cameras.txt, images.txt and points3D.txt in COLMAP's text format. Camera 1 is the left pinhole camera, camera
 /// 2 the right one. Every view has two images, left_FRAME.png and right_FRAME.png with six digits; points are observed
 /// in the left one. Creates the folder. \throws DataError if something cannot be written.
-void write_colmap(const std::string& folder, const StereoRig& rig, const EdgeMap& map);
+void write_colmap(const std::string& folder, const StereoRig& rig, const PointCloud& cloud);
 
 }  // namespace quadedge

@@ -8,12 +8,12 @@
 #include "common/images.hpp"
 #include "common/timing.hpp"
 #include "common/undistortion.hpp"
-#include "map/saved_places.hpp"
-#include "map/view_change.hpp"
 #include "odometry/frame_preparation.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
 #include "odometry/tracking_state.hpp"
+#include "places/saved_places.hpp"
+#include "places/view_change.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
@@ -28,7 +28,7 @@ constexpr double kSamePlace = 3 * kDegree;
 
 /// A motion from a key rig of the map to the frame.
 struct Match {
-  const map::Place* place;
+  const places::Place* place;
   pose::RelativePose current_from_key;
   Eigen::Isometry3d map_from_left;
   int inliers;
@@ -45,7 +45,7 @@ bool agree(const Match& one, const Match& other) {
 /// Whether a key rig sees the scene from elsewhere than the frame, by the location that a match gives.
 bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
   const Eigen::Isometry3d motion = map_from_key.inverse() * match.map_from_left;
-  return map::view_change(motion, match.inverse_depth) > map::kSameView;
+  return places::view_change(motion, match.inverse_depth) > places::kSameView;
 }
 
 /// Whether its support, which a wrong motion does not reach by chance, shows that the frame sees this place or one like
@@ -64,7 +64,7 @@ bool are_equal(const StereoRig& one, const StereoRig& other) {
 }
 
 /// The disparity offset that the map's recording has learned is that of the rig, unless another is given.
-PoseConfig with_offset_of(const map::SavedPlaces& map, const StereoRig& rig, PoseConfig config) {
+PoseConfig with_offset_of(const places::SavedPlaces& map, const StereoRig& rig, PoseConfig config) {
   if (!are_equal(map.rig, rig) || config.disparity_offset != 0) return config;
   config.disparity_offset = map.offset;
   config.disparity_offset_sigma = std::sqrt(map.offset_variance);
@@ -73,15 +73,15 @@ PoseConfig with_offset_of(const map::SavedPlaces& map, const StereoRig& rig, Pos
 
 Config checked(const SavedMap& map, const StereoRig& rig, const Config& config) {
   odometry::check_usable(rig, config);
-  map::check_map_config(config);
-  const auto settings = map::descriptor_settings(config);
+  places::check_map_config(config);
+  const auto settings = places::descriptor_settings(config);
   for (const auto& [key, value] : map.places().settings)
     if (std::find(settings.begin(), settings.end(), std::pair(key, value)) == settings.end())
       throw UsageError("the map was made with " + key + " = " + value + ": expected the same");
   return config;
 }
 
-using SimilarPlaces = std::vector<map::PlaceStore::Similar>;
+using SimilarPlaces = std::vector<places::PlaceStore::Similar>;
 
 const Match* lose(LocalisationStatus status, const std::string& message, Localisation& result) {
   result.status = status;
@@ -127,13 +127,13 @@ class Localiser::Implementation {
 
  private:
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
-  void locate(const frontend::RigHandle& rig, Localisation& result);
-  bool follow(const frontend::RigHandle& rig, Localisation& result);
-  std::optional<Match> compare(const map::Place& place, const frontend::RigHandle& rig,
+  void locate(const frontend::FrameEdgesHandle& rig, Localisation& result);
+  bool follow(const frontend::FrameEdgesHandle& rig, Localisation& result);
+  std::optional<Match> compare(const places::Place& place, const frontend::FrameEdgesHandle& rig,
                                const std::optional<Eigen::Isometry3d>& map_from_left);
   static const Match* judge(const std::vector<Match>& matches, Localisation& result);
   std::optional<Match> find_rival(const Match& best, const SimilarPlaces& similar, std::size_t next,
-                                  const frontend::RigHandle& rig);
+                                  const frontend::FrameEdgesHandle& rig);
   void take(const Match& match, Localisation& result) const;
 
   SavedMap map_;
@@ -152,7 +152,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   const auto start = Clock::now();
   Localisation result;
   result.stamp_ns = frame.stamp_ns;
-  const frontend::RigHandle rig = preparation_.process(frame);
+  const frontend::FrameEdgesHandle rig = preparation_.process(frame);
   const rig::RigReport report = preparation_.judge(frame);
   if (const auto fault = preparation_.fault(report)) {
     lose(fault->status == FrameStatus::lost_rig_mismatch ? LocalisationStatus::lost_rig_mismatch
@@ -173,12 +173,12 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
 }
 
 /// Tries the key rig nearest to the predicted pose: 1 rad counts as much as 1 m.
-bool Localiser::Implementation::follow(const frontend::RigHandle& rig, Localisation& result) {
+bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& rig, Localisation& result) {
   const auto motion = velocity_.predict(1);
   if (!follow_ || !last_ || !motion) return false;
   const Eigen::Isometry3d predicted = *last_ * motion->inverse();
-  const std::vector<map::Place>& places = map_.places().store.places();
-  const auto distance = [&](const map::Place& place) {
+  const std::vector<places::Place>& places = map_.places().store.places();
+  const auto distance = [&](const places::Place& place) {
     const Eigen::Isometry3d error = map_.places().poses[static_cast<std::size_t>(place.node)].inverse() * predicted;
     return Eigen::AngleAxisd(error.linear()).angle() + error.translation().norm();
   };
@@ -193,15 +193,16 @@ bool Localiser::Implementation::follow(const frontend::RigHandle& rig, Localisat
 }
 
 /// Compares the frame with the most similar key rigs, and with more of them while it is lost.
-void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisation& result) {
-  const map::PlaceSignature signature = map::place_signature(frontend().keep());
-  const auto may_be = [](const map::Place&) { return true; };
-  const auto similar = map_.places().store.most_similar(signature, map::kCandidateBatches * map::kCandidates, may_be);
+void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& rig, Localisation& result) {
+  const places::PlaceSignature signature = places::place_signature(frontend().keep());
+  const auto may_be = [](const places::Place&) { return true; };
+  const auto similar =
+      map_.places().store.most_similar(signature, places::kCandidateBatches * places::kCandidates, may_be);
   result.message = "the map has no key rigs";
   std::vector<Match> matches;
   for (std::size_t k = 0; k < similar.size(); ++k) {
     if (auto match = compare(*similar[k].place, rig, std::nullopt)) matches.push_back(*match);
-    const bool is_last = k + 1 == similar.size() || (k + 1) % map::kCandidates == 0;
+    const bool is_last = k + 1 == similar.size() || (k + 1) % places::kCandidates == 0;
     const Match* best = is_last ? judge(matches, result) : nullptr;
     if (best == nullptr) continue;
     if (const auto rival = find_rival(*best, similar, k + 1, rig))
@@ -215,9 +216,9 @@ void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisat
 /// Searches further key rigs, from places that the located frame does not see, for one that matches all the same,
 /// ambiguously or not.
 std::optional<Match> Localiser::Implementation::find_rival(const Match& best, const SimilarPlaces& similar,
-                                                           std::size_t next, const frontend::RigHandle& rig) {
+                                                           std::size_t next, const frontend::FrameEdgesHandle& rig) {
   for (; next < similar.size(); ++next) {
-    const map::Place& place = *similar[next].place;
+    const places::Place& place = *similar[next].place;
     if (!is_elsewhere(best, map_.places().poses[static_cast<std::size_t>(place.node)])) continue;
     auto match = compare(place, rig, std::nullopt);
     if (match && is_supported(*match) && !agree(*match, best)) return match;
@@ -251,7 +252,8 @@ const Match* Localiser::Implementation::judge(const std::vector<Match>& matches,
 }
 
 /// Searches for the motion from a place, near a predicted pose if there is one.
-std::optional<Match> Localiser::Implementation::compare(const map::Place& place, const frontend::RigHandle& rig,
+std::optional<Match> Localiser::Implementation::compare(const places::Place& place,
+                                                        const frontend::FrameEdgesHandle& rig,
                                                         const std::optional<Eigen::Isometry3d>& map_from_left) {
   const Eigen::Isometry3d& map_from_key = map_.places().poses[static_cast<std::size_t>(place.node)];
   odometry::MotionQuery query;

@@ -1,14 +1,14 @@
-/// \file edge_map.cpp  Merges the stereo edges of key rigs (doc/method.md section 9).
-#include "quadedge/edge_map.hpp"
+/// \file point_cloud.cpp  Merges the stereo edges of key rigs (doc/method.md section 9).
+#include "quadedge/point_cloud.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "map/edge_grid.hpp"
-#include "map/measured_points.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "points/edge_grid.hpp"
+#include "points/measured_points.hpp"
 #include "pose/oriented_point.hpp"
 #include "quadedge/camera.hpp"
 
@@ -26,7 +26,7 @@ constexpr int kMaxUnseenViews = 20;       ///< key rigs for which a point with f
 constexpr std::size_t kMostSightings = 8;
 constexpr std::int32_t kNone = -1;
 
-using Sightings = std::array<MapSighting, kMostSightings>;
+using Sightings = std::array<CloudSighting, kMostSightings>;
 
 /// 76 bytes per point; the information matrix is symmetric.
 struct Point {
@@ -66,9 +66,9 @@ double disparity_sigma(const Point& point, const Eigen::Vector3d& ray_in_world, 
 
 }  // namespace
 
-class EdgeMap::Implementation {
+class PointCloud::Implementation {
  public:
-  Implementation(const Config& config, const EdgeMapOptions& options) : config_(config), options_(options) {}
+  Implementation(const Config& config, const PointCloudOptions& options) : config_(config), options_(options) {}
 
   bool add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry);
   void correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left);
@@ -79,18 +79,18 @@ class EdgeMap::Implementation {
   }
   const std::vector<Point>& all() const { return points_; }
   const std::vector<Sightings>& all_sightings() const { return sightings_; }
-  const std::vector<MapView>& views() const { return views_; }
+  const std::vector<CloudView>& views() const { return views_; }
   std::size_t dropped() const { return dropped_; }
   bool tracks() const { return options_.tracks; }
 
  private:
-  using Measured = std::vector<std::optional<map::MeasuredPoint>>;
+  using Measured = std::vector<std::optional<points::MeasuredPoint>>;
 
   void offer(const StereoRig& rig, const StereoEdges& edges, const Measured& measured);
   void consider(std::int32_t index, const pose::ImageEdge& seen, double depth, const StereoEdges& edges,
                 const Measured& measured);
-  void merge(const map::MeasuredPoint& measured, std::int32_t index);
-  void append(const map::MeasuredPoint& measured);
+  void merge(const points::MeasuredPoint& measured, std::int32_t index);
+  void append(const points::MeasuredPoint& measured);
   void note_sighting(std::size_t index, float x, float y);
   template <class Keep>
   void keep_only(const Keep& keep);
@@ -98,28 +98,29 @@ class EdgeMap::Implementation {
   std::int32_t number() const { return static_cast<std::int32_t>(views_.size()) - 1; }
 
   Config config_;
-  EdgeMapOptions options_;
+  PointCloudOptions options_;
   std::vector<Point> points_;
   std::vector<Sightings> sightings_;  ///< the first observations of each point; empty without tracks
-  std::vector<MapView> views_;
+  std::vector<CloudView> views_;
   std::vector<Offer> offers_;  ///< one per edge of the current key rig
-  map::EdgeGrid grid_;
+  points::EdgeGrid grid_;
   std::size_t dropped_ = 0;
   int frames_ = 0;  ///< number of calls of add()
 };
 
-bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+bool PointCloud::Implementation::add(const StereoFrame& frame, const FrameResult& result,
+                                     const StereoOdometry& odometry) {
   const int number_of_frame = frames_++;
   if (!result.new_key_rig || !result.world_from_left || result.ambiguous_motion) return false;
   const StereoEdges& edges = odometry.stereo_edges();
   StereoRig rig = odometry::with_disparity_offset(odometry.rig(), result.disparity_offset);
   rig.left_undistortion = odometry.rig().left_undistortion;
   views_.push_back({number_of_frame, result.stamp_ns, *result.world_from_left});
-  const Measured measured = map::measure_points(rig, edges, frame.left, config_);
+  const Measured measured = points::measure_points(rig, edges, frame.left, config_);
   offer(rig, edges, measured);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (!measured[i]) continue;
-    const map::MeasuredPoint& point = *measured[i];
+    const points::MeasuredPoint& point = *measured[i];
     std::size_t index = points_.size();
     if (offers_[i].point != kNone) {
       index = static_cast<std::size_t>(offers_[i].point);
@@ -140,7 +141,7 @@ bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& r
 }
 
 /// Assigns every point in view to the edge that it probably shows; an edge keeps the nearest point.
-void EdgeMap::Implementation::offer(const StereoRig& rig, const StereoEdges& edges, const Measured& measured) {
+void PointCloud::Implementation::offer(const StereoRig& rig, const StereoEdges& edges, const Measured& measured) {
   offers_.assign(edges.size(), {});
   grid_.fill(edges.left_x, edges.left_y, rig.left.width, rig.left.height);
   const Eigen::Isometry3d left_from_world = views_.back().world_from_left.inverse();
@@ -156,8 +157,8 @@ void EdgeMap::Implementation::offer(const StereoRig& rig, const StereoEdges& edg
   }
 }
 
-void EdgeMap::Implementation::consider(std::int32_t index, const pose::ImageEdge& seen, double depth,
-                                       const StereoEdges& edges, const Measured& measured) {
+void PointCloud::Implementation::consider(std::int32_t index, const pose::ImageEdge& seen, double depth,
+                                          const StereoEdges& edges, const Measured& measured) {
   const Point& point = points_[static_cast<std::size_t>(index)];
   const Eigen::Vector3d ray = point.position - views_.back().world_from_left.translation();
   double sigma = -1;  // of the point's disparity; computed once an edge is near
@@ -188,7 +189,7 @@ void EdgeMap::Implementation::consider(std::int32_t index, const pose::ImageEdge
 
 /// Mean of both positions, weighted by information. Because the position along the curve is arbitrary, the measured
 /// point is first moved along its tangent to the nearest position.
-void EdgeMap::Implementation::merge(const map::MeasuredPoint& measured, std::int32_t index) {
+void PointCloud::Implementation::merge(const points::MeasuredPoint& measured, std::int32_t index) {
   Point& point = points_[static_cast<std::size_t>(index)];
   const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
   const Eigen::Matrix3d rotation = world_from_left.linear();
@@ -208,7 +209,7 @@ void EdgeMap::Implementation::merge(const map::MeasuredPoint& measured, std::int
   point.last_view = number();
 }
 
-void EdgeMap::Implementation::append(const map::MeasuredPoint& measured) {
+void PointCloud::Implementation::append(const points::MeasuredPoint& measured) {
   const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
   const Eigen::Matrix3d rotation = world_from_left.linear();
   Point& point = points_.emplace_back();
@@ -220,9 +221,9 @@ void EdgeMap::Implementation::append(const map::MeasuredPoint& measured) {
   point.last_view = number();
 }
 
-void EdgeMap::Implementation::correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left) {
+void PointCloud::Implementation::correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left) {
   std::vector<Eigen::Isometry3d> corrections;
-  for (MapView& view : views_) {
+  for (CloudView& view : views_) {
     const auto corrected = world_from_left(view.frame);
     corrections.push_back(corrected ? *corrected * view.world_from_left.inverse() : Eigen::Isometry3d::Identity());
     if (corrected) view.world_from_left = *corrected;
@@ -236,14 +237,14 @@ void EdgeMap::Implementation::correct(const std::function<std::optional<Eigen::I
   }
 }
 
-void EdgeMap::Implementation::note_sighting(std::size_t index, float x, float y) {
+void PointCloud::Implementation::note_sighting(std::size_t index, float x, float y) {
   if (sightings_.size() < points_.size()) sightings_.resize(points_.size());
   const auto count = static_cast<std::size_t>(points_[index].views) - 1;
   if (count < kMostSightings) sightings_[index][count] = {number(), x, y};
 }
 
 template <class Keep>
-void EdgeMap::Implementation::keep_only(const Keep& keep) {
+void PointCloud::Implementation::keep_only(const Keep& keep) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!keep(points_[i])) continue;
@@ -257,7 +258,7 @@ void EdgeMap::Implementation::keep_only(const Keep& keep) {
 
 /// If there are too many points, discards those with the fewest views until a tenth of the capacity is free; of points
 /// with equal numbers of views, those observed longest ago.
-void EdgeMap::Implementation::make_room() {
+void PointCloud::Implementation::make_room() {
   if (points_.size() <= options_.most_points) return;
   const std::size_t room = options_.most_points - options_.most_points / 10;
   const auto rank = [](const Point& point) { return std::pair(point.views, point.last_view); };
@@ -274,30 +275,30 @@ void EdgeMap::Implementation::make_room() {
   });
 }
 
-EdgeMap::EdgeMap(const Config& config, const EdgeMapOptions& options)
+PointCloud::PointCloud(const Config& config, const PointCloudOptions& options)
     : implementation_(std::make_unique<Implementation>(config, options)) {}
-EdgeMap::~EdgeMap() = default;
-bool EdgeMap::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+PointCloud::~PointCloud() = default;
+bool PointCloud::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   return implementation_->add(frame, result, odometry);
 }
-void EdgeMap::correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left) {
+void PointCloud::correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left) {
   implementation_->correct(world_from_left);
 }
-const std::vector<MapView>& EdgeMap::views() const { return implementation_->views(); }
-std::size_t EdgeMap::dropped() const { return implementation_->dropped(); }
+const std::vector<CloudView>& PointCloud::views() const { return implementation_->views(); }
+std::size_t PointCloud::dropped() const { return implementation_->dropped(); }
 
-std::vector<MapPoint> EdgeMap::points() const {
-  std::vector<MapPoint> result;
+std::vector<CloudPoint> PointCloud::points() const {
+  std::vector<CloudPoint> result;
   implementation_->for_each_seen([&](std::size_t i) {
     const Point& point = implementation_->all()[i];
     result.push_back(
-        {point.position, point.tangent, point.grey, map::largest_sigma(point.information_matrix()), point.views});
+        {point.position, point.tangent, point.grey, points::largest_sigma(point.information_matrix()), point.views});
   });
   return result;
 }
 
-std::vector<std::vector<MapSighting>> EdgeMap::sightings() const {
-  std::vector<std::vector<MapSighting>> result;
+std::vector<std::vector<CloudSighting>> PointCloud::sightings() const {
+  std::vector<std::vector<CloudSighting>> result;
   if (!implementation_->tracks()) return result;
   implementation_->for_each_seen([&](std::size_t i) {
     const Sightings& all = implementation_->all_sightings()[i];

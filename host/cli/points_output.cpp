@@ -1,4 +1,4 @@
-#include "cli/map_output.hpp"
+#include "cli/points_output.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -27,15 +27,15 @@ void write_image(const std::string& folder, const char* side, int frame, const I
 
 }  // namespace
 
-void MapFiles::declare(Options& options) {
-  options.group("Map");
-  options.text("--map", ply, "write the 3D edges of all key stereo rigs as a binary PLY file", "FILE");
-  options.text("--map-colmap", colmap, "write cameras, images and points as a COLMAP model", "DIR");
-  options.number("--map-min-views", min_views, "minimum number of key stereo rigs that see a point of the map");
+void PointFiles::declare(Options& options) {
+  options.group("Points in space");
+  options.text("--points", ply, "write the 3D edges of all key stereo rigs as a binary PLY file", "FILE");
+  options.text("--points-colmap", colmap, "write cameras, images and points as a COLMAP model", "DIR");
+  options.number("--points-min-views", min_views, "minimum number of key stereo rigs that see a point");
 }
 
-void MapFiles::check(bool force) const {
-  if (min_views < 1) throw UsageError("--map-min-views " + std::to_string(min_views) + ": expected 1 or more");
+void PointFiles::check(bool force) const {
+  if (min_views < 1) throw UsageError("--points-min-views " + std::to_string(min_views) + ": expected 1 or more");
   check_output_file(ply, force);
   refuse_full_folder(colmap, force);
   if (colmap.empty()) return;
@@ -47,34 +47,34 @@ void MapFiles::check(bool force) const {
   check_output_file(colmap + "/sparse/0/points3D.txt", force);
 }
 
-MapOutput::MapOutput(const MapFiles& files, const Config& config) : files_(files) {
+PointsOutput::PointsOutput(const PointFiles& files, const Config& config) : files_(files) {
   if (!files.is_wanted()) return;
-  EdgeMapOptions options;
+  PointCloudOptions options;
   options.min_views = files.min_views;
   options.tracks = !files.colmap.empty();
-  map_ = std::make_unique<EdgeMap>(config, options);
+  cloud_ = std::make_unique<PointCloud>(config, options);
 }
 
-void MapOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
-  if (!map_ || !map_->add(frame.view(), result, odometry)) return;
+void PointsOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+  if (!cloud_ || !cloud_->add(frame.view(), result, odometry)) return;
   const StereoRig& rig = odometry.rig();
-  if (map_->views().size() == 1) rig_ = odometry::with_disparity_offset(rig, 0);
+  if (cloud_->views().size() == 1) rig_ = odometry::with_disparity_offset(rig, 0);
   if (files_.colmap.empty()) return;
-  const int number = map_->views().back().frame;
+  const int number = cloud_->views().back().frame;
   write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);
   write_image(files_.colmap + "/images", "right", number, frame.right, rig.right_undistortion);
 }
 
-void MapOutput::correct(const Map& map) {
-  if (map_) map_->correct([&](int frame) { return map.pose(frame); });
+void PointsOutput::correct(const Map& map) {
+  if (cloud_) cloud_->correct([&](int frame) { return map.pose(frame); });
 }
 
-void MapOutput::write() {
-  if (!map_ || map_->views().empty()) return;
-  const auto points = map_->points();
+void PointsOutput::write() {
+  if (!cloud_ || cloud_->views().empty()) return;
+  const auto points = cloud_->points();
   if (!files_.ply.empty()) write_ply(files_.ply, points);
-  if (!files_.colmap.empty()) write_colmap(files_.colmap + "/sparse/0", rig_, *map_);
-  facts_ = report::MapFacts{points.size(), map_->views().size(), map_->dropped()};
+  if (!files_.colmap.empty()) write_colmap(files_.colmap + "/sparse/0", rig_, *cloud_);
+  facts_ = report::PointFacts{points.size(), cloud_->views().size(), cloud_->dropped()};
 }
 
 void LoopOutput::add(const FrameResult& result) {

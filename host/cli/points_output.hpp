@@ -1,6 +1,6 @@
 #pragma once
-/// \file map_output.hpp  The maps that a run writes: the edges in space, and with --loops the corrected trajectory, the
-/// closures and the places.
+/// \file points_output.hpp  What a run writes beside its frames: the edges in space, and with --loops the corrected
+/// trajectory, the closures and the map.
 
 #include <memory>
 #include <optional>
@@ -9,19 +9,19 @@
 
 #include "cli/command.hpp"
 #include "quadedge/dataset.hpp"
-#include "quadedge/edge_map.hpp"
 #include "quadedge/map.hpp"
+#include "quadedge/point_cloud.hpp"
 #include "report/run_record.hpp"
 
 namespace quadedge::cli {
 
-/// What map to write, if any.
-struct MapFiles {
+/// Which files of points to write, if any.
+struct PointFiles {
   std::string ply;     ///< file; empty: none
   std::string colmap;  ///< folder; empty: none
-  int min_views = EdgeMapOptions().min_views;
+  int min_views = PointCloudOptions().min_views;
 
-  /// --map, --map-colmap, --map-min-views.
+  /// --points, --points-colmap, --points-min-views.
   void declare(Options& options);
   bool is_wanted() const { return !ply.empty() || !colmap.empty(); }
   /// Checks the files before long work. \throws UsageError, DataError for files that cannot be written, or that exist
@@ -29,24 +29,24 @@ struct MapFiles {
   void check(bool force) const;
 };
 
-/// Collects the map of a run and writes it at the end; does nothing if no map is requested.
-class MapOutput {
+/// Collects the edges of a run in space and writes them at the end; does nothing if none are requested.
+class PointsOutput {
  public:
-  MapOutput(const MapFiles& files, const Config& config);
+  PointsOutput(const PointFiles& files, const Config& config);
   /// Takes in the frame that was tracked last. For COLMAP, writes the pinhole images of a key stereo rig.
   void add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry);
   /// Moves everything to the corrected poses of the frames.
   void correct(const Map& map);
   /// Writes what has been collected; nothing before the first key stereo rig. \throws DataError.
   void write();
-  /// What was written; nothing if no map is requested.
-  std::optional<report::MapFacts> facts() const { return facts_; }
+  /// What was written; nothing if none are requested.
+  std::optional<report::PointFacts> facts() const { return facts_; }
 
  private:
-  MapFiles files_;
-  std::unique_ptr<EdgeMap> map_;  ///< null if no map is requested
+  PointFiles files_;
+  std::unique_ptr<PointCloud> cloud_;  ///< null if none is requested
   StereoRig rig_;
-  std::optional<report::MapFacts> facts_;
+  std::optional<report::PointFacts> facts_;
 };
 
 /// The map of places beside the odometry of a run, with --loops.
