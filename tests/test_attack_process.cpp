@@ -68,7 +68,8 @@ const std::vector<ProcessAttack> kProcessAttacks = {
     {"the file of the disparity offset is a symbolic link to itself",
      "ln -s $OUT.toml $OUT.toml; $QUADEDGE run $DATA -o $OUT --offset-file $OUT.toml", 2, "out.toml", false},
     {"the file of the disparity offset is a configuration file, which stays",
-     "printf \"seed = 7\\npose.disparity_offset = 0.1\\n\" >$OUT.toml; cp $OUT.toml $OUT.copy; $QUADEDGE run $DATA -o $OUT "
+     "printf \"seed = 7\\npose.disparity_offset = 0.1\\n\" >$OUT.toml; cp $OUT.toml $OUT.copy; $QUADEDGE run $DATA -o "
+     "$OUT "
      "--frames 0:2 --offset-file $OUT.toml; code=$?; cmp $OUT.toml $OUT.copy || exit 99; exit $code",
      2, "out.toml: found another file", false},
     {"times go back",

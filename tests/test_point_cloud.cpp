@@ -77,7 +77,7 @@ std::vector<double> depth_errors(const std::vector<CloudPoint>& points) {
 
 }  // namespace
 
-TEST_CASE("edge map: points lie on the rendered surfaces, the closer the more rigs have seen them", "[points][device]") {
+TEST_CASE("points: points lie on the rendered surfaces, the closer the more rigs have seen them", "[points][device]") {
   PointCloud once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
       often(tracked_room().config, seen_by(5, 2'000'000, true));
   tracked_room().track_into({&once, &twice, &often});
@@ -122,7 +122,7 @@ TEST_CASE("edge map: points lie on the rendered surfaces, the closer the more ri
   CHECK(at(misses, 0.95) < 2);
 }
 
-TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded", "[points][device]") {
+TEST_CASE("points: the same frames give the same bytes, and memory is bounded", "[points][device]") {
   const TemporaryFolder folder;
   PointCloud first(tracked_room().config, seen_by(2)), second(tracked_room().config, seen_by(2)),
       small(tracked_room().config, seen_by(2, 1000));
@@ -136,7 +136,7 @@ TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded"
   CHECK(small.points().size() > 100);
 }
 
-TEST_CASE("edge map: corrected poses move the views with their points, other views stay", "[points][device]") {
+TEST_CASE("points: corrected poses move the views with their points, other views stay", "[points][device]") {
   PointCloud map(tracked_room().config, seen_by(1));
   tracked_room().track_into({&map});
   const auto before = map.points();
@@ -182,7 +182,7 @@ TEST_CASE("edge map: corrected poses move the views with their points, other vie
   CHECK(same + with_view == some.size());
 }
 
-TEST_CASE("edge map: files describe their content and are either complete or absent", "[points]") {
+TEST_CASE("points: files describe their content and are either complete or absent", "[points]") {
   const TemporaryFolder folder;
   CloudPoint point;
   point.position = {1.25, -2.5, 3};
