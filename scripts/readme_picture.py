@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""Draws the picture of the README: stereo edges of one frame beside the map of edges and the estimated path.
+"""Draws the picture of the README: stereo edges of a frame beside edges in space and the path so far; animated if there
+are several frames.
 
     quadedge synth street --scene facade --path drive --frames 103
     quadedge run street --points street/edges.ply -o street/results
-    quadedge match street/rgb/0.550000000.png street/rgb2/0.550000000.png --max-disparity 120 --csv street/edges.csv
-    scripts/readme_picture.py street 0.550000000 doc/street.webp
+    stamps="$(seq -f %.9f 0.25 0.3 4.9)"
+    for stamp in $stamps; do
+      quadedge match street/rgb/$stamp.png street/rgb2/$stamp.png --max-disparity 120 --csv street/edges_$stamp.csv
+    done
+    scripts/readme_picture.py street doc/street.webp $stamps
 
 Needs matplotlib, Pillow and plyfile (tests/requirements.txt).
 Exit code: 0 done, 1 a file is missing or empty, 2 wrong usage.
@@ -24,8 +28,9 @@ from PIL import Image
 from plyfile import PlyData
 
 BACKGROUND, PATH = "#0d1117", "#ffffff"
-WIDTH, HEIGHT = 16.0, 4.6  # of the picture [inch], 100 px each
-EYE, TARGET = np.array([13.0, -11.0, -3.0]), np.array([-1.6, -1.0, 16.0])  # of the view on the map [m]
+WIDTH, HEIGHT, DPI = 16.0, 4.6, 60  # of the picture [inch], pixels per inch
+EYE, TARGET = np.array([13.0, -11.0, -3.0]), np.array([-1.6, -1.0, 16.0])  # of the view on the points [m]
+STEP_MS, LAST_MS = 250, 2000  # how long frames of the animation are shown
 
 
 def read_stereo_edges(file):
@@ -54,21 +59,21 @@ def draw_view(figure, image, edges):
     axes.axis("off")
     axes.imshow(image, cmap="gray", vmin=-60, vmax=255)
     low, high = np.percentile(edges[:, 2], (2, 98))
-    axes.scatter(edges[:, 0], edges[:, 1], s=1.6, c=edges[:, 2], cmap="turbo", linewidths=0, vmin=low, vmax=high)
+    axes.scatter(edges[:, 0], edges[:, 1], s=4, c=edges[:, 2], cmap="turbo", linewidths=0, vmin=low, vmax=high)
     axes.set(xlim=(0, width - 1), ylim=(height - 1, 0))
     return share
 
 
-def draw_map(figure, share, points, path):
-    """The map coloured by the distance from the start, and the path."""
+def draw_points(figure, share, points, path, done):
+    """The points in space coloured by the distance from the start, and the first `done` poses of the path."""
     axes = figure.add_axes((share, 0, 1 - share, 1))
     axes.axis("off")
     places, depth = project(points)
     order = np.argsort(-depth)[: np.count_nonzero(depth > 1)]
-    axes.scatter(*places[order].T, s=1, c=points[order, 2], cmap="turbo_r", linewidths=0, alpha=0.9)
+    axes.scatter(*places[order].T, s=2, c=points[order, 2], cmap="turbo_r", linewidths=0, alpha=0.9)
     track, _ = project(path)
-    axes.plot(*track.T, color=PATH, lw=3)
-    axes.plot(*track[-1], "o", color=PATH, ms=7)
+    axes.plot(*track[:done].T, color=PATH, lw=4)
+    axes.plot(*track[done - 1], "o", color=PATH, ms=11)
     shown = np.concatenate([np.percentile(places[order], (1, 99), axis=0), track])
     (left, top), (right, bottom) = shown.min(axis=0), shown.max(axis=0)
     half_width = max((right - left) / 2, (bottom - top) / 2 * (1 - share) * WIDTH / HEIGHT)  # with one scale for both
@@ -77,25 +82,35 @@ def draw_map(figure, share, points, path):
     axes.set(xlim=(x - half_width, x + half_width), ylim=(y + half_height, y - half_height))
 
 
+def draw(sequence, stamp, points, poses):
+    """One frame of the animation. `points`: (n, 3); `poses`: rows of trajectory.txt."""
+    image = np.asarray(Image.open(sequence / "rgb" / f"{stamp}.png").convert("L"))
+    figure = plt.figure(figsize=(WIDTH, HEIGHT), dpi=DPI, facecolor=BACKGROUND)
+    share = draw_view(figure, image, read_stereo_edges(sequence / f"edges_{stamp}.csv"))
+    draw_points(figure, share, points, poses[:, 1:4], max(np.count_nonzero(poses[:, 0] < float(stamp) + 1e-6), 1))
+    figure.canvas.draw()
+    picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+    plt.close(figure)
+    return picture
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sequence", type=Path, help="rendered sequence, with results/, edges.ply and edges.csv")
-    parser.add_argument("frame", help="stamp of the frame shown, as in its file name")
+    parser.add_argument("sequence", type=Path, help="rendered sequence, with results/, edges.ply and edges_STAMP.csv")
     parser.add_argument("output", type=Path, help="picture to write; its suffix is the format")
+    parser.add_argument("stamps", nargs="+", help="stamps of the frames shown, as in their file names")
     options = parser.parse_args()
     try:
-        image = np.asarray(Image.open(options.sequence / "rgb" / f"{options.frame}.png").convert("L"))
-        edges = read_stereo_edges(options.sequence / "edges.csv")
         vertices = PlyData.read(options.sequence / "edges.ply")["vertex"]
-        path = np.loadtxt(options.sequence / "results" / "trajectory.txt", ndmin=2)[:, 1:4]
+        points = np.stack([vertices[axis] for axis in "xyz"], 1)
+        poses = np.loadtxt(options.sequence / "results" / "trajectory.txt", ndmin=2)
+        pictures = [draw(options.sequence, stamp, points, poses) for stamp in options.stamps]
     except (OSError, ValueError, KeyError) as problem:
         print(f"readme_picture: {problem}", file=sys.stderr)
         return 1
-    figure = plt.figure(figsize=(WIDTH, HEIGHT), dpi=100, facecolor=BACKGROUND)
-    share = draw_view(figure, image, edges)
-    draw_map(figure, share, np.stack([vertices[axis] for axis in "xyz"], 1), path)
-    figure.canvas.draw()
-    Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB").save(options.output, quality=80)
+    durations = [STEP_MS] * (len(pictures) - 1) + [LAST_MS]
+    pictures[0].save(options.output, quality=75, method=6, save_all=True, append_images=pictures[1:], loop=0,
+                     duration=durations)
     return 0
 
 

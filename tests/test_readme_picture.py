@@ -21,26 +21,29 @@ def call(*command):
 
 with tempfile.TemporaryDirectory() as folder:
     street, picture = Path(folder) / "street", Path(folder) / "street.webp"
-    stamp = "0.050000000"
+    stamps = ("0.000000000", "0.050000000")
+    points = ("--points", street / "edges.ply", "--points-min-views", "1")
     for arguments in (
         ("synth", street, "--scene", "facade", "--path", "drive", "--frames", "3", "--size", "480x249", "--quiet"),
-        ("run", street, "--points", street / "edges.ply", "--points-min-views", "1", "-o", street / "results",
-         "--quiet"),
-        ("match", street / f"rgb/{stamp}.png", street / f"rgb2/{stamp}.png", "--csv", street / "edges.csv"),
+        ("run", street, *points, "-o", street / "results", "--quiet"),
+        *(("match", street / f"rgb/{stamp}.png", street / f"rgb2/{stamp}.png", "--csv", street / f"edges_{stamp}.csv")
+          for stamp in stamps),
     ):
         done = call(quadedge, *arguments)
         assert done.returncode == 0, done.stderr
-    done = call(sys.executable, script, street, stamp, picture)
+    done = call(sys.executable, script, street, picture, *stamps)
     assert done.returncode == 0, done.stderr
-    pixels = np.asarray(Image.open(picture).convert("RGB")).astype(int)
-    assert pixels.shape == (460, 1600, 3), pixels.shape
-    coloured = np.ptp(pixels, axis=2) > 60  # edges and map points; the image itself is grey
-    seam = round(480 / 249 * 460)
-    assert coloured[:, :seam].mean() > 0.01, "no edges on the image"
-    assert coloured[:, seam:].mean() > 0.001, "no map"
-    assert (pixels[:, seam:].min(axis=2) > 240).sum() > 20, "no path"
+    animation = Image.open(picture)
+    for number in range(2):
+        animation.seek(number)
+        pixels = np.asarray(animation.convert("RGB")).astype(int)
+        assert pixels.shape == (276, 960, 3), pixels.shape
+        coloured = np.ptp(pixels, axis=2) > 60  # edges and points; the image itself is grey
+        seam = round(480 / 249 * 276)
+        assert coloured[:, :seam].mean() > 0.01 and coloured[:, seam:].mean() > 0.001, "no edges or no points"
+        assert (pixels[:, seam:].min(axis=2) > 240).sum() > 20, "no path"
 
-    (street / "edges.csv").write_text("left_x,left_y,right_x\n")
-    failed = call(sys.executable, script, street, stamp, picture)
-    assert failed.returncode == 1 and "edges.csv" in failed.stderr, failed
-    assert call(sys.executable, script, Path(folder) / "absent", stamp, picture).returncode == 1
+    (street / f"edges_{stamps[1]}.csv").write_text("left_x,left_y,right_x\n")
+    failed = call(sys.executable, script, street, picture, *stamps)
+    assert failed.returncode == 1 and "edges_" in failed.stderr, failed
+    assert call(sys.executable, script, Path(folder) / "absent", picture, *stamps).returncode == 1
