@@ -190,7 +190,7 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),
               run.device.type.c_str());
   std::printf("tracked    %d of %s, %s\n", run.tracked(), data::counted(frames, "frame").c_str(),
-              data::counted(key_rigs, "key stereo rig").c_str());
+              data::counted(key_rigs, "key rig").c_str());
   const std::string lost = report::lost_reasons(run.frames);
   if (!lost.empty()) std::printf("lost       %s\n", lost.c_str());
   const std::string segments = report::segments_text(run.frames);

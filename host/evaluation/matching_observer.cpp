@@ -92,7 +92,7 @@ FrameMatching MatchingObserver::end(const FrameResult& result) {
     measured_.temporal = std::move(found->second.measured);
     add(measured_.cues, found->second.cues);
   }
-  // No later frame is matched with a frame before the key stereo rig.
+  // No later frame is matched with a frame before the key rig.
   rigs_.erase(rigs_.begin(), rigs_.lower_bound(result.reference_frame));
   return std::move(measured_);
 }

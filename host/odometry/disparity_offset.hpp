@@ -12,7 +12,7 @@ StereoRig with_disparity_offset(const StereoRig& rig, double offset);
 
 /// A scalar Kalman filter for the common offset of a rig's disparities, a rectification error of a fraction of a pixel
 /// (KITTI: 0.2 px and more). The offset is observable in the quads of a moving camera (pose::fit_offset()); one frame
-/// per key stereo rig contributes a measurement.
+/// per key rig contributes a measurement.
 class DisparityOffset {
  public:
   DisparityOffset(const StereoRig& rig, const PoseConfig& config);

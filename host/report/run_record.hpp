@@ -41,7 +41,7 @@ struct DeviceTrust {
 /// The points that a run wrote.
 struct PointFacts {
   std::size_t points = 0;
-  std::size_t views = 0;    ///< key stereo rigs that it was made from
+  std::size_t views = 0;    ///< key rigs that it was made from
   std::size_t dropped = 0;  ///< points dropped because memory was full
 };
 
@@ -52,7 +52,7 @@ struct LatencySummary {
 
 /// The closures of a run with --loops.
 struct LoopFacts {
-  std::size_t compared = 0, kept = 0;  ///< pairs of a frame and an earlier key stereo rig
+  std::size_t compared = 0, kept = 0;  ///< pairs of a frame and an earlier key rig
   int segments = 0;                    ///< that remain
   std::size_t frames = 0;              ///< in the corrected trajectory
   std::size_t key_rigs = 0;            ///< kept

@@ -20,7 +20,7 @@ struct Place;
 struct SavedPlaces;
 }  // namespace places
 
-/// Key stereo rigs with their poses in the frame of a map, and the cameras that recorded them. Copies share the rigs.
+/// Key rigs with their poses in the frame of a map, and the cameras that recorded them. Copies share the rigs.
 /// Map::saved() makes one, Localiser locates frames in it.
 class SavedMap {
  public:
@@ -51,7 +51,7 @@ void write_map(const std::string& file, const SavedMap& map);
 /// cut, of another kind, or of another version of the format
 SavedMap read_map(const std::string& file);
 
-/// Outcome of the comparison of a frame with a kept key stereo rig.
+/// Outcome of the comparison of a frame with a kept key rig.
 enum class ClosureVerdict {
   kept,         ///< the motion is part of the map
   not_found,    ///< no motion between the two was found
@@ -61,7 +61,7 @@ enum class ClosureVerdict {
 };
 const char* to_string(ClosureVerdict verdict);
 
-/// A frame compared with an earlier key stereo rig that looks similar or, according to the map, sees the same.
+/// A frame compared with an earlier key rig that looks similar or, according to the map, sees the same.
 struct Closure {
   int frame = 0;          ///< number of the frame
   int other = 0;          ///< number of the earlier frame
@@ -77,7 +77,7 @@ struct Closure {
   std::optional<double> angle_deg;   ///< and as an angle
 };
 
-/// A map of places beside an odometry, which it never changes: compares key stereo rigs and lost frames with similar
+/// A map of places beside an odometry, which it never changes: compares key rigs and lost frames with similar
 /// earlier ones (doc/method.md section 10), joins segments of the trajectory, and corrects it. Deterministic.
 class Map {
  public:

@@ -22,7 +22,7 @@ namespace quadedge {
 /// Outcome of a frame.
 enum class FrameStatus {
   first,               ///< the origin of the trajectory
-  tracked,             ///< pose found against the key stereo rig or an earlier frame
+  tracked,             ///< pose found against the key rig or an earlier frame
   lost_too_few_edges,  ///< too few stereo edges in this frame
   lost_too_few_quads,  ///< too few quads with an earlier frame
   lost_no_consensus,   ///< no motion supported by enough quads
@@ -37,7 +37,7 @@ struct FrameCounts {
   int stereo_edges = 0;
   int temporal_left = 0,
       temporal_right = 0;  ///< previous stereo edges with at least one candidate in the left / right image
-  int quads = 0;           ///< with the key stereo rig, or with the previous frame if the key stereo rig is out of view
+  int quads = 0;           ///< with the key rig, or with the previous frame if the key rig is out of view
   int inliers = 0;
 };
 
@@ -59,7 +59,7 @@ struct FrameDiagnostics {
   double edge_threshold = 0;   ///< gradient threshold of the edges in both images [grey levels per px]
   double disparity_range = 0;  ///< up to which stereo matches were searched for, in the middle of the left image [px]
   bool overflow = false;       ///< whether a capacity was exceeded (edges or candidates); see FrameResult::message
-  /// Number of the frame that the pose was measured against: the key stereo rig or, if that is out of view, the last
+  /// Number of the frame that the pose was measured against: the key rig or, if that is out of view, the last
   /// frame with a pose; -1 without a pose.
   int base_frame = -1;
   int search = -1;  ///< number of the frame's temporal search that gave its motion; -1: no motion
@@ -88,17 +88,17 @@ struct FrameResult {
   /// Pose of a lost frame if the last motion is repeated; empty for any other frame.
   std::optional<Eigen::Isometry3d> predicted_world_from_left;
   /// Covariance of world_from_left, translation first as in ROS, within the segment: the pose that the segment starts
-  /// from (the first frame; later, a predicted pose) counts as exact. Composed over the key stereo rigs: edge errors
+  /// from (the first frame; later, a predicted pose) counts as exact. Composed over the key rigs: edge errors
   /// are independent between rigs, calibration errors (`pose.rig_sigma_*`) are common to all. Empty for a lost frame.
   std::optional<PoseCovariance> covariance;
-  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key stereo rig. Empty for a lost
+  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key rig. Empty for a lost
   /// frame.
   std::optional<Eigen::Isometry3d> current_from_reference;
   /// Covariance of current_from_reference due to edge errors alone, in the order of PoseCovariance, as a left
   /// perturbation in the current left camera frame. Empty for a lost frame.
   std::optional<PoseCovariance> relative_covariance;
-  int reference_frame = 0;            ///< number of the frame that was the key stereo rig; -1 before the first
-  bool new_key_rig = false;           ///< whether this frame becomes the key stereo rig of the following frames
+  int reference_frame = 0;            ///< number of the frame that was the key rig; -1 before the first
+  bool new_key_rig = false;           ///< whether this frame becomes the key rig of the following frames
   double disparity_offset = 0;        ///< estimated so far, added to every disparity [px]
   double disparity_offset_sigma = 0;  ///< its standard deviation [px]
   /// Another motion explains nearly as much of the image, so that the camera's motion is ambiguous.

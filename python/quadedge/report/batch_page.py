@@ -154,7 +154,7 @@ def _rows_over_all(summary: dict, compared: dict) -> list[ErrorRow]:
 
 def _latency_table(summary: dict, sequences: list[Sequence]) -> Table:
     table = Table("latency", "Tracked frames and latency",
-                  ["sequence", "outcome", "tracked", "key stereo rigs", "median", "90 %", "99 %", "largest",
+                  ["sequence", "outcome", "tracked", "key rigs", "median", "90 %", "99 %", "largest",
                    "first frame"], text_columns=2)
     table.groups = [("", 1), ("", 1), ("", 1), ("", 1), ("latency [ms]", 5)]
     for sequence in sequences:
