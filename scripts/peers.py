@@ -53,9 +53,8 @@ def median_of_quadedge(program, sequence, frames, folder):
 def add(peers, ours, theirs):
     """Enters the times [ms] of the rounds."""
     own, other = statistics.median(ours), statistics.median(theirs)
-    peers["libviso2"]["in_turn"] = stamped({"sequence": TITLE, "quadedge_ms": ours, "libviso2_ms": theirs,
-                                            "threads": os.cpu_count()})
-    peers["frames_per_second"][TITLE]["libviso2"] = f"{1000 / other:.0f}"
+    peers["libviso2"]["in_turn"][TITLE] = stamped({"quadedge_ms": ours, "libviso2_ms": theirs,
+                                                   "threads": os.cpu_count()})
     for row in peers["rows"]:
         if row[0] == "libviso2":
             row[1] = f"{other:.0f} ms (QuadEdge in turn with it: {own:.0f} ms)"

@@ -3,6 +3,8 @@
 `results`: part ("accuracy", "matching" ...) -> what doc/results/PART.json holds; scripts/measure.py says what that is.
 """
 
+import statistics
+
 import disturbances as sweeps
 
 PRESETS = ("fast", "default", "dense")
@@ -159,12 +161,15 @@ def beside(results):
 
 
 def pace(results):
-    """Frames per second beside other systems, for the README."""
+    """Frames per second, and beside libviso2 where both ran in turn, for the README."""
     others, rows = results["peers"], []
     for title, timed in others["frames_per_second"].items():
         own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
                if row["title"].startswith(title) and row.get("preset", "default") == "default"]
-        rows.append([title.removesuffix(", flight"), *own[:1], timed.get("libviso2", "-"), timed.get("OpenCV", "-")])
+        rows.append([title.removesuffix(", flight"), *own[:1], "-", timed.get("OpenCV", "-")])
+    for title, timed in others["libviso2"]["in_turn"].items():
+        both = [f"{1000 / statistics.median(timed[name]):.0f}" for name in ("quadedge_ms", "libviso2_ms")]
+        rows.append([f"{title}, in turn, {timed['date']}", *both, "-"])
     return table(["frames per second", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
                  f"{stamp(results['speed']).rstrip()} {others['timed']}\n")
 
