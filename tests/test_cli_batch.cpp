@@ -67,7 +67,8 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
     const auto& entry = summary["sequences"][name == std::string("first") ? 0 : 1];
     CHECK(entry["accuracy"]["origin_aligned"] == report["accuracy"]["origin_aligned"]);
     CHECK(entry["latency_ms"] == report["latency_ms"]);
-    for (const char* file : {"trajectory.txt", "groundtruth.txt", "errors.csv", "pictures/thumbnail_000001.jpg"}) {
+    for (const char* file : {"trajectory.txt", "groundtruth.txt", "errors.csv", "pictures/thumbnail_000001.jpg",
+                             "pictures/pair_000002.jpg"}) {
       CHECK(fs::file_size(folder + "/" + file) > 0);
     }
   }

@@ -110,9 +110,9 @@ TEST_CASE("evaluate matching keeps the figures and drawings of its report beside
   CHECK(json["config_changed"].empty());
   CHECK(json["device"]["name"].get<std::string>().size() > 0);
   CHECK_THAT(json["command"].get<std::string>(), Contains("quadedge evaluate matching room"));
-  REQUIRE(json["drawings"].size() == 1);
+  REQUIRE(json["drawings"].size() == 3);
   for (const auto& drawing : json["drawings"]) CHECK(fs::exists(drawing["file"].get<std::string>()));
-  CHECK(fs::exists(folder / "m_drawings/room.png"));
+  CHECK(fs::exists(folder / "m_drawings/room_correct.png"));
   // SIFT is off by default, and its rows say so.
   CHECK(json["pooled"]["stereo"][4]["off"] == true);
   CHECK_FALSE(json["pooled"]["stereo"][5].contains("off"));

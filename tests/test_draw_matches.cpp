@@ -31,9 +31,9 @@ DrawnFrame small_frame() {
   return frame;
 }
 
-cv::Mat drawn(const DrawnFrame& frame) {
+cv::Mat drawn(const DrawnFrame& frame, MatchClass kind) {
   const TemporaryFolder folder;
-  draw_matches(folder / "matches.png", frame, "paper", {});
+  draw_matches(folder / "matches.png", frame, "paper", {}, kind);
   return cv::imread(folder / "matches.png");
 }
 
@@ -68,29 +68,38 @@ cv::Vec3b marker_at(const cv::Mat& picture, double x, double y, Side side) {
 
 }  // namespace
 
-TEST_CASE("Drawn by class, every class has one colour in both views, unlike the others", "[report]") {
-  const cv::Mat picture = drawn(small_frame());
-  const auto correct = at(picture, 60, 20, Side::left), inaccurate = marker_at(picture, 120, 60, Side::left),
-             wrong = at(picture, 150, 30, Side::left);
-  CHECK(difference(correct, at(picture, 90, 40, Side::left)) < 20);
-  CHECK(difference(correct, at(picture, 80.5, 40, Side::right)) < 20);
-  CHECK(difference(inaccurate, marker_at(picture, 105, 60, Side::right)) < 20);
-  CHECK(difference(correct, inaccurate) > 60);
-  CHECK(difference(inaccurate, wrong) > 60);
-  CHECK(difference(correct, wrong) > 60);
-  // Shapes differ too: the cross of a wrong match leaves the edge's direction.
-  CHECK(difference(wrong, picture.at<cv::Vec3b>(30 * kScale + 2 + 3, 150 * kScale + 2 + 3)) < 60);
+TEST_CASE("Every correct match has a colour of its own, the same in both views", "[report]") {
+  const cv::Mat picture = drawn(small_frame(), MatchClass::correct);
+  const auto first = at(picture, 60, 20, Side::left), second = at(picture, 90, 40, Side::left);
+  CHECK(difference(first, at(picture, 50, 20, Side::right)) < 20);
+  CHECK(difference(second, at(picture, 80.5, 40, Side::right)) < 20);
+  CHECK(difference(first, second) > 60);
+  CHECK(colourfulness(at(picture, 120, 60, Side::left)) == 0);  // of another class
+  // Below the views, the regions with correct matches are shown again, larger, in the same colours.
+  const cv::Mat below = picture.rowRange(kViewHeight * kScale + 8, picture.rows - 34);
+  for (const auto& colour : {first, second}) {
+    int found = 0;
+    for (int y = 0; y < below.rows; ++y)
+      for (int x = 0; x < below.cols; ++x) found += difference(below.at<cv::Vec3b>(y, x), colour) < 40;
+    CHECK(found > 20);
+  }
 }
 
-TEST_CASE("Matches that are not correct are linked to their true position in the right view alone", "[report]") {
-  const cv::Mat picture = drawn(small_frame());
+TEST_CASE("Matches that are not correct have pictures of their own, linked to the true position in the right view",
+          "[report]") {
+  const cv::Mat picture = drawn(small_frame(), MatchClass::wrong);
   CHECK(colourfulness(at(picture, 120, 30, Side::right)) > 50);  // on the line from 100 to 140
   CHECK(colourfulness(at(picture, 120, 30, Side::left)) == 0);
+  CHECK(colourfulness(at(picture, 150, 30, Side::left)) > 50);
+  CHECK(colourfulness(marker_at(picture, 120, 60, Side::left)) == 0);  // an inaccurate one
+  CHECK(colourfulness(marker_at(drawn(small_frame(), MatchClass::inaccurate), 120, 60, Side::left)) > 50);
   DrawnFrame other = small_frame();
   other.matches[3].true_x = std::nanf("");
-  CHECK(colourfulness(at(drawn(other), 120, 30, Side::right)) == 0);
+  other.matches[3].kind = MatchClass::occluded;
+  CHECK(colourfulness(at(drawn(other, MatchClass::wrong), 120, 30, Side::right)) == 0);
+  CHECK(colourfulness(marker_at(drawn(other, MatchClass::wrong), 148.7, 28.7, Side::left)) > 50);  // a square
   other.right = Image(60, 120);  // another size than the left one
-  CHECK(drawn(other).rows > 120 * kScale);
+  CHECK(drawn(other, MatchClass::correct).rows > 120 * kScale);
 }
 
 TEST_CASE("Drawings are written one file per result, and repeated names are made unique", "[report]") {
@@ -105,6 +114,7 @@ TEST_CASE("Drawings are written one file per result, and repeated names are made
   for (const auto& entry : std::filesystem::directory_iterator(folder / "new"))
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  CHECK(names == std::vector<std::string>{"a_b_c.png", "a_b_c_2.png"});
-  CHECK(cv::imread(folder / "new/a_b_c.png").cols == 2 * kRightView);
+  CHECK(names == std::vector<std::string>{"a_b_c_2_correct.png", "a_b_c_2_inaccurate.png", "a_b_c_2_wrong.png",
+                                          "a_b_c_correct.png", "a_b_c_inaccurate.png", "a_b_c_wrong.png"});
+  CHECK(cv::imread(folder / "new/a_b_c_correct.png").cols == 2 * kRightView);
 }

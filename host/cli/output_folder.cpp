@@ -22,7 +22,7 @@ constexpr const char* kResultFiles[] = {
 
 bool is_picture(const fs::path& file) {
   const std::string name = file.filename().string();
-  if (file.extension() == ".jpg") return name.rfind("thumbnail_", 0) == 0;
+  if (file.extension() == ".jpg") return name.rfind("thumbnail_", 0) == 0 || name.rfind("pair_", 0) == 0;
   return file.extension() == ".png" &&
          (name == "trajectory.png" || name.rfind("edges_", 0) == 0 || name.rfind("quads_", 0) == 0);
 }

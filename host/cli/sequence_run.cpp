@@ -67,13 +67,16 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   const bool large =
       frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
   const bool small = is_thumbnail(frame.number, frames, options.thumbnails);
-  if (!large && !small) return;
+  const bool example = is_thumbnail(frame.number, frames, options.thumbnails > 0 ? 1 : 0);
+  if (!large && !small && !example) return;
   const FrameDetails details = odometry.details();
   // Edges refer to the pinhole image, not to the recorded one with distortion.
   const auto& table = rig.left_undistortion;
   const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
   char number[16];
   std::snprintf(number, sizeof number, "%06d", frame.number);
+  if (example)
+    report::draw_pair(options.output + "/pictures/pair_" + number + ".jpg", frame.left.view(), frame.right.view());
   if (small)
     report::draw_quads_thumbnail(options.output + "/pictures/thumbnail_" + number + ".jpg", left.view(), details);
   if (!large) return;

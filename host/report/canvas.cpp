@@ -1,7 +1,9 @@
 #include "report/canvas.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "data/atomic_file.hpp"
 #include "data/jpeg_codec.hpp"
@@ -47,6 +49,18 @@ int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::
   cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
   int baseline = 0;
   return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
+}
+
+cv::Scalar wheel_colour(double turn) {
+  static const std::vector<cv::Scalar> wheel = [] {
+    cv::Mat hsv(1, 180, CV_8UC3), bgr;
+    for (int i = 0; i < 180; ++i) hsv.at<cv::Vec3b>(0, i) = {static_cast<unsigned char>(i), 220, 255};
+    cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
+    std::vector<cv::Scalar> colours;
+    for (int i = 0; i < 180; ++i) colours.emplace_back(bgr.at<cv::Vec3b>(0, i));
+    return colours;
+  }();
+  return wheel[static_cast<std::size_t>(std::min(static_cast<int>((turn - std::floor(turn)) * 180.0), 179))];
 }
 
 void write_png(const std::string& path, const cv::Mat& picture) {

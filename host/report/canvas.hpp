@@ -36,6 +36,9 @@ constexpr int kPositionShift = 4;
 /// Writes text with its baseline at (x, y); returns the x after its end.
 int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size = 0.5);
 
+/// The colour at a share of a turn of the colour wheel, of full saturation, in 180 steps [BGR].
+cv::Scalar wheel_colour(double turn);
+
 /// Encodes and writes atomically. \throws DataError.
 void write_png(const std::string& path, const cv::Mat& picture);
 void write_jpeg(const std::string& path, const cv::Mat& picture);

@@ -8,11 +8,12 @@
 
 namespace quadedge::report {
 
-/// The stereo edges of known truth over both images side by side, each class with a colour and a shape. In the right
-/// image a line leads from each match that is not correct to a ring at its true position.
-/// \throws DataError.
+/// The stereo edges of known truth of one class over both images side by side, each in a colour of its own: correct
+/// ones as strokes, with the regions that hold most of them enlarged below; others as markers, from which a line leads
+/// to a ring at the true position in the right image. Edges that the right view does not show are drawn with the wrong
+/// ones. \throws DataError.
 void draw_matches(const std::string& path, const evaluation::DrawnFrame& frame, const std::string& name,
-                  const evaluation::MatchingTolerance& tolerance);
+                  const evaluation::MatchingTolerance& tolerance, evaluation::MatchClass kind);
 
 /// A drawing that was written.
 struct WrittenDrawing {
@@ -21,8 +22,8 @@ struct WrittenDrawing {
   std::string caption;  ///< what it shows
 };
 
-/// Writes FOLDER/NAME.png of every result with a frame to draw; the second result of one name gets a "_2". Makes the
-/// folder. \throws DataError.
+/// Writes FOLDER/NAME_{correct,inaccurate,wrong}.png of every result with a frame to draw; the second result of one
+/// name gets a "_2". Makes the folder. \throws DataError.
 std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
                                                  const std::vector<evaluation::MatchingResult>& results,
                                                  const evaluation::MatchingTolerance& tolerance);

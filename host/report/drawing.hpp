@@ -23,6 +23,9 @@ void draw_stereo(const std::string& path, const ImageView& left, const StereoEdg
 /// earlier frame: inliers white, others red, one per cell of 16 px.
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details);
 
+/// Both recorded images of a frame side by side, reduced to a width of 960 px, as JPEG.
+void draw_pair(const std::string& path, const ImageView& left, const ImageView& right);
+
 /// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details);
 

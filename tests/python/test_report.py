@@ -93,6 +93,7 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     content = write_run(tmp_path / "street", 12, lost=7)
     save_picture(tmp_path / "street/pictures/thumbnail_000005.jpg", 480, 300)
     save_picture(tmp_path / "street/pictures/quads_000005.png", 1280, 960)
+    save_picture(tmp_path / "street/pictures/pair_000006.jpg", 960, 300)
     (tmp_path / "street/pictures/thumbnail_000007.jpg").write_text("no picture")
     page = page_of(tmp_path / "street")
     assert page.facts["Program"] == "QuadEdge 1.2.3, commit 0123456789ab"
@@ -110,7 +111,8 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     promises = page.tables["Errors of motions and what their covariances promise, root mean squares"]
     assert promises[0][1] == "position [mm]"
     assert promises[2] == ["5", "7", "20.0", "10.0", "0.100", numbers.DASH, "4.50", "1.20"]
-    assert page.pictures == 2 and "thumbnail_000007.jpg: no picture" in page.text
+    assert page.pictures == 3 and "left and right image of frame 6" in page.text
+    assert "thumbnail_000007.jpg: no picture" in page.text
     # The estimate drifts sideways by 10 mm per frame and is drawn aligned to the first ground-truth pose.
     estimate = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "QuadEdge")
     truth = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "ground truth")
@@ -384,13 +386,19 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     assert len({trace["marker"]["symbol"] for trace in motions["data"]}) == 3
     assert "rotation -0.75, translation undefined" in page.text
     assert page.pictures == 1
-    assert sum(plot.startswith("figure-counts") for plot in page.plots) == 4
+    counts = [plot for plot in page.plots if plot.startswith("figure-counts")]
+    assert len(counts) == 8
+    for plot in [plot for plot in counts if plot.endswith("_distribution")]:
+        # Every image is in one bin of a histogram: heights by bins add up to the number of images.
+        for trace in page.figure(plot.removeprefix("figure-"))["data"]:
+            assert sum(trace["y"][1:-1:2]) == len(page.figure("counts_edges")["data"][0]["y"])
 
 
 def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame(tmp_path):
     write_matching(tmp_path / "m.json", ["room"], 9)
     page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
     assert not [plot for plot in page.plots if "counts" in plot or "motions" in plot]
+    assert "(Figure 2): needs at least 10 frames" in page.text and "(Figure 7): needs at least 10 frames" in page.text
     assert page.row("Counts of a frame", "edges, left")[1] == "9"
 
 
@@ -478,5 +486,5 @@ def test_pages_of_the_program(tmp_path):
     assert ParsedPage((tmp_path / "batch/sequences/room/report.html").read_text()).facts["Device"]
     run("evaluate", "matching", tmp_path / "data/room", "--frames", 2, "--quiet", "--html", tmp_path / "m.html")
     matching = ParsedPage((tmp_path / "m.html").read_text())
-    assert matching.tables["Table 1: stereo"][6][2] == "off" and matching.pictures == 1
+    assert matching.tables["Table 1: stereo"][6][2] == "off" and matching.pictures == 3
     assert "Table 3" in " ".join(matching.tables)

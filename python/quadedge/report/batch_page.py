@@ -189,5 +189,5 @@ def _sequence_blocks(sequence: Sequence, detail: Detail) -> list:
     facts += [("Note", note) for note in sequence.notes]
     blocks: list = [Facts(facts)]
     blocks += [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True) for warning in run.report["warnings"]]
-    blocks += [figures for _, figures in plots(run, sequence.others, detail)] or [NO_PLOTS]
+    blocks += [block for _, part in plots(run, sequence.others, detail) for block in part] or [NO_PLOTS]
     return blocks + picture_blocks(run, detail)

@@ -156,6 +156,23 @@ def count_figures(pairs: list[dict]) -> list[Figure]:
     return figures
 
 
+def count_distribution_figures(pairs: list[dict]) -> list[Figure]:
+    """Figure 2: how often an image or a frame has so many edges, stereo edges, matches in time and quads."""
+    figures = []
+    for figure in count_figures(pairs):
+        values = [np.asarray(series.y, float) for series in figure.series]
+        values = [counts[np.isfinite(counts)] for counts in values]
+        ends = np.histogram_bin_edges(np.concatenate(values), bins="sturges")
+        shown = Figure(f"{figure.name}_distribution", figure.title, "count", "images" if "edges" in figure.name else
+                       "frames", series=[])
+        for series, counts in zip(figure.series, values):
+            heights = np.histogram(counts, ends)[0]
+            shown.series.append(Series(series.name, np.repeat(ends, 2), np.pad(np.repeat(heights, 2), 1),
+                                       style=series.style, fill="zero"))
+        figures.append(shown)
+    return figures
+
+
 def accuracy_figures(pairs: list[dict], pooled: dict) -> list[Figure]:
     """Figure 7: the precision of pairs of quads and the error of the motions computed from them."""
     names = [row["constraint"] for row in pooled["constraints"]]

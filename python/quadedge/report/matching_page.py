@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from .matching_figures import (accuracy_figures, count_figures, cue_figures, disparity_figures, filter_figure,
-                               frames_of)
+from .matching_figures import (accuracy_figures, count_distribution_figures, count_figures, cue_figures,
+                               disparity_figures, filter_figure, frames_of)
 from .figure import FEWEST_FRAMES
 from .matching_tables import (constraint_table, count_table, disparity_table, filter_table, overview_table, quad_table)
 from .numbers import exists
@@ -93,10 +93,18 @@ def _tables(summary: dict, prefix: str) -> list:
 
 def _counts(pairs: list[dict]) -> Section:
     section = Section("Counts per frame", [count_table(pairs)])
-    if frames_of(pairs) >= FEWEST_FRAMES:
-        section.blocks.append(Figures(count_figures(pairs), "Figure 2: edges, stereo edges, pairs in time and quads of "
-                                                            "every frame."))
+    if frames_of(pairs) < FEWEST_FRAMES:
+        section.blocks.append(_needs_frames("Distributions of the counts (Figure 2)"))
+        return section
+    section.blocks += [
+        Figures(count_distribution_figures(pairs), "Figure 2: distributions of the numbers of edges, stereo edges, "
+                                                   "pairs in time and quads over the images."),
+        Figures(count_figures(pairs), "The same counts of every frame.")]
     return section
+
+
+def _needs_frames(what: str) -> Text:
+    return Text(f"{what}: needs at least {FEWEST_FRAMES} frames.")
 
 
 def _distributions(pooled: dict) -> list[Section]:
@@ -124,8 +132,11 @@ def _distributions(pooled: dict) -> list[Section]:
 
 def _accuracy(pairs: list[dict], pooled: dict) -> list[Section]:
     correlation = pooled["motion_rank_correlation"]
-    if correlation["points"] == 0 or frames_of(pairs) < FEWEST_FRAMES:
+    if correlation["points"] == 0:
         return []
+    if frames_of(pairs) < FEWEST_FRAMES:
+        return [Section("Precision of pairs and accuracy of motions",
+                        [_needs_frames("Precision of pairs and accuracy of motions (Figure 7)")])]
 
     def text(value: float | None) -> str:
         return f"{value:.2f}" if exists(value) else "undefined"
@@ -147,7 +158,8 @@ def _drawings(content: dict, detail: Detail) -> list[Section]:
         by_name.setdefault(drawing["name"], []).append(drawing)
     if not by_name:
         return []
-    text = "The left and right image with the final stereo edges that have ground truth (Figures 8 and 9)."
+    text = ("The left and right image with the final stereo edges that have ground truth: correct ones (Figure 8), "
+            "inaccurate and wrong ones (Figure 9).")
     if len(by_name) > MOST_DRAWN:
         text += f" The first {MOST_DRAWN} of {len(by_name)} are shown."
     sections = [Section("Drawings", [Text(text)])]

@@ -24,8 +24,8 @@ def run_page(run: Run, detail: Detail) -> Page:
     facts.entries += facts_of(run)
     page = Page(f"QuadEdge: {run.name}", facts)
     sections = [Section("Results", [*warnings(run), latency_table(run), *accuracy_tables(run), *loss_tables(run)])]
-    figures = plots(run, [], detail) or [("Plots", NO_PLOTS)]
-    page.sections += sections + [Section(name, [block]) for name, block in figures]
+    figures = plots(run, [], detail) or [("Plots", [NO_PLOTS])]
+    page.sections += sections + [Section(name, blocks) for name, blocks in figures]
     pictures = picture_blocks(run, detail)
     if pictures:
         page.sections.append(Section("Pictures", pictures))
@@ -198,13 +198,19 @@ def configuration_table(content: dict) -> Table:
     return table
 
 
-def plots(run: Run, others: list[Other], detail: Detail) -> list[tuple[str, Figures]]:
-    """Trajectory, errors and frames, each with its name; nothing for a run of few frames."""
+def plots(run: Run, others: list[Other], detail: Detail) -> list[tuple[str, list]]:
+    """Trajectory with an example pair above it, errors and frames, each with its name; nothing for a run of few
+    frames."""
     world = "In the left camera's first pose" + (" that has ground truth, origin-aligned." if run.truth else ".")
     blocks = [("Trajectory", trajectory_figures(run, others, detail.points), world),
               ("Errors", error_figures(run, others, detail.points), "Errors against the ground truth, origin-aligned."),
               ("Frames", frame_figures(run, detail.points), "")]
-    return [(name, Figures(figures, caption)) for name, figures, caption in blocks if figures]
+    named = [(name, [Figures(figures, caption)]) for name, figures, caption in blocks if figures]
+    example = next((file for file in run.pictures if file.stem.startswith("pair_")), None)
+    data = reduced(example, 2 * detail.picture_width, detail.quality) if example and detail.picture_width else None
+    if named and data:
+        named[0][1].insert(0, Pictures([Picture(data, f"left and right image of frame {int(example.stem[5:])}")], True))
+    return named
 
 
 def picture_blocks(run: Run, detail: Detail) -> list:
