@@ -20,13 +20,8 @@ from measurements import Programs  # noqa: E402
 
 
 def run(script, *options):
-    return subprocess.run(
-        [sys.executable, scripts / script, *map(str, options)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
+    command = [sys.executable, scripts / script, *map(str, options)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 # Every generated block of the documentation and the pages of doc/results match the JSON files.
