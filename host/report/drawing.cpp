@@ -18,15 +18,6 @@ constexpr double kHalfStroke = 0.6;  // px of the image to either side of the ed
 
 cv::Scalar direction_colour(double direction) { return wheel_colour(direction / (2 * kPi)); }
 
-constexpr double kBrightness = 0.35;
-
-cv::Scalar colour_of(double fraction) {
-  cv::Mat value(1, 1, CV_8U, cv::Scalar(255 * std::clamp(fraction, 0.0, 1.0))), colour;
-  cv::applyColorMap(value, colour, cv::COLORMAP_TURBO);
-  const auto bgr = colour.at<cv::Vec3b>(0, 0);
-  return {static_cast<double>(bgr[0]), static_cast<double>(bgr[1]), static_cast<double>(bgr[2])};
-}
-
 constexpr double kQuadsBrightness = 0.45;
 constexpr int kThumbnailWidth = 480;  // px
 constexpr int kCell = 16;             // px of the image; one motion is drawn per cell
@@ -34,45 +25,36 @@ const cv::Scalar kText(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 
 
 constexpr int kLevels = 256;  // colours of a disparity
 
-/// Matplotlib's viridis, which colour-blind readers can read as well.
+/// Matplotlib's viridis, which colour-blind readers can read as well, from 0 to the largest disparity.
 class DisparityColours {
  public:
   /// The scale for these disparities [px]; a few wrong matches do not stretch it.
-  explicit DisparityColours(const std::vector<double>& disparities);
+  explicit DisparityColours(const std::vector<double>& disparities)
+      : largest_(disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3)) {
+    cv::Mat levels(1, kLevels, CV_8UC1), bgr;
+    for (int i = 0; i < kLevels; ++i) levels.at<unsigned char>(0, i) = static_cast<unsigned char>(i);
+    cv::applyColorMap(levels, bgr, cv::COLORMAP_VIRIDIS);
+    for (int i = 0; i < kLevels; ++i) colours_.emplace_back(bgr.at<cv::Vec3b>(0, i));
+  }
 
-  cv::Scalar of(double disparity) const;
-  /// The disparity of the brightest colour [px]; larger ones share it.
-  double largest() const { return largest_; }
-  /// Draws the scale as a bar that begins at `x` with its lower edge at `y`; returns the x after its end.
-  int draw_bar(cv::Mat& picture, int x, int y) const;
+  cv::Scalar of(double disparity) const {
+    return colours_[static_cast<std::size_t>(std::clamp(disparity / largest_, 0.0, 1.0) * (kLevels - 1))];
+  }
+  /// Writes the legend at a position: what is coloured, the scale as a bar, and how many.
+  void draw_legend(cv::Mat& picture, int y, std::size_t count) const {
+    int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kText) + 6;
+    for (const auto& colour : colours_) {
+      cv::line(picture, {x, y - 12}, {x, y + 2}, colour);
+      ++x;
+    }
+    put_text(picture, data::format_fixed(largest_, 1) + " px   (" + std::to_string(count) + " stereo edges)", x + 6, y,
+             kText);
+  }
 
  private:
   std::vector<cv::Scalar> colours_;
   double largest_;
 };
-
-DisparityColours::DisparityColours(const std::vector<double>& disparities)
-    : largest_(disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3)) {
-  cv::Mat levels(1, kLevels, CV_8UC1), bgr;
-  for (int i = 0; i < kLevels; ++i) levels.at<unsigned char>(0, i) = static_cast<unsigned char>(i);
-  cv::applyColorMap(levels, bgr, cv::COLORMAP_VIRIDIS);
-  for (int i = 0; i < kLevels; ++i) {
-    const auto colour = bgr.at<cv::Vec3b>(0, i);
-    colours_.emplace_back(colour[0], colour[1], colour[2]);
-  }
-}
-
-cv::Scalar DisparityColours::of(double disparity) const {
-  return colours_[static_cast<std::size_t>(std::clamp(disparity / largest_, 0.0, 1.0) * (kLevels - 1))];
-}
-
-int DisparityColours::draw_bar(cv::Mat& picture, int x, int y) const {
-  for (const auto& colour : colours_) {
-    cv::line(picture, {x, y - 14}, {x, y}, colour);
-    ++x;
-  }
-  return x;
-}
 
 /// Length of the way between the two positions of a stereo edge, which is the disparity for a rectified rig [px].
 double disparity(const StereoEdges& stereo, std::size_t i) {
@@ -92,20 +74,23 @@ std::vector<std::size_t> one_per_cell(const TemporalMatches& quads) {
   return chosen;
 }
 
-/// The colours of the frame's stereo edges.
-DisparityColours colours_of(const FrameDetails& details) {
+/// The colours of stereo edges.
+DisparityColours colours_of(const StereoEdges& stereo) {
   std::vector<double> disparities;
-  for (std::size_t i = 0; i < details.stereo.size(); ++i) disparities.push_back(disparity(details.stereo, i));
+  for (std::size_t i = 0; i < stereo.size(); ++i) disparities.push_back(disparity(stereo, i));
   return DisparityColours(disparities);
+}
+
+void paint(Canvas& canvas, const StereoEdges& stereo, const DisparityColours& colours, int radius) {
+  for (std::size_t i = 0; i < stereo.size(); ++i) {
+    cv::circle(canvas.picture(), canvas.position(stereo.left_x[i], stereo.left_y[i]), radius << kPositionShift,
+               colours.of(disparity(stereo, i)), cv::FILLED, cv::LINE_AA, kPositionShift);
+  }
 }
 
 /// Stereo edges and quads into the image part of the canvas.
 void paint(Canvas& canvas, const FrameDetails& details, const DisparityColours& colours) {
-  const int radius = std::max(1, canvas.scale() / 2) << kPositionShift;
-  for (std::size_t i = 0; i < details.stereo.size(); ++i) {
-    cv::circle(canvas.picture(), canvas.position(details.stereo.left_x[i], details.stereo.left_y[i]), radius,
-               colours.of(disparity(details.stereo, i)), cv::FILLED, cv::LINE_AA, kPositionShift);
-  }
+  paint(canvas, details.stereo, colours, std::max(1, canvas.scale() / 2));
   for (const std::size_t i : one_per_cell(details.quads)) {
     const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
     const cv::Scalar& colour = details.quad_inlier.at(i) != 0 ? kInlier : kOutlier;
@@ -143,22 +128,10 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
 }
 
 void draw_stereo(const std::string& path, const ImageView& left, const StereoEdges& edges) {
-  Canvas canvas(left, kBrightness, 2);
-  std::vector<double> disparities;
-  for (std::size_t i = 0; i < edges.size(); ++i) disparities.push_back(edges.left_x[i] - edges.right_x[i]);
-  const double low = edges.size() > 0 ? percentile(disparities, 0.02) : 0;
-  const double high = edges.size() > 0 ? std::max(percentile(disparities, 0.98), low + 1) : 1;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    cv::circle(canvas.picture(), canvas.position(edges.left_x[i], edges.left_y[i]), 1 << kPositionShift,
-               colour_of((disparities[i] - low) / (high - low)), cv::FILLED, cv::LINE_AA, kPositionShift);
-  }
-  const cv::Scalar white(255, 255, 255);
-  put_text(canvas.picture(), std::to_string(edges.size()) + " stereo edges, coloured by disparity", 10,
-           canvas.legend_y(0), white);
-  const int y = canvas.legend_y(1);
-  int x = put_text(canvas.picture(), data::format_fixed(low, 1) + " px", 10, y, white) + 8;
-  for (int i = 0; i < 256; ++i, ++x) cv::line(canvas.picture(), {x, y - 12}, {x, y + 2}, colour_of(i / 255.0));
-  put_text(canvas.picture(), data::format_fixed(high, 1) + " px", x + 8, y, white);
+  Canvas canvas(left, kEdgesBrightness, 1);
+  const DisparityColours colours = colours_of(edges);
+  paint(canvas, edges, colours, 1);
+  colours.draw_legend(canvas.picture(), canvas.legend_y(0), edges.size());
   write_png(path, canvas.picture());
 }
 
@@ -178,7 +151,7 @@ void draw_pair(const std::string& path, const ImageView& left, const ImageView& 
 
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details) {
   Canvas canvas(left, kQuadsBrightness, 0);
-  paint(canvas, details, colours_of(details));
+  paint(canvas, details, colours_of(details.stereo));
   const cv::Mat image = canvas.picture()(cv::Rect(0, 0, left.width * canvas.scale(), left.height * canvas.scale()));
   const double reduction = static_cast<double>(kThumbnailWidth) / image.cols;
   cv::Mat small;
@@ -189,21 +162,15 @@ void draw_quads_thumbnail(const std::string& path, const ImageView& left, const 
 
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
   Canvas canvas(left, kQuadsBrightness, 2);
-  const DisparityColours colours = colours_of(details);
+  const DisparityColours colours = colours_of(details.stereo);
   paint(canvas, details, colours);
   const auto inliers =
       std::count_if(details.quad_inlier.begin(), details.quad_inlier.end(), [](auto flag) { return flag != 0; });
 
   cv::Mat& picture = canvas.picture();
-  int y = canvas.legend_y(0);
-  int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kText) + 6;
-  x = colours.draw_bar(picture, x, y + 2);
-  put_text(
-      picture,
-      data::format_fixed(colours.largest(), 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)",
-      x + 6, y, kText);
-  y = canvas.legend_y(1);
-  x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
+  colours.draw_legend(picture, canvas.legend_y(0), details.stereo.size());
+  const int y = canvas.legend_y(1);
+  int x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
