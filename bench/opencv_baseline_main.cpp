@@ -8,11 +8,11 @@
 #include <cstdio>
 
 #include "cli/frame_source.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/scene_options.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
 #include "quadedge/error.hpp"
+#include "report/output_folder.hpp"
 #include "report/rows.hpp"
 
 namespace {
@@ -32,7 +32,7 @@ std::unique_ptr<cli::FrameSource> open_source(const std::string& path, int frame
 
 /// trajectory.txt, trajectory_kitti.txt and groundtruth.txt as `quadedge run` writes them.
 void run(cli::FrameSource& source, const std::string& output, bool force) {
-  const cli::FolderLock lock = cli::prepare_output_folder(output, force);
+  const report::FolderLock lock = report::prepare_output_folder(output, force);
   report::AppendFile tum(output + "/trajectory.txt"), kitti(output + "/trajectory_kitti.txt");
   tum.append(data::tum_header());
   bench::OpencvBaseline baseline(source.rig());

@@ -5,7 +5,8 @@ build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl
   nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev"
 python_packages="python3-dev python3-venv"  # for `pip install .`, besides those above
 test_packages="catch2 libbenchmark-dev libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base
-  oclgrind clang debootstrap clang-format p7zip-full munge slurmctld slurmd slurm-client"
+  oclgrind clang debootstrap clang-format p7zip-full munge slurmctld slurmd slurm-client
+  libfastrtps-dev fastddsgen default-jre-headless ros-sensor-msgs ros-nav-msgs ros-tf2-msgs ros-diagnostic-msgs"
 
 # install_missing PACKAGE...: asks dpkg first: a machine with all packages needs neither network nor root.
 install_missing() {

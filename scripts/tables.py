@@ -312,7 +312,20 @@ def normalised_errors(results):
     return table(head, rows, stamp(results["accuracy"]))
 
 
+def ros2(results):
+    """Latency and dropped pairs of topics of ROS 2, by preset, image size and rate."""
+    part = results["ros2"]
+    rows = [(row["preset"], f"{row['width']} x {row['height']}", row["rate_hz"], f"{row['dropped']} of {row['sent']}",
+             *(" / ".join(f"{value:.1f}" for value in row[name]) for name in ("latency_ms", "beyond_track_ms")),
+             row["mean_track_ms"]) for row in part["rows"]]
+    head = ("preset", "images [px]", "pairs/s", "dropped", "latency, median / p99 [ms]", "beyond tracking [ms]",
+            "track(), mean [ms]")
+    (first, start), (last, end) = part["memory_mb"][0], part["memory_mb"][-1]
+    return table(head, rows, f"Resident memory of the program after {first} pairs: {start:.0f} MB, after {last}: "
+                             f"{end:.0f} MB. {part['cores']} cores, {part['note']}. {stamp(part)}")
+
+
 TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": beside, "pace": pace,
           "paths": paths, "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed,
           "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
-          "drift": drift_over_scenes}
+          "drift": drift_over_scenes, "ros2": ros2}

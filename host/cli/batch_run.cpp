@@ -9,12 +9,12 @@
 #include <thread>
 
 #include "cli/child_process.hpp"
-#include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"
 #include "data/source_line.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/member_results.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ constexpr std::chrono::seconds kGrace{5};  // for a child to end after it was as
 struct RunningMember {
   const BatchMember& member;
   std::string folder;  ///< unfinished
-  FolderLock lock;
+  report::FolderLock lock;
   ChildProcess child;
   FrameCounter counter;
 };
@@ -66,7 +66,7 @@ class BatchRunner {
     std::error_code error;
     fs::create_directories(unfinished, error);
     if (error) throw DataError(unfinished.string() + ": cannot be made: " + error.message());
-    FolderLock lock((unfinished / (name + ".lock")).string(), false, folder);
+    report::FolderLock lock((unfinished / (name + ".lock")).string(), false, folder);
     remove_folder(folder);
     fs::create_directories(folder, error);
     if (error) throw DataError(folder + ": cannot be made: " + error.message());

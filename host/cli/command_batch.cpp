@@ -7,13 +7,13 @@
 #include "cli/batch_run.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;
@@ -94,7 +94,7 @@ class BatchCommand : public Command {
 
   int run_all(const std::vector<data::FoundSequence>& sequences) {
     prepare();
-    const FolderLock lock((output() / ".lock").string(), false, batch_.output);
+    const report::FolderLock lock((output() / ".lock").string(), false, batch_.output);
     const Interruption interruption;
     write_config();
     const auto members = plan(sequences);
@@ -121,7 +121,7 @@ class BatchCommand : public Command {
     if (found == sequences.end())
       throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list prints all");
     prepare();
-    const FolderLock lock((output() / ".lock").string(), true, batch_.output);
+    const report::FolderLock lock((output() / ".lock").string(), true, batch_.output);
     const Interruption interruption;
     write_config();
     run_batch(plan({*found}), method_, batch_, interruption);

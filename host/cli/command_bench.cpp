@@ -10,7 +10,6 @@
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/rendering_status.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/source_options.hpp"
@@ -18,6 +17,7 @@
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/json.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -58,8 +58,8 @@ class BenchCommand : public Command {
     check_options();
     const bool compare_files = !compare_.empty() && std::filesystem::is_regular_file(path_);
     if (compare_files) return compare(path_);
-    check_output_file(json_, force_);
-    check_output_file(trace_, force_);
+    report::check_output_file(json_, force_);
+    report::check_output_file(trace_, force_);
     const bench::BenchRecord record = measure();
     print_benchmark(record);
     const std::string text = bench::bench_json(record);

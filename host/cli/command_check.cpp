@@ -5,12 +5,12 @@
 #include "cli/calibration_check.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/source_options.hpp"
 #include "data/check_tree.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -37,7 +37,7 @@ class CheckCommand : public Command {
   int run() override {
     path_ = source_.path();
     if (!source_.is_given()) throw UsageError("nothing to check: expected PATH, or --left, --right and --calibration");
-    check_output_file(calibration_, force_);
+    report::check_output_file(calibration_, force_);
     if (!source_.is_own_camera() && is_tree()) return check_tree();
     return print(source_.is_own_camera() ? check_own_camera() : check_layout());
   }

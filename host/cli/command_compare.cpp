@@ -12,10 +12,10 @@
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
-#include "cli/output_folder.hpp"
 #include "common/disparity_range.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -67,7 +67,7 @@ class CompareCommand : public Command {
     if (edges_ < 0) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more");
     if (repetitions_ < 1) throw UsageError("--repetitions " + std::to_string(repetitions_) + ": expected 1 or more");
     Config config = method_.config();
-    check_output_file(json_, force_);
+    report::check_output_file(json_, force_);
     Device device = method_.open_device(true);
     if (device.is_reference()) throw UsageError("the reference device has no kernel variants");
     const DeviceInfo info = device.info();

@@ -3,7 +3,6 @@
 
 #include "cli/command.hpp"
 #include "cli/method_options.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/dataset.hpp"
@@ -11,6 +10,7 @@
 #include "quadedge/match_stereo.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
+#include "report/output_folder.hpp"
 #include "report/result_rows.hpp"
 #include "report/statistics.hpp"
 
@@ -36,8 +36,8 @@ class EdgesCommand : public Command {
   }
   int run() override {
     const Config config = method_.config();
-    check_output_file(csv_, force_);
-    check_output_file(draw_, force_);
+    report::check_output_file(csv_, force_);
+    report::check_output_file(draw_, force_);
     if (!source_.is_given()) throw UsageError("nothing to read: expected IMAGE, or --left, --right and --calibration");
     if (!source_.is_own_camera()) source_.refuse_all();
     const Image image = source_.is_own_camera() ? left_image() : read_grey_image(source_.path());

@@ -6,7 +6,6 @@
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "evaluation/motion_errors.hpp"
@@ -14,6 +13,7 @@
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "report/json.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -73,7 +73,7 @@ class EvaluateTrajectoryCommand : public Command {
     if (!(step_limits_.translation_m >= 0 && step_limits_.rotation_deg > 0)) {
       throw UsageError("--step-metres, --step-degrees: expected at least 0 m and more than 0 degrees");
     }
-    check_output_file(json_, force_);
+    report::check_output_file(json_, force_);
     if (std::filesystem::is_directory(estimate_)) estimate_ += "/trajectory.txt";
     Loaded estimate = load_file(estimate_);
     Trajectory truth;

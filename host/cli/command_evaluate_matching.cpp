@@ -10,7 +10,6 @@
 #include "cli/frame_source.hpp"
 #include "cli/matching_tables.hpp"
 #include "cli/method_options.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/page_maker.hpp"
 #include "cli/scene_options.hpp"
 #include "data/atomic_file.hpp"
@@ -19,6 +18,7 @@
 #include "quadedge/tap.hpp"
 #include "report/draw_matches.hpp"
 #include "report/matching_json.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -148,10 +148,10 @@ class EvaluateMatchingCommand : public Command {
     if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
       throw UsageError("--sweep excludes --json, --html and --draw");
     }
-    check_output_file(html_, force_);
+    report::check_output_file(html_, force_);
     place_data_of_page();
-    check_output_file(json_, force_);
-    refuse_full_folder(draw_, force_);
+    report::check_output_file(json_, force_);
+    report::refuse_full_folder(draw_, force_);
     const Config config = method_.config();
     open_sources();
     Device device = method_.open_device();

@@ -7,7 +7,6 @@
 #include "cli/frame_source.hpp"
 #include "cli/interruption.hpp"
 #include "cli/method_options.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
@@ -16,6 +15,7 @@
 #include "quadedge/error.hpp"
 #include "report/config_toml.hpp"
 #include "report/json.hpp"
+#include "report/output_folder.hpp"
 #include "report/result_rows.hpp"
 
 namespace quadedge::cli {
@@ -68,11 +68,11 @@ class LocaliseCommand : public Command {
     set_frames(dataset_, frames_);
     const SavedMap map = read_map(map_);
     Dataset dataset = source_.open(dataset_);
-    if (output_.empty()) output_ = default_output_folder(dataset.name);
+    if (output_.empty()) output_ = report::default_output_folder(dataset.name);
     record.command = command_line();
     record.map_file = map_;
     record.key_rigs = map.key_rigs();
-    const FolderLock lock = prepare_output_folder(output_, force_);
+    const report::FolderLock lock = report::prepare_output_folder(output_, force_);
     const Interruption interruption;
     const auto source = make_recorded_source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());

@@ -4,7 +4,6 @@
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/method_options.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -12,6 +11,7 @@
 #include "quadedge/match_stereo.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
+#include "report/output_folder.hpp"
 #include "report/result_rows.hpp"
 #include "report/statistics.hpp"
 
@@ -53,7 +53,7 @@ class MatchCommand : public Command {
       source_.read_pipe();
     }
     const Config config = method_.config();
-    for (const auto& file : {csv_, ply_, draw_}) check_output_file(file, force_);
+    for (const auto& file : {csv_, ply_, draw_}) report::check_output_file(file, force_);
     const Pair pair = read_pair();
     if (!ply_.empty() && !pair.is_calibrated) throw UsageError("--ply needs --calibration");
     Device device = method_.open_device();

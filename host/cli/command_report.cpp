@@ -5,11 +5,11 @@
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 #include "report/comparison.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;
@@ -48,7 +48,7 @@ class ReportCommand : public Command {
     const auto peers = named_peers();
     const bool compares = !peers.empty() || !baseline_.empty();
     if (compares && !is_batch) throw UsageError("--baseline and --peer need a batch, and " + results_ + " is not one");
-    check_output_file(output_, force_);
+    report::check_output_file(output_, force_);
     const fs::path page = output_.empty() ? default_page(is_file) : fs::path(output_);
     std::vector<std::string> arguments = {results_, "--output", page.string()};
     if (compares) {
@@ -72,7 +72,7 @@ class ReportCommand : public Command {
     const fs::path figures = fs::path(page).replace_extension(".json");
     if (figures == page)
       throw UsageError("--output " + output_ + ": this file will hold the figures; expected a name ending in .html");
-    check_output_file(figures.string(), force_);
+    report::check_output_file(figures.string(), force_);
     return figures;
   }
 

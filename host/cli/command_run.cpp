@@ -1,10 +1,10 @@
 /// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
 #include "quadedge/error.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -56,7 +56,7 @@ class RunCommand : public Command {
     if (run_.profile && dataset.format == "pipe")
       throw UsageError("--profile reads the recording twice, which a pipe does not allow");
     if (!name_.empty()) dataset.name = name_;
-    if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
+    if (run_.output.empty()) run_.output = report::default_output_folder(dataset.name);
     const Interruption interruption;
     const auto source = make_recorded_source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());

@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/output_folder.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "quadedge/error.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
+#include "report/output_folder.hpp"
 #include "report/result_rows.hpp"
 
 namespace quadedge::cli {
@@ -36,15 +36,15 @@ void PointFiles::declare(Options& options) {
 
 void PointFiles::check(bool force) const {
   if (min_views < 1) throw UsageError("--points-min-views " + std::to_string(min_views) + ": expected 1 or more");
-  check_output_file(ply, force);
-  refuse_full_folder(colmap, force);
+  report::check_output_file(ply, force);
+  report::refuse_full_folder(colmap, force);
   if (colmap.empty()) return;
   std::error_code error;
   for (const char* folder : {"/images", "/sparse/0"}) {
     std::filesystem::create_directories(colmap + folder, error);
     if (error) throw DataError(colmap + folder + ": cannot create the folder: " + error.message());
   }
-  check_output_file(colmap + "/sparse/0/points3D.txt", force);
+  report::check_output_file(colmap + "/sparse/0/points3D.txt", force);
 }
 
 PointsOutput::PointsOutput(const PointFiles& files, const Config& config) : files_(files) {

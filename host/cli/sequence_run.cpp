@@ -6,13 +6,11 @@
 
 #include "benchmark/variants_file.hpp"
 #include "cli/console.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/points_output.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
-#include "data/trajectory_rows.hpp"
 #include "opencl/context.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
@@ -21,37 +19,11 @@
 #include "report/config_toml.hpp"
 #include "report/drawing.hpp"
 #include "report/json.hpp"
+#include "report/output_folder.hpp"
 #include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {
-
-/// The files that grow with every frame.
-class GrowingFiles {
- public:
-  explicit GrowingFiles(const std::string& folder)
-      : tum_(folder + "/trajectory.txt"),
-        kitti_(folder + "/trajectory_kitti.txt"),
-        frames_(folder + "/frames.csv"),
-        poses_(folder + "/poses.csv") {
-    tum_.append(data::tum_header());
-    frames_.append(report::frames_row(0, {}).heading());
-    poses_.append(report::poses_row(0, {}).heading());
-  }
-  void add(const FrameResult& result) {
-    const StampedPose pose{result.stamp_ns, result.pose_or_prediction(), result.segment};
-    if (result.segment != segment_) tum_.append(data::tum_segment(segment_ = result.segment));
-    if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
-    kitti_.append(data::kitti_row(pose));
-    frames_.append(report::frames_row(number_, result).line());
-    poses_.append(report::poses_row(number_, result).line());
-    ++number_;
-  }
-
- private:
-  int segment_ = 0, number_ = 0;
-  report::AppendFile tum_, kitti_, frames_, poses_;
-};
 
 /// Whether this frame is one of `count` that are spread evenly over the frames after the first.
 bool is_thumbnail(int frame, int frames, int count) {
@@ -148,7 +120,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   if (!warning.empty()) note("warning: " + warning);
   end_if_interrupted(interruption, source);  // OUT has no results yet, so the next start needs no --force
   data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
-  GrowingFiles files(options.output);
+  report::GrowingFiles files(options.output);
   const auto start = Clock::now();
   Progress progress(options.quiet, "frames");
   int lost = 0;
@@ -300,10 +272,10 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   std::error_code unreadable;  // reading it says why
   if (std::filesystem::exists(options.offset_file, unreadable) || unreadable)
     run.config = read_offset(options.offset_file, run.config);
-  const FolderLock lock = prepare_output_folder(options.output, options.force);
-  check_output_file(options.trace, options.force);
-  check_output_file(options.offset_file, true);
-  check_output_file(options.saved_map, options.force);
+  const report::FolderLock lock = report::prepare_output_folder(options.output, options.force);
+  report::check_output_file(options.trace, options.force);
+  report::check_output_file(options.offset_file, true);
+  report::check_output_file(options.saved_map, options.force);
   options.points.check(options.force);
   PointsOutput points(options.points, run.config);
   try {

@@ -8,6 +8,7 @@
 #include "common/numeric.hpp"
 #include "common/timing.hpp"
 #include "data/text.hpp"
+#include "data/trajectory_rows.hpp"
 #include "report/run_record.hpp"
 
 namespace quadedge::report {
@@ -143,6 +144,26 @@ CsvRow poses_row(int number, const FrameResult& result) {
   add_covariance(row, "covariance_", result.covariance);
   add_covariance(row, "reference_covariance_", result.diagnostics.covariance_in_reference);
   return row;
+}
+
+GrowingFiles::GrowingFiles(const std::string& folder)
+    : tum_(folder + "/trajectory.txt"),
+      kitti_(folder + "/trajectory_kitti.txt"),
+      frames_(folder + "/frames.csv"),
+      poses_(folder + "/poses.csv") {
+  tum_.append(data::tum_header());
+  frames_.append(frames_row(0, {}).heading());
+  poses_.append(poses_row(0, {}).heading());
+}
+
+void GrowingFiles::add(const FrameResult& result) {
+  const StampedPose pose{result.stamp_ns, result.pose_or_prediction(), result.segment};
+  if (result.segment != segment_) tum_.append(data::tum_segment(segment_ = result.segment));
+  if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
+  kitti_.append(data::kitti_row(pose));
+  frames_.append(frames_row(number_, result).line());
+  poses_.append(poses_row(number_, result).line());
+  ++number_;
 }
 
 CsvRow locations_row(int number, const Localisation& frame) {

@@ -25,6 +25,18 @@ CsvRow frames_row(int number, const FrameResult& result);
 /// the predicted pose in the world and nothing else.
 CsvRow poses_row(int number, const FrameResult& result);
 
+/// The files of a run that get a row with every frame: trajectory.txt, trajectory_kitti.txt, frames.csv and poses.csv.
+class GrowingFiles {
+ public:
+  /// Truncates them. \throws DataError with path and reason, as does add().
+  explicit GrowingFiles(const std::string& folder);
+  void add(const FrameResult& result);
+
+ private:
+  int segment_ = 0, number_ = 0;
+  AppendFile tum_, kitti_, frames_, poses_;
+};
+
 /// locations.csv: frame, stamp_s, status, key_rig, followed, inliers, support; x, y, z [m] and qx, qy, qz, qw of the
 /// left camera in the map; latency_ms, warning, message.
 CsvRow locations_row(int number, const Localisation& frame);

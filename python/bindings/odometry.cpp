@@ -16,6 +16,7 @@
 #include "pickling.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
+#include "quadedge/result_files.hpp"
 
 namespace quadedge::python {
 namespace {
@@ -63,6 +64,10 @@ class Odometry {
   void save_map(const std::filesystem::path& file) {
     const std::lock_guard<std::mutex> alone(in_use_);
     write_map(file.string(), map().saved());
+  }
+  std::unique_ptr<ResultFiles> result_files(const std::string& folder, const ResultOrigin& origin, bool force) {
+    const std::lock_guard<std::mutex> alone(in_use_);
+    return std::make_unique<ResultFiles>(folder, running().odometry, origin, force);
   }
   StereoEdgesInSpace edges() {
     const std::lock_guard<std::mutex> alone(in_use_);
@@ -299,6 +304,28 @@ MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::h
   return self.track({stamp_ns, left_image.view(), right_image.view()});
 }
 
+void bind_result_files(nb::module_& module) {
+  nb::class_<ResultFiles>(
+      module, "ResultFiles",
+      "The results folder of ``quadedge run``, for frames that a program tracks by itself: config.toml, trajectories,\n"
+      "frames.csv and poses.csv, and at the end report.json, for which the results of all frames stay in memory.\n\n"
+      "odometry: that tracks the frames. name: of the recording or camera. command: the program's command line.\n"
+      "force: replace results in the folder. Raises UsageError for a folder that has results or that another run\n"
+      "writes to, and DataError for one that cannot be written, as do add() and finish().")
+      .def(
+          "__init__",
+          [](ResultFiles* self, const std::string& folder, Odometry& odometry, const std::string& name,
+             const std::string& command, bool force) {
+            new (self) ResultFiles(std::move(*odometry.result_files(folder, {name, command}, force)));
+          },
+          "folder"_a, "odometry"_a, "name"_a, "command"_a = "", "force"_a = false)
+      .def(
+          "add", [](ResultFiles& self, const MappedResult& result) { self.add(result); }, "result"_a,
+          "Adds the FrameResult of the next frame.")
+      .def("finish", &ResultFiles::finish, kReleasesGil, "ended_early"_a = "",
+           "Writes report.json. ended_early: why, if not all frames were tracked.");
+}
+
 constexpr const char* kOdometryHelp =
     "Estimates the pose of a stereo camera. Create one object per sequence. The same frames, device and configuration\n"
     "give byte for byte the poses of ``quadedge run``. Several objects may track in parallel threads.\n\n"
@@ -379,6 +406,7 @@ void bind_odometry(nb::module_& module) {
       .def("__enter__", [](nb::handle self) { return nb::borrow(self); })
       .def(
           "__exit__", [](Odometry& self, const nb::args&) { self.close(); }, kReleasesGil);
+  bind_result_files(module);
 }
 
 }  // namespace quadedge::python

@@ -30,10 +30,10 @@ _ERRORS = ("DataError", "DeviceError", "Error", "UsageError")
 _COMPILED = (
     "Dataset", "Device", "DeviceInfo", "Edges", "ErrorStatistics", "Frame", "FrameCounts", "FrameDetails",
     "FrameDiagnostics", "FrameFiles", "FrameIterator", "FrameResult", "FrameTiming", "FrameWarning", "Localisation",
-    "Map", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "Rig", "RigEvidence", "StereoEdges", "Synthetic",
-    "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image", "detect_edges",
-    "devices", "evaluate_matching", "evaluate_trajectory", "match", "open_dataset", "open_stereo_source", "presets",
-    "read_grey_image", "synthetic",
+    "Map", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "ResultFiles", "Rig", "RigEvidence", "StereoEdges",
+    "Synthetic", "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image",
+    "detect_edges", "devices", "evaluate_matching", "evaluate_trajectory", "match", "open_dataset",
+    "open_stereo_source", "presets", "read_grey_image", "synthetic",
 )  # fmt: skip
 
 __all__ = [*_ERRORS, *_COMPILED, "__version__"]

@@ -59,3 +59,20 @@ def flight_folder() -> Path:
     if not folder.is_dir():
         pytest.skip(f"{folder}: no such recording")
     return folder
+
+
+@pytest.fixture(scope="session")
+def side_by_side(room, frames, tmp_path_factory):
+    """A video of a camera that delivers both views side by side, its calibration, and the number of its frames."""
+    import numpy
+
+    folder, played = tmp_path_factory.mktemp("side_by_side"), [*frames, *frames[::-1]] * 2
+    left, rig = room.rig.left, folder / "rig.yaml"
+    rig.write_text("".join(f"{side}_model: radtan\n{side}_size: [320, 200]\n{side}_coefficients: [0, 0, 0, 0]\n"
+                           f"{side}_intrinsics: [{left.fx!r}, {left.fy!r}, {left.cx!r}, {left.cy!r}]\n"
+                           for side in ("left", "right"))
+                   + f"rotation: [0, 0, 0]\ntranslation: [{-room.rig.baseline!r}, 0, 0]\n")
+    video, pixels = folder / "both.mkv", b"".join(numpy.hstack([one.left, one.right]).tobytes() for one in played)
+    subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "gray", "-video_size", "640x200",
+                    "-framerate", "4", "-i", "-", "-c:v", "ffv1", video], input=pixels, check=True)  # fmt: skip
+    return video, rig, len(played)

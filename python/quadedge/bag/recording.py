@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy
 
 from .. import DataError, Error, Rig
+from ..ros_messages import message_store, stamp_ns
 from .calibration import rig_of, write_calibration
 from .images import grey_image
 from .pairing import Pairing, pair_stamps
@@ -25,11 +26,6 @@ class BagFrame:
     stamp_ns: int  #: stamp of the left image [ns]
     left: numpy.ndarray  #: (height, width), uint8 or uint16
     right: numpy.ndarray  #: (height, width), uint8 or uint16
-
-
-def _stamp_ns(message) -> int:
-    stamp = message.header.stamp
-    return stamp.sec * 1_000_000_000 + stamp.nanosec
 
 
 class Recording:
@@ -60,13 +56,11 @@ class Recording:
     @contextmanager
     def _reader(self):
         """The open recording. Errors raised while it is read become a DataError that names it."""
+        store = message_store()
+        from rosbags.highlevel import AnyReader
+
         try:
-            from rosbags.highlevel import AnyReader
-            from rosbags.typesys import Stores, get_typestore
-        except ImportError as error:
-            raise ImportError("quadedge.bag needs rosbags; `pip install quadedge[bag]` installs it") from error
-        try:
-            with AnyReader(self._paths, default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
+            with AnyReader(self._paths, default_typestore=store) as reader:
                 yield reader
         except Error:
             raise
@@ -96,7 +90,7 @@ class Recording:
         stamps: dict[str, list[int]] = {self.topics.left: [], self.topics.right: []}
         recorded: dict[str, list[int]] = {self.topics.left: [], self.topics.right: []}
         for topic, recorded_ns, message in self._messages(reader, (self.topics.left, self.topics.right)):
-            stamps[topic].append(_stamp_ns(message))
+            stamps[topic].append(stamp_ns(message))
             recorded[topic].append(recorded_ns)
         self._recorded_stamps = not any(stamps[self.topics.left]) and not any(stamps[self.topics.right])
         chosen = recorded if self._recorded_stamps else stamps

@@ -56,6 +56,12 @@ def _preference(pair: tuple[str, str], kinds: dict[str, str]) -> tuple:
     return (_info_of(left, kinds) == "", "rect" in left, "compressed" in left, "color" in left or "rgb" in left, left)
 
 
+def _camera(topic: str) -> str:
+    """A topic up to the part that names its side; images of one camera differ after it (left/image_rect, left_raw)."""
+    ends = [topic.find(left) + len(left) for left, _ in _SIDES if left in topic]
+    return topic[:min(ends)]
+
+
 def _listing(kinds: dict[str, str]) -> str:
     return ", ".join(f"{topic} ({kind})" for topic, kind in sorted(kinds.items())) or "nothing"
 
@@ -90,7 +96,7 @@ def find_topics(kinds: dict[str, str], name: str, given: StereoTopics = StereoTo
         raise DataError(f"{name}: found no stereo topics among {_listing(kinds)}, expected two image topics whose "
                         "names distinguish left and right; --left and --right (left=, right=) select others")
     chosen = min(pairs, key=lambda pair: _preference(pair, kinds))
-    cameras = {topic.rsplit("/", 1)[0].split("/image", 1)[0] for topic, _ in pairs}
+    cameras = {_camera(topic) for topic, _ in pairs}
     if len(cameras) > 1:
         choices = "; ".join(f"{one} with {other}" for one, other in sorted(pairs))
         raise DataError(f"{name}: found several pairs of cameras ({choices}), expected one; choose it with --left and "

@@ -1,4 +1,4 @@
-#include "cli/output_folder.hpp"
+#include "report/output_folder.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -12,7 +12,7 @@
 #include "data/find_sequences.hpp"
 #include "quadedge/error.hpp"
 
-namespace quadedge::cli {
+namespace quadedge::report {
 namespace fs = std::filesystem;
 namespace {
 
@@ -95,4 +95,4 @@ void refuse_full_folder(const std::string& path, bool force) {
 
 std::string default_output_folder(const std::string& sequence) { return "quadedge_" + data::plain_name(sequence); }
 
-}  // namespace quadedge::cli
+}  // namespace quadedge::report

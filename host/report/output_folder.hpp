@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace quadedge::cli {
+namespace quadedge::report {
 
 /// A lock that ends with its object or its process. An exclusive lock removes its file.
 class FolderLock {
@@ -42,4 +42,4 @@ void refuse_full_folder(const std::string& path, bool force);
 /// Name of the default output folder for a sequence: quadedge_NAME in the current directory.
 std::string default_output_folder(const std::string& sequence);
 
-}  // namespace quadedge::cli
+}  // namespace quadedge::report

@@ -1,0 +1,76 @@
+"""``python -m quadedge.ros2``: odometry from the topics of a stereo camera."""
+
+import argparse
+import sys
+
+from ..bag.recording import TOLERANCE_NS
+from ..errors import UsageError
+from ..session import add_session_options, say_on_stderr, stopped_by_signals
+from ..shell import exit_code
+
+_HELP = """\
+Tracks the images of two topics of ROS 2 (sensor_msgs/Image or CompressedImage, and CameraInfo) and publishes:
+
+  /quadedge/odometry  nav_msgs/Odometry of every tracked pair
+  /tf                 odom to base_link; with --loops map to odom
+  /diagnostics        status, reason of a loss, latency and dropped pairs, once a second
+  /quadedge/edges     with --cloud, sensor_msgs/PointCloud2
+
+A std_msgs/Empty on /quadedge/reset starts again at the origin. The domain is that of ROS_DOMAIN_ID. Ctrl-C ends it."""
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m quadedge.ros2", description=_HELP,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name, what in (("left", "image topic of the left camera; by default found by its name"),
+                       ("right", "image topic of the right camera"),
+                       ("left-info", "camera_info of the left camera; by default the one beside its images"),
+                       ("right-info", "camera_info of the right camera")):
+        parser.add_argument(f"--{name}", default="", metavar="TOPIC", help=what)
+    parser.add_argument("--rectified", action="store_true", default=None,
+                        help="the images are rectified: P of camera_info describes them, not K and D")
+    parser.add_argument("--calibration", metavar="FILE[,FILE]", help="calibration to use instead of camera_info")
+    parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
+                        help="largest difference between the stamps of a pair [ms]; default: %(default)g")
+    parser.add_argument("--reliable", action="store_true",
+                        help="have lost images sent again; by default they are not, as for sensors")
+    parser.add_argument("--remap", action="append", default=[], metavar="FROM:=TO", help="publish under another name")
+    parser.add_argument("--base-from-camera", metavar="X,Y,Z,ROLL,PITCH,YAW",
+                        help="where the left camera is mounted [m, rad]; by default what /tf_static says of the frame "
+                             "of its images")
+    for name, frame in (("base", "base_link"), ("odom", "odom"), ("map", "map")):
+        parser.add_argument(f"--{name}-frame", default=frame, metavar="FRAME", help="default: %(default)s")
+    parser.add_argument("--no-tf", action="store_true", help="publish no /tf, where a filter does")
+    parser.add_argument("--cloud", action="store_true", help="publish the edges of every tracked pair as points")
+    add_session_options(parser)
+    return parser
+
+
+def _run(options: argparse.Namespace) -> None:
+    from .domain import Domain
+    from .mount import mount_of
+    from .node import Node, Waiting, given_rig
+
+    if wrong := [remap for remap in options.remap
+                 if remap.count(":=") != 1 or not all(part.startswith("/") for part in remap.split(":="))]:
+        raise UsageError(f"--remap: found '{wrong[0]}', expected two topics, as /quadedge/odometry:=/odom")
+    if options.calibration:
+        given_rig(options.calibration)
+    if options.base_from_camera:
+        mount_of(options.base_from_camera)
+    say, domain = say_on_stderr("quadedge.ros2"), Domain()
+    with stopped_by_signals() as stopped:
+        found = Waiting(domain, options, say).topics(stopped)
+        if found:
+            topics, kinds = found
+            say(f"left {topics.left}, right {topics.right}")
+            Node(domain, topics, kinds, options, say).run(stopped)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Returns the exit code, as documented for the ``quadedge`` command."""
+    return exit_code("quadedge.ros2", lambda: _run(_parser().parse_args(arguments)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,153 @@
+"""Messages of ROS, made from results and read from recordings and topics. Needs rosbags."""
+
+from functools import cache
+
+import numpy
+
+# Axes of REP 103 (x forward, y left, z up) from optical ones (x right, y down, z forward).
+BODY_FROM_OPTICAL = numpy.array([[0.0, 0.0, 1.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0],
+                                 [0.0, 0.0, 0.0, 1.0]])  # fmt: skip
+# Filters such as robot_localization take the absolute value of a negative variance and raise a small one a little, so
+# that only a large one tells them that a quantity is not known.
+UNKNOWN = numpy.diag(numpy.full(6, 1e6))
+
+
+@cache
+def message_store():
+    """The definitions of ROS 2's messages, of rosbags. Raises ImportError without rosbags."""
+    try:
+        from rosbags.typesys import Stores, get_typestore
+    except ImportError as error:
+        raise ImportError("messages of ROS need rosbags; `pip install quadedge[bag]` installs it") from error
+    return get_typestore(Stores.ROS2_HUMBLE)
+
+
+def stamp_ns(message) -> int:
+    """The stamp of a message's header [ns]."""
+    stamp = message.header.stamp
+    return stamp.sec * 1_000_000_000 + stamp.nanosec
+
+
+def quaternion(rotation: numpy.ndarray) -> numpy.ndarray:
+    """The quaternion (x, y, z, w), w >= 0, of a (3, 3) rotation matrix."""
+    # The largest of the four squares is safe to divide by (Shepperd 1978).
+    m, trace = rotation, numpy.trace(rotation)
+    squares = numpy.array([m[0, 0], m[1, 1], m[2, 2], trace])
+    best = int(numpy.argmax(squares))
+    q = numpy.empty(4)
+    if best == 3:
+        q[:] = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], 1 + trace
+    else:
+        i, j, k = best, (best + 1) % 3, (best + 2) % 3
+        q[i] = 1 - trace + 2 * m[i, i]
+        q[j], q[k], q[3] = m[j, i] + m[i, j], m[k, i] + m[i, k], m[k, j] - m[j, k]
+    q /= numpy.linalg.norm(q)
+    return -q if q[3] < 0 else q
+
+
+def _cross(v: numpy.ndarray) -> numpy.ndarray:
+    """The matrix of the cross product with v."""
+    return numpy.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def _moved(covariance: numpy.ndarray, rotation: numpy.ndarray, lever: numpy.ndarray) -> numpy.ndarray:
+    """A covariance (6, 6) of translation and rotation for a point at ``lever`` [m], along rotated axes."""
+    jacobian = numpy.zeros((6, 6))
+    jacobian[:3, :3] = jacobian[3:, 3:] = rotation
+    jacobian[:3, 3:] = -rotation @ _cross(lever)
+    return jacobian @ covariance @ jacobian.T
+
+
+def of_base(pose: numpy.ndarray, covariance: numpy.ndarray | None, base_from_camera: numpy.ndarray) -> tuple:
+    """The pose (4, 4) of the base in the frame of its first pose, and its covariance (6, 6), from the camera's."""
+    camera_from_base = numpy.linalg.inv(base_from_camera)
+    moved = base_from_camera @ pose @ camera_from_base
+    if covariance is None:
+        return moved, None
+    return moved, _moved(covariance, base_from_camera[:3, :3], pose[:3, :3] @ camera_from_base[:3, 3])
+
+
+def _velocity(motion: numpy.ndarray, seconds: float) -> numpy.ndarray:
+    """The constant twist (6), linear then angular, that makes a motion (4, 4) in this time."""
+    x, y, z, w = quaternion(motion[:3, :3])
+    axis = numpy.array([x, y, z])
+    sine = numpy.linalg.norm(axis)
+    angle = 2 * numpy.arctan2(sine, w)
+    turn = _cross(axis * (angle / sine if sine > 1e-12 else 2.0))
+    second = (1 / 12 if angle < 1e-4 else (1 - angle / 2 / numpy.tan(angle / 2)) / angle**2)
+    linear = (numpy.eye(3) - turn / 2 + second * turn @ turn) @ motion[:3, 3]
+    return numpy.concatenate([linear, [turn[2, 1], turn[0, 2], turn[1, 0]]]) / seconds
+
+
+def twist_between(before, now, base_from_camera: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray] | None:
+    """The twist (6) of the base between two results, in its own axes, and its covariance (6, 6).
+
+    None where no measurement connects them. Errors that both poses share count twice, so that the covariance is rather
+    too large.
+    """
+    reference = now.diagnostics.covariance_in_reference
+    if before is None or not before.is_tracked or before.segment != now.segment or reference is None:
+        return None
+    if not before.new_key_rig:
+        if before.reference_frame != now.reference_frame or before.diagnostics.covariance_in_reference is None:
+            return None
+        reference = reference + before.diagnostics.covariance_in_reference
+    seconds = (now.stamp_ns - before.stamp_ns) / 1e9
+    if seconds <= 0:
+        return None
+    camera_from_base = numpy.linalg.inv(base_from_camera)
+    motion = base_from_camera @ numpy.linalg.inv(before.world_from_left) @ now.world_from_left @ camera_from_base
+    in_camera = _moved(reference, now.current_from_reference[:3, :3], numpy.zeros(3))
+    covariance = _moved(in_camera, base_from_camera[:3, :3], camera_from_base[:3, 3])
+    return _velocity(motion, seconds), covariance / seconds**2
+
+
+def header(stamp: int, frame: str):
+    """A std_msgs/Header. stamp: [ns]."""
+    types = message_store().types
+    return types["std_msgs/msg/Header"](types["builtin_interfaces/msg/Time"](*divmod(stamp, 1_000_000_000)), frame)
+
+
+def odometry_message(stamp: int, frame: str, child_frame: str, pose: numpy.ndarray, covariance: numpy.ndarray | None,
+                     twist: tuple[numpy.ndarray, numpy.ndarray] | None = None):
+    """A nav_msgs/Odometry. What is None is not known: its variances are those of UNKNOWN."""
+    types = message_store().types
+    vector, (velocity, velocity_covariance) = types["geometry_msgs/msg/Vector3"], twist or (numpy.zeros(6), UNKNOWN)
+    return types["nav_msgs/msg/Odometry"](
+        header(stamp, frame), child_frame,
+        types["geometry_msgs/msg/PoseWithCovariance"](
+            types["geometry_msgs/msg/Pose"](
+                types["geometry_msgs/msg/Point"](*map(float, pose[:3, 3])),
+                types["geometry_msgs/msg/Quaternion"](*map(float, quaternion(pose[:3, :3])))),
+            numpy.ascontiguousarray(UNKNOWN if covariance is None else covariance, float).reshape(36)),
+        types["geometry_msgs/msg/TwistWithCovariance"](
+            types["geometry_msgs/msg/Twist"](vector(*map(float, velocity[:3])), vector(*map(float, velocity[3:]))),
+            numpy.ascontiguousarray(velocity_covariance, float).reshape(36)))
+
+
+def transforms_message(stamp: int, transforms: list[tuple[str, str, numpy.ndarray]]):
+    """A tf2_msgs/TFMessage of (frame, child frame, pose of the child (4, 4))."""
+    types = message_store().types
+    vector, turn = types["geometry_msgs/msg/Vector3"], types["geometry_msgs/msg/Quaternion"]
+    return types["tf2_msgs/msg/TFMessage"]([
+        types["geometry_msgs/msg/TransformStamped"](
+            header(stamp, frame), child, types["geometry_msgs/msg/Transform"](
+                vector(*map(float, pose[:3, 3])), turn(*map(float, quaternion(pose[:3, :3])))))
+        for frame, child, pose in transforms])
+
+
+def diagnostics_message(stamp: int, name: str, level: int, text: str, values: dict[str, object]):
+    """A diagnostic_msgs/DiagnosticArray of one status. level: 0 good, 1 a warning, 2 an error."""
+    types = message_store().types
+    pairs = [types["diagnostic_msgs/msg/KeyValue"](key, str(value)) for key, value in values.items()]
+    return types["diagnostic_msgs/msg/DiagnosticArray"](
+        header(stamp, ""), [types["diagnostic_msgs/msg/DiagnosticStatus"](level, name, text, "", pairs)])
+
+
+def cloud_message(stamp: int, frame: str, points: numpy.ndarray):
+    """A sensor_msgs/PointCloud2 of the finite ones among points (N, 3) [m]."""
+    types = message_store().types
+    points = numpy.ascontiguousarray(points[numpy.isfinite(points).all(axis=1)], "<f4")
+    fields = [types["sensor_msgs/msg/PointField"](name, 4 * i, 7, 1) for i, name in enumerate("xyz")]  # 7: float32
+    return types["sensor_msgs/msg/PointCloud2"](header(stamp, frame), 1, len(points), fields, False, 12,
+                                                12 * len(points), points.view(numpy.uint8).reshape(-1), True)

@@ -1,0 +1,85 @@
+"""Tracks frames as they come, for the programs that track live: says what is doubtful, and keeps results."""
+
+import argparse
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy
+
+
+def add_session_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options that a Session takes."""
+    parser.add_argument("-o", "--output", metavar="OUT", help="results folder, with the files of `quadedge run`")
+    parser.add_argument("--force", action="store_true", help="replace results in OUT")
+    parser.add_argument("--device", default="auto", help="auto, cpu, gpu, reference, an index, or a part of a name")
+    parser.add_argument("--preset", default="default", help="fast, default or dense")
+    parser.add_argument("--config", metavar="FILE", help="a configuration file (TOML)")
+    parser.add_argument("--loops", action="store_true", help="recognise places and close loops")
+
+
+@contextmanager
+def stopped_by_signals() -> Iterator[list[int]]:
+    """A list that gets the number of SIGINT or SIGTERM when it comes, which then does nothing else."""
+    came: list[int] = []
+    before = {number: signal.signal(number, lambda found, _: came.append(found))
+              for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield came
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+class Session:
+    """An Odometry and its results. say: called with a sentence for the user.
+
+    Raises what Odometry raises, and UsageError or DataError for a folder that has results or cannot be written.
+    """
+
+    def __init__(self, rig, name: str, options: argparse.Namespace, say, output: str | None = None):
+        from . import Odometry
+
+        self.odometry = Odometry(rig, options.device, options.preset, options.config, loops=options.loops)
+        output, self._files = output or options.output, None
+        if output:
+            from . import ResultFiles
+
+            self._files = ResultFiles(output, self.odometry, name, " ".join(sys.argv), options.force)
+        self._output, self._loops, self._say = output, options.loops, say
+        self._last, self.frames = None, 0
+
+    def track(self, stamp_ns: int, left: numpy.ndarray, right: numpy.ndarray):
+        """The FrameResult of a pair, kept. Raises what Odometry.track() and keep() raise."""
+        result = self.odometry.track(stamp_ns, left, right)
+        self.keep(result)
+        return result
+
+    def keep(self, result) -> None:
+        """Writes the result of the next frame and says what is doubtful. Raises DataError if it cannot be written."""
+        if self._files:
+            self._files.add(result)
+        last, self._last = self._last, result
+        for warning in result.warnings:
+            self._say(f"warning: frame {self.frames}: {warning.text}")
+        if not result.is_tracked and (last is None or last.status != result.status):
+            self._say(f"warning: frame {self.frames}: lost: {result.message}")
+        if last is not None and last.segment != result.segment and not result.warnings:
+            self._say(f"warning: frame {self.frames}: {result.message}")
+        self.frames += 1
+
+    def close(self) -> None:
+        """Finishes the results and releases the device."""
+        if self._files:
+            self._files.finish()
+            if self._loops and self.frames:
+                self.odometry.map_trajectory().write_tum(Path(self._output) / "trajectory_map.txt")
+            self._say(f"results of {self.frames} frames are in {self._output}")
+        self.odometry.close()
+
+
+def say_on_stderr(program: str):
+    """A function that prints a sentence as this program's."""
+    return lambda text: print(f"{program}: {text}", file=sys.stderr, flush=True)
