@@ -1,8 +1,9 @@
 #pragma once
-/// \file latest_frame.hpp  What a map needs of the frame tracked last.
+/// \file latest_frame.hpp  The frame tracked last, as a map of the same library sees it.
 
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "quadedge/odometry.hpp"
 
 namespace quadedge::odometry {
 
@@ -11,6 +12,8 @@ struct LatestFrame {
   frontend::Frontend& frontend;
   frontend::FrameEdgesHandle rig;  ///< null before the first frame
   const DisparityOffset& offset;
+
+  static LatestFrame of(const StereoOdometry& odometry);
 };
 
 }  // namespace quadedge::odometry

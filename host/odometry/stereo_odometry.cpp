@@ -337,7 +337,9 @@ StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
-odometry::LatestFrame StereoOdometry::latest_frame() const { return implementation_->latest_frame(); }
+odometry::LatestFrame odometry::LatestFrame::of(const StereoOdometry& odometry) {
+  return odometry.implementation_->latest_frame();
+}
 const StereoRig& StereoOdometry::rig() const { return implementation_->rig(); }
 const Config& StereoOdometry::config() const { return implementation_->config(); }
 const DeviceInfo& StereoOdometry::device() const { return implementation_->device().info(); }

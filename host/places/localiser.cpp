@@ -71,11 +71,11 @@ PoseConfig with_offset_of(const places::SavedPlaces& map, const StereoRig& rig, 
   return config;
 }
 
-Config checked(const SavedMap& map, const StereoRig& rig, const Config& config) {
+Config checked(const places::SavedPlaces& map, const StereoRig& rig, const Config& config) {
   odometry::check_usable(rig, config);
   places::check_map_config(config);
   const auto settings = places::descriptor_settings(config);
-  for (const auto& [key, value] : map.places().settings)
+  for (const auto& [key, value] : map.settings)
     if (std::find(settings.begin(), settings.end(), std::pair(key, value)) == settings.end())
       throw UsageError("the map was made with " + key + " = " + value + ": expected the same");
   return config;
@@ -114,7 +114,7 @@ class Localiser::Implementation {
   Implementation(const SavedMap& map, const StereoRig& rig, Device& device, const Config& config, bool follow)
       : map_(map),
         follow_(follow),
-        config_(checked(map, rig, config)),
+        config_(checked(map.places(), rig, config)),
         rig_(with_scale_of(map.rig().left, with_equal_scales(rig))),
         preparation_(rig, rig_, device, config),
         offset_(rig_, with_offset_of(map.places(), rig_, config.pose)),

@@ -77,7 +77,7 @@ class Map::Implementation {
         config_(odometry.config()),
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
-        search_(config_, odometry.latest_frame().frontend, odometry.latest_frame().offset) {
+        search_(config_, odometry::LatestFrame::of(odometry).frontend, odometry::LatestFrame::of(odometry).offset) {
     places::check_map_config(config_);
   }
 
@@ -175,7 +175,7 @@ bool Map::Implementation::add(const FrameResult& result) {
 
 /// Mean inverse depth of the current rig's edges [1/m].
 double Map::Implementation::mean_inverse_depth() const {
-  const odometry::LatestFrame now = odometry_.latest_frame();
+  const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   const auto& edges = now.rig->measured_edges(now.offset.rig(), kMinEpipolarAngle);
   double sum = 0, count = 0;
   for (const auto& edge : edges) {
@@ -214,7 +214,7 @@ double Map::Implementation::spread(const GraphEdge& motion, double inverse_depth
 
 /// Whether a search near the predicted positions covers the uncertainty of a motion.
 bool Map::Implementation::is_predictable(const GraphEdge& motion, double inverse_depth) const {
-  const double focal = odometry_.latest_frame().offset.rig().left.fx;
+  const double focal = odometry::LatestFrame::of(odometry_).offset.rig().left.fx;
   return focal * spread(motion, inverse_depth) < config_.temporal.coarse_radius;
 }
 
@@ -229,7 +229,7 @@ bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
 
 /// Compares the current rig, which is a node, with places, and keeps it unless that adds no view.
 bool Map::Implementation::recognise(int node) {
-  const odometry::LatestFrame now = odometry_.latest_frame();
+  const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   const double inverse_depth = mean_inverse_depth();
   const int min_gap = config_.map.min_gap;
   if (const places::Place* seen = nearest(node, node, min_gap + 1, places::kSameView, inverse_depth)) {
@@ -285,7 +285,7 @@ std::optional<ListedClosure> Map::Implementation::compare(const places::PlaceSto
 /// Searches for the motion from a place to the current rig, only near the map's if that is known well enough.
 std::optional<GraphEdge> Map::Implementation::search(const places::Place& place, int node, bool near_prediction,
                                                      Closure& closure) {
-  const odometry::LatestFrame now = odometry_.latest_frame();
+  const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   odometry::MotionQuery query;
   query.current = now.rig;
   query.base = now.frontend.restore(place.rig);
@@ -414,7 +414,7 @@ SavedMap Map::Implementation::saved() const {
   const StereoRig& rig = odometry_.rig();
   saved.rig = odometry::with_disparity_offset(rig, 0);
   saved.is_undistorted = rig.left_undistortion.empty() && rig.right_undistortion.empty() ? 0 : 1;
-  const odometry::DisparityOffset& offset = odometry_.latest_frame().offset;
+  const odometry::DisparityOffset& offset = odometry::LatestFrame::of(odometry_).offset;
   saved.offset = offset.value();
   saved.offset_variance = offset.variance();
   saved.settings = places::descriptor_settings(config_);

@@ -24,9 +24,6 @@ struct SavedPlaces;
 /// Map::saved() makes one, Localiser locates frames in it.
 class SavedMap {
  public:
-  /// \param header everything but the places \param places in the order of the header's poses
-  SavedMap(places::SavedPlaces header, std::vector<places::Place> places);
-
   std::size_t key_rigs() const;
   /// The pinhole cameras of the recording, without undistortion tables.
   const StereoRig& rig() const;
@@ -37,9 +34,13 @@ class SavedMap {
   /// \param source name for messages \throws DataError for anything that bytes() does not write
   static SavedMap from_bytes(std::string_view bytes, const std::string& source);
 
+ private:
+  friend class Map;
+  friend class Localiser;
+  /// \param header everything but the places \param places in the order of the header's poses
+  SavedMap(places::SavedPlaces header, std::vector<places::Place> places);
   const places::SavedPlaces& places() const { return *places_; }
 
- private:
   std::shared_ptr<const places::SavedPlaces> places_;
 };
 

@@ -161,9 +161,6 @@ class StereoOdometry {
   /// The device that it runs on.
   const DeviceInfo& device() const;
 
-  /// The frame tracked last, as the map sees it (host/odometry/latest_frame.hpp).
-  odometry::LatestFrame latest_frame() const;
-
   /// Observes all filters in the following frames; null stops. A tap cannot change results.
   void set_tap(Tap* tap);
 
@@ -175,6 +172,7 @@ class StereoOdometry {
   double kernel_build_ms() const;
 
  private:
+  friend struct odometry::LatestFrame;
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
