@@ -99,8 +99,8 @@ kernel void relaxation_tally(const StereoRelaxationArguments args, global const 
   if (highest < args.undecided) atomic_inc(tally + 1);
 }
 
-// Starts the vote again with a coarse disparity of the pair as a witness: where it speaks for a candidate of an edge,
-// the other candidates become less likely. The pixels beside the edge are asked, too: either surface at a contour.
+// Starts the vote again with a coarse disparity of the pair: where it agrees with a candidate of an edge, the other
+// candidates become less likely. At a contour the pixels on both sides of the edge count, one for either surface.
 kernel void relaxation_consult(const StereoRelaxationArguments args, global const int* first,
                                global const int* cluster_count, global const float* left_edges,
                                global const float* clusters, global const float* coarse, global float* prior,

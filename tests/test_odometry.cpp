@@ -166,6 +166,18 @@ TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right po
   }
 }
 
+TEST_CASE("odometry: in the dark the last motion is repeated once, not for ever", "[odometry][device]") {
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, room().config);
+  const Image black(240, 150);
+  for (std::size_t i : {0, 1, 2}) REQUIRE(is_tracked(odometry.track(room().frame(i)).status));
+  std::vector<Eigen::Isometry3d> predicted;
+  for (std::int64_t i = 3; i < 8; ++i)
+    predicted.push_back(*odometry.track({i * 50000000, black.view(), black.view()}).predicted_world_from_left);
+  CHECK((predicted[0].translation() - room().world_from_left[2].translation()).norm() > 1e-3);
+  for (const auto& pose : predicted) CHECK(pose.isApprox(predicted[0], 1e-9));
+}
+
 TEST_CASE("odometry: a frame from another place is lost, and the next one is tracked at the right pose",
           "[odometry][device]") {
   const RenderedScene elsewhere("cables", 240, 150, 1);

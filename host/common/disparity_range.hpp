@@ -33,7 +33,7 @@ void check_disparity_range(const StereoRig& rig, const std::string& source);
 constexpr int kCoarseStepPenalty = 12, kCoarseJumpPenalty = 200;
 constexpr float kUndecided = 0.9F;      // belief of an edge's best candidate below which neighbours leave a tie
 constexpr float kCoarseReach = 1.5F;    // px; half a level and the error of a coarse position
-constexpr float kCoarseDissent = 0.1F;  // what the witness leaves of the prior of the candidates it contradicts
+constexpr float kCoarseDissent = 0.1F;  // factor on the prior of candidates that the coarse disparity contradicts
 
 /// How many edges the votes of their neighbours leave undecided.
 struct RelaxationTally {

@@ -42,6 +42,10 @@ void take_times(const TimeRows& rows, const std::string& file, const fs::path& f
     if (found != by_name.end()) images.stamps_ns.push_back(found->second);
   }
   if (images.stamps_ns.size() == images.files.size()) return;
+  if (!images.stamps_ns.empty()) {
+    fail(file, "names of " + counted(images.stamps_ns.size(), "image"),
+         "all " + std::to_string(images.files.size()) + " in " + folder.string() + ", or none of them");
+  }
   images.stamps_ns = rows.stamps_ns;
   if (images.stamps_ns.size() != images.files.size()) {
     fail(file, counted(images.stamps_ns.size(), "time"),

@@ -36,8 +36,11 @@ std::optional<FrameFault> FramePreparation::fault(const rig::RigReport& report) 
   const auto* mismatch = report.mismatch();
   if (mismatch == nullptr)
     for (const auto& finding : report.findings) warn(rig::warning(finding));
-  if (!has_enough_edges())
-    return FrameFault{FrameStatus::lost_too_few_edges, std::to_string(current_->edges.size()) + " stereo edges"};
+  if (!has_enough_edges()) {
+    const std::string cause = mismatch == nullptr ? "" : "; " + rig::warning(*mismatch).text;
+    return FrameFault{FrameStatus::lost_too_few_edges,
+                      std::to_string(current_->edges.size()) + " stereo edges" + cause};
+  }
   if (mismatch != nullptr) return FrameFault{FrameStatus::lost_rig_mismatch, rig::warning(*mismatch).text};
   return std::nullopt;
 }

@@ -107,6 +107,7 @@ class StereoOdometry::Implementation {
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
+  bool was_lost_ = false;               ///< the last frame
   frontend::FrameEdgesHandle current_;  ///< of the last frame tracked; null before the first frame
   odometry::StepHandle step_;           ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
@@ -284,6 +285,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.new_key_rig = !config_.odometry.key_rig || !by_key || state_.key.needs_replacement(fitness, config_.odometry);
 
   state_.lost = std::nullopt;
+  was_lost_ = false;
   if (result.new_key_rig) {
     // All frames located against one key rig share its disparities, so that together they carry no more information
     // than the last, most distant one.
@@ -299,7 +301,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
 void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
   result.status = status;
   add_message(message, result);
-  if (state_.lost) velocity_.forget();  // lost twice in a row
+  if (std::exchange(was_lost_, true)) velocity_.forget();
   const auto repeated = velocity_.predict(1);
   result.predicted_world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
   result.reference_frame = state_.key.frame();

@@ -29,16 +29,6 @@ double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& in
 
 }  // namespace
 
-const char* to_string(MotionStatus status) {
-  switch (status) {
-    case MotionStatus::ok: return "ok";
-    case MotionStatus::too_few_quads: return "too few quads";
-    case MotionStatus::no_consensus: return "no consensus";
-    case MotionStatus::badly_spread: return "badly spread";
-  }
-  return "unknown";
-}
-
 void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
                                std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
                                double offset_variance, MotionEstimate& estimate, RefinementGoal goal) {

@@ -23,7 +23,6 @@ enum class MotionStatus {
   no_consensus,   ///< no motion reaches config.min_inliers and config.min_inlier_ratio
   badly_spread,   ///< the inliers cover too small a part of the image to determine the motion
 };
-const char* to_string(MotionStatus status);
 
 /// Motion between two rigs, estimated from their quads.
 struct MotionEstimate {

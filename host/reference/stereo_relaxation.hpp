@@ -12,7 +12,7 @@ namespace quadedge::reference {
 struct StereoRelaxation {
   std::vector<double> belief;        ///< per cluster; those of an edge that reach filter 9 sum up to 1, others have 0
   std::vector<std::int32_t> chosen;  ///< cluster per left edge, -1: none
-  RelaxationTally tally;             ///< before the witness speaks
+  RelaxationTally tally;             ///< of the vote without the coarse disparity
   std::vector<double> score;         ///< per left edge: similarity of its cluster, and what its support counts
 };
 

@@ -161,7 +161,7 @@ class StereoRelaxation : private Stage {
   StereoRelaxation(opencl::Context& context, int width, int height, const StereoConfig& config,
                    const opencl::VariantChoice& variants);
 
-  /// `witness`: of the same pair, null: none. The tally is taken before it speaks.
+  /// `witness`: of the same pair, null: none. The tally is that of the vote without it.
   void run(const DeviceEdges& left, const EpipolarGeometry& geometry, const DeviceCandidates& candidates,
            const DeviceClusters& clusters, DeviceRelaxation& relaxation, const CoarseDisparity* witness = nullptr);
 

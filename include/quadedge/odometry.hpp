@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,7 @@ enum class FrameStatus {
   tracked,             ///< pose found against the key rig or an earlier frame
   lost_too_few_edges,  ///< too few stereo edges in this frame
   lost_too_few_quads,  ///< too few quads with an earlier frame
-  lost_no_consensus,   ///< no motion supported by enough quads
+  lost_no_consensus,   ///< no motion that enough of the image supports, or more than one
   lost_rig_mismatch,   ///< the images do not match the calibration
 };
 const char* to_string(FrameStatus status);
@@ -58,7 +59,7 @@ struct FrameTiming {
 struct FrameDiagnostics {
   double edge_threshold = 0;   ///< gradient threshold of the edges in both images [grey levels per px]
   double disparity_range = 0;  ///< up to which stereo matches were searched for, in the middle of the left image [px]
-  bool overflow = false;       ///< whether a capacity was exceeded (edges or candidates); see FrameResult::message
+  bool overflow = false;       ///< whether edges were dropped because a capacity was exceeded; see FrameResult::message
   /// Number of the frame that the pose was measured against: the key rig or, if that is out of view, the last
   /// frame with a pose; -1 without a pose.
   int base_frame = -1;
@@ -101,7 +102,7 @@ struct FrameResult {
   bool new_key_rig = false;           ///< whether this frame becomes the key rig of the following frames
   double disparity_offset = 0;        ///< estimated so far, added to every disparity [px]
   double disparity_offset_sigma = 0;  ///< its standard deviation [px]
-  /// Another motion explains nearly as much of the image, so that the camera's motion is ambiguous.
+  /// Another motion explains nearly as much of the image, or what moves may be the scene: see `message`.
   bool ambiguous_motion = false;
   FrameCounts counts;
   std::string message;  ///< empty, or one sentence for the user about this frame

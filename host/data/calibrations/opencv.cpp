@@ -49,7 +49,13 @@ StatedLens read_lens(const std::vector<CalibrationText>& texts, const std::strin
   stated.lens.parameters = coefficients.values;
   if (const auto model = find(texts, {"distortion_model"}, "")) {
     const std::string word = model->map->word(model->key);
-    if (word == "equidistant" || word == "fisheye") stated.lens.model = LensModel::equidistant;
+    if (word == "equidistant" || word == "fisheye") {
+      stated.lens.model = LensModel::equidistant;
+    } else if (word != "plumb_bob" && word != "radtan" && word != "radial-tangential" &&
+               word != "rational_polynomial") {
+      model->map->complain(model->key, "'" + word + "'",
+                           "plumb_bob, radtan, rational_polynomial, equidistant or fisheye");
+    }
   }
   if (const auto width = find(texts, {"image_width"}, "")) {
     const ImageSize size = width->map->size("image_width", "image_height");
