@@ -314,9 +314,9 @@ void bind_result_files(nb::module_& module) {
       "writes to, and DataError for one that cannot be written, as do add() and finish().")
       .def(
           "__init__",
-          [](ResultFiles* self, const std::string& folder, Odometry& odometry, const std::string& name,
+          [](ResultFiles* self, const std::filesystem::path& folder, Odometry& odometry, const std::string& name,
              const std::string& command, bool force) {
-            new (self) ResultFiles(std::move(*odometry.result_files(folder, {name, command}, force)));
+            new (self) ResultFiles(std::move(*odometry.result_files(folder.string(), {name, command}, force)));
           },
           "folder"_a, "odometry"_a, "name"_a, "command"_a = "", "force"_a = false)
       .def(

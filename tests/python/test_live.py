@@ -139,15 +139,15 @@ def test_result_files_are_those_of_a_run(command, room_folder, tmp_path):
     assert command("run", room_folder, "-o", ran, "--preset", "fast", "--quiet").returncode == 0
     dataset = quadedge.open_dataset(room_folder)
     with quadedge.Odometry(dataset, preset="fast") as odometry:
-        files = quadedge.ResultFiles(str(own), odometry, "room", "a test")
+        files = quadedge.ResultFiles(own, odometry, "room", "a test")
         with pytest.raises(quadedge.UsageError, match="another run or batch is writing to this folder"):
-            quadedge.ResultFiles(str(own), odometry, "room")
+            quadedge.ResultFiles(own, odometry, "room")
         for frame in dataset:
             files.add(odometry.track(frame.stamp_ns, frame.left, frame.right))
         files.finish("stopped")
         del files
         with pytest.raises(quadedge.UsageError, match="the folder holds results"):
-            quadedge.ResultFiles(str(own), odometry, "room")
+            quadedge.ResultFiles(own, odometry, "room")
     for name in ("trajectory.txt", "trajectory_kitti.txt", "poses.csv"):
         assert (own / name).read_bytes() == (ran / name).read_bytes()
     report, of_run = (json.loads((folder / "report.json").read_text()) for folder in (own, ran))
