@@ -19,19 +19,19 @@ namespace {
 
 using namespace quadedge;
 
-std::unique_ptr<cli::FrameSource> open_source(const std::string& path, int frames, SyntheticOptions scene) {
+cli::FrameSource open_source(const std::string& path, int frames, SyntheticOptions scene) {
   if (cli::is_scene(path)) {
     scene.scene = path;
     if (frames > 0) scene.frames = frames;
-    return cli::make_synthetic_source(scene);
+    return cli::FrameSource(scene);
   }
   DatasetOptions options;
   if (frames > 0) options.last_frame = frames;
-  return cli::make_recorded_source(open_dataset(path, options));
+  return cli::FrameSource(open_dataset(path, options));
 }
 
 /// trajectory.txt, trajectory_kitti.txt and groundtruth.txt as `quadedge run` writes them.
-void run(cli::FrameSource& source, const std::string& output, bool force) {
+void run(cli::FrameSource source, const std::string& output, bool force) {
   const report::FolderLock lock = report::prepare_output_folder(output, force);
   report::AppendFile tum(output + "/trajectory.txt"), kitti(output + "/trajectory_kitti.txt");
   tum.append(data::tum_header());
@@ -45,7 +45,8 @@ void run(cli::FrameSource& source, const std::string& output, bool force) {
     ++frames;
     tracked += result.tracked ? 1 : 0;
   }
-  if (!source.truth().empty()) write_tum(output + "/groundtruth.txt", source.truth());
+  const Trajectory& truth = source.dataset().truth;
+  if (!truth.empty()) write_tum(output + "/groundtruth.txt", truth);
   std::printf("tracked %d of %d frames; results in %s\n", tracked, frames, output.c_str());
 }
 
@@ -65,7 +66,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(program, argc, argv);
   try {
     if (frames < 0) throw UsageError("--frames " + std::to_string(frames) + ": expected 0 or more");
-    run(*open_source(path, frames, scene), output, force);
+    run(open_source(path, frames, scene), output, force);
     return static_cast<int>(ExitCode::done);
   } catch (const Error& error) {
     std::fprintf(stderr, "opencv_baseline: %s\n", error.what());

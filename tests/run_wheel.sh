@@ -10,7 +10,7 @@ mkdir -p "$work/wheels"
 cp "$1"/quadedge-*-manylinux_2_36_*.whl "$work/wheels/"
 wheel=("$work"/wheels/quadedge-*.whl)
 [ ${#wheel[@]} -eq 1 ]
-limit=$((25 * 1000 * 1000))
+limit=$((15 * 1000 * 1000))
 [ "$(stat -c %s "$wheel")" -le $limit ] || { echo "$wheel: more than $limit bytes" >&2; exit 1; }
 
 # The files that pip would download; the root has no network.

@@ -3,8 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "data/float_map.hpp"
-#include "data/jpeg_codec.hpp"
-#include "data/png_codec.hpp"
+#include "data/image_codecs.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/image.hpp"

@@ -32,6 +32,15 @@ quadedge demo --frames 2 --size 160x100 -o none >demo.txt 2>&1 || code=$?
 [ $code -eq 4 ] || { echo "expected exit code 4, got $code" >&2; exit 1; }
 expect 'no OpenCL device was found' demo.txt
 
+# No ffmpeg: the message names what reads videos.
+if ! command -v ffprobe >/dev/null; then
+  touch video.mkv
+  code=0
+  quadedge run --video video.mkv --split left-right --calibration none.yaml -o none >video.txt 2>&1 || code=$?
+  [ $code -eq 3 ] || { echo "expected exit code 3, got $code" >&2; exit 1; }
+  expect 'needs the program ffprobe' video.txt
+fi
+
 install "quadedge[cpu]"
 python "$wheels/wheel_user.py" auto >device.txt
 expect "tracked" device.txt

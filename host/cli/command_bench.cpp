@@ -92,12 +92,12 @@ class BenchCommand : public Command {
     return comparison.regressed() ? bench::kRegressionExitCode : static_cast<int>(ExitCode::done);
   }
 
-  std::unique_ptr<FrameSource> open_source(RenderingStatus& rendering) const {
-    if (source_.is_given()) return make_recorded_source(source_.open());
+  FrameSource open_source(RenderingStatus& rendering) const {
+    if (source_.is_given()) return FrameSource(source_.open());
     SyntheticOptions scene = scene_;
     scene.frames = 1 + warm_up_ + frames_;
     set_size(scene, size_);
-    return make_synthetic_source(scene, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
+    return FrameSource(scene, [&](const data::RenderedFrames& frames) { return rendering.show(frames); });
   }
 
   /// \throws DataError for fewer frames than one to measure needs.
@@ -112,8 +112,8 @@ class BenchCommand : public Command {
     bench::BenchRecord record;
     auto& run = record.run;
     RenderingStatus rendering(quiet_, nullptr);
-    const auto source = open_source(rendering);
-    run.input = source->facts();
+    FrameSource source = open_source(rendering);
+    run.input = source.facts();
     run.config = method_.config();
     record.command = command_line();
     record.warm_up = warm_up_;
@@ -121,11 +121,11 @@ class BenchCommand : public Command {
     const bool is_counted = run.input.frames > 0;
     if (is_counted) check_length(run.input);
     bench::measure_start(
-        source->rig(), [&] { return method_.open_device(); }, bench::add_saved_variants, record);
+        source.rig(), [&] { return method_.open_device(); }, bench::add_saved_variants, record);
     std::vector<FramePrefetcher::Frame> frames;
     const int all = 1 + warm_up_ + frames_, wanted = is_counted ? std::min(all, run.input.frames) : all;
     while (static_cast<int>(frames.size()) < wanted) {
-      auto frame = source->next();
+      auto frame = source.next();
       if (!frame) break;
       record.frames_mb +=
           static_cast<double>(frame->left.pixels.size() + frame->right.pixels.size()) / (1024.0 * 1024.0);
@@ -139,7 +139,7 @@ class BenchCommand : public Command {
       Device device = method_.open_device();
       run.config.edges.threshold = bench::threshold_for_edges(frames.front(), record.edges_wanted, device, run.config);
     }
-    const bench::Subject subject{source->rig(), frames, run.config,
+    const bench::Subject subject{source.rig(), frames, run.config,
                                  [&](bool profiling) { return method_.open_device(profiling); },
                                  [&](const char* pass, int done, int total) { progress.update(pass, done, total); }};
     bench::measure_latency(subject, record);

@@ -77,15 +77,15 @@ class CompareCommand : public Command {
     SyntheticOptions scene;
     scene.frames = 2;
     set_size(scene, size_);
-    const auto source = make_synthetic_source(scene);
-    const auto first = source->next(), second = source->next();
-    config = with_disparity_range(config, source->rig());
+    FrameSource source(scene);
+    const auto first = source.next(), second = source.next();
+    config = with_disparity_range(config, source.rig());
     const bench::ReferenceCheck check(config);
     if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
     std::printf("%s\n\n%-20s %-10s %-8s %12s %9s %9s %7s %7s\n", info.name.c_str(), "stage", "variant", "", "median",
                 "p10", "p90", "ratio", "p90");
 
-    const bench::VariantInput input{source->rig(), *first, *second, config, [&] { return method_.open_device(true); },
+    const bench::VariantInput input{source.rig(), *first, *second, config, [&] { return method_.open_device(true); },
                                     repetitions_};
     StatusLine status(quiet_);
     std::vector<bench::StageResult> results;

@@ -39,10 +39,9 @@ class DemoCommand : public Command {
     set_texts(scene_, texts_);
     const Interruption interruption;
     RenderingStatus rendering(run_.quiet, &interruption);
-    const auto source =
-        make_synthetic_source(scene_, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
+    FrameSource source(scene_, [&](const data::RenderedFrames& frames) { return rendering.show(frames); });
     if (run_.draw_every == 0) run_.draw_frame = scene_.frames / 2;
-    const report::RunRecord record = run_sequence(*source, method_, run_, interruption);
+    const report::RunRecord record = run_sequence(source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);
   }

@@ -74,18 +74,18 @@ class LocaliseCommand : public Command {
     record.key_rigs = map.key_rigs();
     const report::FolderLock lock = report::prepare_output_folder(output_, force_);
     const Interruption interruption;
-    const auto source = make_recorded_source(
+    FrameSource source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());
-    record.input = source->facts();
+    record.input = source.facts();
     try {
-      locate(map, *source, interruption, record);
+      locate(map, source, interruption, record);
     } catch (const DataError& error) {
       if (record.frames.empty()) throw;
       record.ended_early = error.what();
-      end_with_error(error, record.frames.size(), output_, {[&] { write_results(*source, record); }});
+      end_with_error(error, record.frames.size(), output_, {[&] { write_results(source, record); }});
     }
     if (interruption.signal() != 0) record.ended_early = "interrupted";
-    write_results(*source, record);
+    write_results(source, record);
     print(record);
     if (interruption.signal() != 0) interruption.end_process();
     return exit_code("located", record.located(), record.frames.size(), min_located_,
@@ -118,13 +118,13 @@ class LocaliseCommand : public Command {
 
   /// Compares with the ground truth, if any, up to a rigid motion, and writes localisation.json.
   void write_results(const FrameSource& source, report::LocalisationRecord& record) const {
-    if (!source.truth().empty() && record.located() > 0) {
+    if (!source.dataset().truth.empty() && record.located() > 0) {
       Trajectory located;
       for (const Localisation& frame : record.frames)
         if (frame.map_from_left) located.push_back({frame.stamp_ns, *frame.map_from_left});
       try {
-        record.truth_file = source.truth_name();
-        record.accuracy = evaluate_trajectory(located, source.truth());
+        record.truth_file = source.dataset().truth_file;
+        record.accuracy = evaluate_trajectory(located, source.dataset().truth);
       } catch (const DataError& error) {
         note(std::string("warning: no accuracy: ") + error.what());
       }

@@ -58,9 +58,9 @@ class RunCommand : public Command {
     if (!name_.empty()) dataset.name = name_;
     if (run_.output.empty()) run_.output = report::default_output_folder(dataset.name);
     const Interruption interruption;
-    const auto source = make_recorded_source(
+    FrameSource source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());
-    const report::RunRecord record = run_sequence(*source, method_, run_, interruption);
+    const report::RunRecord record = run_sequence(source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);
   }

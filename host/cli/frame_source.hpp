@@ -5,45 +5,46 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "data/rendered_frames.hpp"
 #include "quadedge/dataset.hpp"
-#include "quadedge/synthetic.hpp"
 #include "report/run_record.hpp"
 
 namespace quadedge::cli {
 
-/// A sequence that can be run. Only evaluation and drawings use its ground truth.
+/// A sequence that can be run. Only evaluation and drawings use the ground truth of its dataset.
 class FrameSource {
  public:
-  virtual ~FrameSource() = default;
-  virtual const StereoRig& rig() const = 0;
-  virtual report::InputFacts facts() const = 0;
-  /// Prepares the frames where that takes long. Returns a warning for the user, or nothing.
-  virtual std::string prepare() { return {}; }
-  /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read.
-  virtual std::optional<FramePrefetcher::Frame> next() = 0;
+  /// A recorded sequence or the user's own cameras. `stop`: as FramePrefetcher. `options`: how it was opened, see
+  /// InputFacts.
+  explicit FrameSource(Dataset dataset, std::function<bool()> stop = {}, std::vector<std::string> options = {});
+  /// A built-in sequence, kept in the user's cache. `watch`: called while frames are made, and where a frame is handed
+  /// out; ends the sequence where it returns false. \throws UsageError for options that cannot be rendered
+  explicit FrameSource(const SyntheticOptions& options, std::function<bool(const data::RenderedFrames&)> watch = {});
+
+  const Dataset& dataset() const { return dataset_; }
+  const StereoRig& rig() const { return dataset_.rig; }
+  report::InputFacts facts() const;
+  /// Waits for the first frame. \throws DataError if it cannot be read
+  void prepare();
+  /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read
+  std::optional<StereoPair> next();
   /// Starts again with the first frame.
-  virtual void rewind() = 0;
-  /// Poses of the left camera; empty when there are none.
-  virtual const Trajectory& truth() const = 0;
-  /// Where they come from.
-  virtual std::string truth_name() const = 0;
+  void rewind() { pairs_.reset(); }
   /// Pairs dropped so far because they came faster than they were taken.
-  virtual int dropped() const { return 0; }
-  /// What prepare() has cached for later runs, as a sentence for the user; empty: nothing.
-  virtual std::string kept() const { return {}; }
+  int dropped() const { return pairs_ ? pairs_->dropped() : 0; }
+  /// The renderer's frames; null for recorded sequences.
+  const data::RenderedFrames* rendered() const { return rendered_.get(); }
+
+ private:
+  Dataset dataset_;
+  std::function<bool()> stop_;
+  std::vector<std::string> options_;
+  std::shared_ptr<const data::RenderedFrames> rendered_;
+  std::unique_ptr<FramePrefetcher> pairs_;
+  std::optional<StereoPair> first_;
 };
-
-/// A recorded sequence or the user's own cameras; images are read ahead on another thread. `stop`: as FramePrefetcher.
-/// `options`: how it was opened, see InputFacts.
-std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop = {},
-                                                  std::vector<std::string> options = {});
-
-/// The built-in sequence, rendered ahead and kept in the user's cache (see data::RenderedFrames). `watch`: called while
-/// frames are prepared. \throws UsageError for options that cannot be rendered.
-std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options,
-                                                   data::RenderedFrames::Watch watch = {});
 
 /// Reads "WIDTHxHEIGHT" into the options. \throws UsageError.
 void set_size(SyntheticOptions& options, const std::string& size);

@@ -2,9 +2,9 @@
 
 namespace quadedge::cli {
 
-bool RenderingStatus::show(const data::RenderingProgress& frames) {
+bool RenderingStatus::show(const data::RenderedFrames& frames) {
   if (!progress_) progress_.emplace(quiet_, "frames");
-  if (frames.rendered > 0) progress_->update("rendering", frames.ready, frames.frames);
+  if (frames.rendered() > 0) progress_->update("rendering", frames.ready(), frames.sequence().frames());
   return interruption_ == nullptr || interruption_->signal() == 0;
 }
 

@@ -14,8 +14,8 @@ class RenderingStatus {
  public:
   /// `interruption` may be null; else its signal ends the rendering.
   RenderingStatus(bool quiet, const Interruption* interruption) : quiet_(quiet), interruption_(interruption) {}
-  /// For data::RenderedFrames. Returns false after a signal.
-  bool show(const data::RenderingProgress& frames);
+  /// Returns false after a signal.
+  bool show(const data::RenderedFrames& frames);
 
  private:
   bool quiet_;

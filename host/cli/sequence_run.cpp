@@ -71,12 +71,19 @@ std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& dev
   return odometry;
 }
 
+/// Says how much of an interrupted rendering the next run will find.
+void note_cache(const FrameSource& source) {
+  const data::RenderedFrames* rendered = source.rendered();
+  if (rendered == nullptr || rendered->folder().empty()) return;
+  note(std::to_string(rendered->ready()) + " of " + std::to_string(rendered->sequence().frames()) +
+       " rendered frames are cached in " + rendered->folder());
+}
+
 /// After a signal before the first frame: ends the process.
 void end_if_interrupted(const Interruption& interruption, const FrameSource& source) {
   if (interruption.signal() == 0) return;
   note("interrupted before the first frame was tracked");
-  const std::string kept = source.kept();
-  if (!kept.empty()) note(kept);
+  note_cache(source);
   interruption.end_process();
 }
 
@@ -116,8 +123,9 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   run.start_ms = milliseconds_since(opening);
   run.device = device.info();
   run.variants = odometry.variants();
-  const std::string warning = source.prepare();
-  if (!warning.empty()) note("warning: " + warning);
+  source.prepare();
+  if (source.rendered() != nullptr && !source.rendered()->cache_error().empty())
+    note("warning: rendered frames are not cached: " + source.rendered()->cache_error());
   end_if_interrupted(interruption, source);  // OUT has no results yet, so the next start needs no --force
   data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
   report::GrowingFiles files(options.output);
@@ -201,15 +209,15 @@ Trajectory truth_of_the_run(const Trajectory& truth, const report::RunRecord& ru
 
 /// Compares with the ground truth, if any. Ground truth that misses most frames does not make a finished run fail.
 void evaluate(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
-  if (source.truth().empty()) return;
-  run.truth_file = source.truth_name();
-  write_tum(options.output + "/groundtruth.txt", truth_of_the_run(source.truth(), run));
+  if (source.dataset().truth.empty()) return;
+  run.truth_file = source.dataset().truth_file;
+  write_tum(options.output + "/groundtruth.txt", truth_of_the_run(source.dataset().truth, run));
   try {
-    run.accuracy = evaluate_trajectory(tracked_poses(run), source.truth());
+    run.accuracy = evaluate_trajectory(tracked_poses(run), source.dataset().truth);
     std::vector<FrameResult> results;
     for (const auto& frame : run.frames) results.push_back(frame.result);
-    run.consistency = evaluation::judge_covariances(results, source.truth());
-    run.step_consistency = evaluation::judge_steps(results, source.truth(), run.config.pose);
+    run.consistency = evaluation::judge_covariances(results, source.dataset().truth);
+    run.step_consistency = evaluation::judge_steps(results, source.dataset().truth, run.config.pose);
     data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
     const int missing = run.accuracy->estimate_poses - run.accuracy->matched;
     if (missing > 0) {
@@ -256,8 +264,7 @@ void write_results(const FrameSource& source, const SequenceRunOptions& options,
   print_run(run, options.output);
   std::fflush(stdout);
   note(run.ended_early + "; results of these frames are in " + options.output);
-  const std::string kept = source.kept();
-  if (!kept.empty()) note(kept);
+  note_cache(source);
   interruption.end_process();
 }
 

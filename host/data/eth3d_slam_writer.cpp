@@ -4,7 +4,7 @@
 
 #include "data/atomic_file.hpp"
 #include "data/float_map.hpp"
-#include "data/png_codec.hpp"
+#include "data/image_codecs.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 

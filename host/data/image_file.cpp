@@ -1,77 +1,37 @@
 #include "data/image_file.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <stdexcept>
 
+#include "data/image_codecs.hpp"
 #include "data/text.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
 
-namespace quadedge::data {
+namespace quadedge {
+namespace data {
 namespace {
 
 using namespace std::string_view_literals;
 constexpr int kMaxValue16 = 65535;
-constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n"sv;
+constexpr double kMostPixels = 1 << 30;
+constexpr std::string_view kPngStart = "\x89PNG\r\n\x1a\n\0\0\0\rIHDR"sv;  // the signature and its first chunk's head
 
-std::uint32_t big_endian(std::string_view bytes, std::size_t at, int count) {
-  std::uint32_t value = 0;
-  for (int i = 0; i < count; ++i)
-    value = value << 8 | static_cast<std::uint8_t>(bytes[at + static_cast<std::size_t>(i)]);
-  return value;
-}
+enum class ImageKind { png, jpeg, pnm };
 
-[[noreturn]] void truncated(const std::string& file, std::string_view bytes, const char* kind, const char* end) {
-  fail(file, std::string("a ") + kind + " that ends after " + std::to_string(bytes.size()) + " bytes", end);
-}
-
-ImageSize check_png(std::string_view bytes, const std::string& file) {
+struct ImageHeader {
+  ImageKind kind;
   ImageSize size;
-  for (std::size_t at = kPngSignature.size();;) {
-    if (at + 12 > bytes.size()) truncated(file, bytes, "PNG", "a complete one, closed by its IEND chunk");
-    const std::size_t length = big_endian(bytes, at, 4);
-    const std::string_view type = bytes.substr(at + 4, 4);
-    if (length > bytes.size() - at - 12) truncated(file, bytes, "PNG", "a complete one, closed by its IEND chunk");
-    if (type == "IHDR"sv && length >= 8) {
-      size = {static_cast<int>(big_endian(bytes, at + 8, 4)), static_cast<int>(big_endian(bytes, at + 12, 4))};
-      if (length > 8 && big_endian(bytes, at + 16, 1) == 16) size.max_value = kMaxValue16;
-    }
-    if (type == "IEND"sv) return size;
-    at += 12 + length;
-  }
-}
+  int channels = 0;        ///< PNM: 1, or 3 for R, G, B
+  std::size_t pixels = 0;  ///< PNM: position of the first sample; 16-bit samples are big-endian
+};
 
-/// Start-of-frame markers contain the size: C0 to CF except the three that denote tables.
-bool is_start_of_frame(std::uint32_t marker) {
-  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-}
-
-ImageSize check_jpeg(std::string_view bytes, const std::string& file) {
-  constexpr const char* kComplete = "a complete one, closed by its end-of-image marker";
-  ImageSize size;
-  for (std::size_t at = 2;;) {
-    if (at + 4 > bytes.size()) truncated(file, bytes, "JPEG", kComplete);
-    if (big_endian(bytes, at, 1) != 0xFF) fail(file, "a JPEG with a damaged segment", kComplete);
-    const std::uint32_t marker = big_endian(bytes, at + 1, 1);
-    if (marker == 0xFF) {  // fill byte
-      ++at;
-      continue;
-    }
-    const std::size_t length = big_endian(bytes, at + 2, 2);
-    if (length < 2 || length > bytes.size() - at - 2) truncated(file, bytes, "JPEG", kComplete);
-    if (is_start_of_frame(marker) && length >= 7) {
-      size = {static_cast<int>(big_endian(bytes, at + 7, 2)), static_cast<int>(big_endian(bytes, at + 5, 2))};
-    }
-    at += 2 + length;
-    if (marker == 0xDA) {  // in the entropy-coded data, only the end marker can be FF D9
-      if (bytes.find("\xFF\xD9"sv, at) == std::string_view::npos) truncated(file, bytes, "JPEG", kComplete);
-      return size;
-    }
-  }
-}
-
-}  // namespace
-
-PnmHeader read_pnm_header(std::string_view bytes, const std::string& file) {
+/// The header of a binary PGM or PPM, which has to be as long as the header says.
+ImageHeader pnm_header(std::string_view bytes, const std::string& name) {
   std::size_t at = 2;
   const auto next_number = [&] {
     while (at < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
@@ -85,40 +45,62 @@ PnmHeader read_pnm_header(std::string_view bytes, const std::string& file) {
   };
   const int width = next_number(), height = next_number(), largest = next_number();
   if (largest < 1 || largest > kMaxValue16)
-    fail(file, "a PNM with the largest value " + std::to_string(largest), "1 to 65535");
-  const PnmHeader header{{width, height, largest}, bytes[1] == '6' ? 3 : 1, at + 1};
-  const std::size_t per_pixel = static_cast<std::size_t>(header.channels) * bytes_per_pixel(largest);
-  const std::size_t needed = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel;
-  if (bytes.size() < header.pixels + needed) truncated(file, bytes, "PNM", "all pixels announced by its header");
-  if (bytes.size() > header.pixels + needed) {  // a header of another form, whose end is not where it seems to be
-    fail(file, "a PNM of " + std::to_string(bytes.size()) + " bytes",
-         std::to_string(header.pixels + needed) + ", the header and " + to_string(header.size) + " pixels");
-  }
+    fail(name, "a PNM with the largest value " + std::to_string(largest), "1 to 65535");
+  const ImageHeader header{ImageKind::pnm, {width, height, largest}, bytes[1] == '6' ? 3 : 1, at + 1};
+  const std::size_t length = header.pixels + static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                                                 static_cast<std::size_t>(header.channels) * bytes_per_pixel(largest);
+  if (bytes.size() != length)
+    fail(name, "a PNM of " + std::to_string(bytes.size()) + " bytes",
+         std::to_string(length) + ", the header and " + to_string(header.size) + " pixels");
   return header;
 }
 
-std::string to_string(ImageSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
-
-ImageKind image_kind(std::string_view bytes, const std::string& file) {
-  if (bytes.substr(0, kPngSignature.size()) == kPngSignature) return ImageKind::png;
-  if (bytes.substr(0, 2) == "\xFF\xD8"sv) return ImageKind::jpeg;
-  if (bytes.substr(0, 2) == "P5"sv || bytes.substr(0, 2) == "P6"sv) return ImageKind::pnm;
-  fail(file, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
+ImageHeader read_header(std::string_view bytes, const std::string& name) {
+  if (bytes.substr(0, 2) == "P5"sv || bytes.substr(0, 2) == "P6"sv) return pnm_header(bytes, name);
+  if (bytes.substr(0, 2) == "\xFF\xD8"sv) return {ImageKind::jpeg, jpeg_size(bytes)};
+  if (bytes.substr(0, 8) == kPngStart.substr(0, 8)) {
+    const auto* number = reinterpret_cast<const std::uint8_t*>(bytes.data()) + kPngStart.size();
+    if (bytes.size() < kPngStart.size() + 9 || bytes.substr(0, kPngStart.size()) != kPngStart)
+      throw std::runtime_error("no header");
+    const auto side = [](const std::uint8_t* at) {
+      return static_cast<int>(static_cast<std::uint32_t>(at[0]) << 24 | at[1] << 16 | at[2] << 8 | at[3]);
+    };
+    return {ImageKind::png, {side(number), side(number + 4), number[8] == 16 ? kMaxValue16 : kMaxValue8}};
+  }
+  fail(name, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
        "a PNG, JPEG or binary PGM/PPM image");
 }
 
-ImageSize check_complete(std::string_view bytes, const std::string& file) {
-  const ImageKind kind = image_kind(bytes, file);
-  const ImageSize size = kind == ImageKind::png    ? check_png(bytes, file)
-                         : kind == ImageKind::jpeg ? check_jpeg(bytes, file)
-                                                   : read_pnm_header(bytes, file).size;
-  if (size.width <= 0 || size.height <= 0 || size.width > kLargestImageSide || size.height > kLargestImageSide) {
-    fail(file, "an image of " + to_string(size) + " pixels", "sides between 1 and 65536");
+/// \throws DataError also for images that are too large
+ImageHeader checked_header(std::string_view bytes, const std::string& name) {
+  try {
+    const ImageHeader header = read_header(bytes, name);
+    const ImageSize& size = header.size;
+    if (size.width > 0 && size.height > 0 && size.width <= kLargestImageSide && size.height <= kLargestImageSide)
+      return header;
+    fail(name, "an image of " + to_string(size) + " pixels", "sides between 1 and 65536");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& problem) {
+    fail(name, std::string("a damaged image (") + problem.what() + ")", "an intact one");
   }
-  return size;
 }
 
-ImageSize image_size(const std::string& file) { return check_complete(read_bytes(file), file); }
+cv::Mat decode(const ImageHeader& header, std::string_view bytes) {
+  if (header.kind == ImageKind::png) return decode_png(bytes);
+  if (header.kind == ImageKind::jpeg) return decode_jpeg(bytes);
+  const int depth = header.size.max_value > kMaxValue8 ? CV_16U : CV_8U;
+  cv::Mat samples(header.size.height, header.size.width, CV_MAKETYPE(depth, header.channels));
+  std::memcpy(samples.data, bytes.data() + header.pixels, samples.total() * samples.elemSize());
+  from_big_endian(samples);
+  return samples;
+}
+
+}  // namespace
+
+std::string to_string(ImageSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
+ImageSize image_size(const std::string& file) { return checked_header(read_bytes(file), file).size; }
 
 bool is_image_name(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
@@ -127,4 +109,26 @@ bool is_image_name(const std::string& name) {
          extension == ".ppm";
 }
 
-}  // namespace quadedge::data
+}  // namespace data
+
+Image read_grey_image(const std::string& path) { return decode_grey_image(data::read_bytes(path), path); }
+
+Image decode_grey_image(std::string_view bytes, const std::string& name) {
+  const data::ImageHeader header = data::checked_header(bytes, name);
+  const data::ImageSize& size = header.size;
+  const std::string intact = "an intact " + data::to_string(size) + " image";
+  if (static_cast<double>(size.width) * size.height > data::kMostPixels)
+    data::fail(name, "an image of " + data::to_string(size) + " pixels", "2^30 pixels at most");
+  try {
+    const cv::Mat samples = data::decode(header, bytes);
+    if (samples.cols == size.width && samples.rows == size.height) return data::grey_image(samples, size.max_value);
+  } catch (const cv::Exception& problem) {
+    data::fail(name, "an image that cannot be decoded (" + problem.err + ")", intact);
+  } catch (const std::runtime_error& problem) {
+    const char* kind = header.kind == data::ImageKind::png ? "PNG" : "JPEG";
+    data::fail(name, std::string("a damaged ") + kind + " (" + problem.what() + ")", intact);
+  }
+  data::fail(name, "an image of another size than its header says", intact);
+}
+
+}  // namespace quadedge

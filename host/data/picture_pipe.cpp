@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <exception>
 #include <opencv2/core.hpp>
@@ -12,8 +11,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "data/image_file.hpp"
-#include "data/samples.hpp"
+#include "data/image_codecs.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -26,37 +24,27 @@ constexpr int kPollInterval = 100;  // ms between checks for a request to stop
 /// Thrown after stop().
 struct Stopped : std::exception {};
 
-class PipeReader : public PairReader {
+class PipeReader : public StreamReader {
  public:
-  PipeReader(int descriptor, const PipeOptions& options)
-      : descriptor_(descriptor), options_(options), buffer_(1 << 16) {}
+  PipeReader(int descriptor, const StreamOptions& options)
+      : StreamReader(options), descriptor_(descriptor), buffer_(1 << 16) {}
 
-  std::optional<StereoPair> next() override {
+ private:
+  std::optional<StereoPair> read() override {
     try {
       return read_pair();
     } catch (const Stopped&) {
       return std::nullopt;
     }
   }
-  void stop() override { stop_ = true; }
 
- private:
   std::optional<StereoPair> read_pair() {
     auto first = read_picture();
     if (!first) return std::nullopt;
-    StereoPair pair;
-    pair.number = number_;
-    pair.stamp_ns = std::llround(number_ / options_.fps * 1e9);
-    if (options_.split == Split::none) {
-      auto second = read_picture();
-      if (!second) fail(kName, "the end after a left image", "a right image");
-      pair.left = std::move(*first);
-      pair.right = std::move(*second);
-    } else {
-      std::tie(pair.left, pair.right) = split_views(*first, options_.split, kName);
-    }
-    ++number_;
-    return pair;
+    if (options_.split != Split::none) return halves(*first, kName);
+    auto second = read_picture();
+    if (!second) fail(kName, "the end after a left image", "a right image");
+    return StereoPair{0, 0, std::move(*first), std::move(*second)};
   }
 
   /// Returns the next byte, or -1 at the end of the pipe.
@@ -68,11 +56,11 @@ class PipeReader : public PairReader {
   /// Waits for more bytes; returns false at the end.
   bool fill() {
     for (;;) {
-      if (stop_) throw Stopped();
+      if (stopped_) throw Stopped();
       pollfd waiting{descriptor_, POLLIN, 0};
       const int ready = poll(&waiting, 1, kPollInterval);
       if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-      const ssize_t count = read(descriptor_, buffer_.data(), buffer_.size());
+      const ssize_t count = ::read(descriptor_, buffer_.data(), buffer_.size());
       if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
       if (count < 0) fail(kName, std::string("a read error: ") + std::strerror(errno), "images");
       at_ = 0;
@@ -147,33 +135,20 @@ class PipeReader : public PairReader {
   }
 
   int descriptor_;
-  PipeOptions options_;
   std::vector<char> buffer_, pixels_;
   std::size_t at_ = 0, filled_ = 0;
-  std::atomic<bool> stop_{false};
   std::vector<ImageSize> first_;  ///< of the first image of each camera, or of both views in one
-  int pictures_ = 0, number_ = 0;
-};
-
-class PicturePipe : public PairStream {
- public:
-  PicturePipe(int descriptor, const PipeOptions& options) : descriptor_(descriptor), options_(options) {}
-  std::unique_ptr<PairReader> open() const override {
-    if (opened_.exchange(true)) throw UsageError(std::string(kName) + ": can be read once only");
-    return std::make_unique<PipeReader>(descriptor_, options_);
-  }
-  int longest_queue() const override { return options_.queue; }
-
- private:
-  int descriptor_;
-  PipeOptions options_;
-  mutable std::atomic<bool> opened_{false};
+  int pictures_ = 0;
 };
 
 }  // namespace
 
-std::shared_ptr<const PairStream> make_picture_pipe(int descriptor, const PipeOptions& options) {
-  return std::make_shared<PicturePipe>(descriptor, options);
+std::shared_ptr<StreamOfReaders> make_picture_pipe(int descriptor, const StreamOptions& options) {
+  const auto make = [descriptor, options, opened = std::make_shared<std::atomic<bool>>(false)] {
+    if (opened->exchange(true)) throw UsageError(std::string(kName) + ": can be read once only");
+    return std::make_unique<PipeReader>(descriptor, options);
+  };
+  return std::make_shared<StreamOfReaders>(make, options.queue);
 }
 
 }  // namespace quadedge::data

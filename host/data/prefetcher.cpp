@@ -33,33 +33,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kStopPollInterval{50};  // between two calls of `stop`
 
-/// Reads the image files of a dataset.
-class FileReader : public PairReader {
- public:
-  explicit FileReader(const Dataset& dataset) : frames_(dataset.frames) {}
-  std::optional<StereoPair> next() override {
-    if (next_ == frames_.size()) return std::nullopt;
-    const FrameFiles& files = frames_[next_];
-    return StereoPair{static_cast<int>(next_++), files.stamp_ns, read_grey_image(files.left),
-                      read_grey_image(files.right)};
-  }
-
- private:
-  const std::vector<FrameFiles> frames_;
-  std::size_t next_ = 0;
-};
-
-std::unique_ptr<PairReader> open_pairs(const Dataset& dataset) {
-  if (dataset.stream) return dataset.stream->open();
-  return std::make_unique<FileReader>(dataset);
-}
-
 }  // namespace
 
 class FramePrefetcher::Implementation {
  public:
   Implementation(const Dataset& dataset, int ahead, std::function<bool()> stop)
-      : pairs_(open_pairs(dataset)),
+      : stream_(dataset.stream ? dataset.stream->open() : nullptr),
         frames_(dataset.stream ? std::vector<FrameFiles>() : dataset.frames),
         path_(dataset.path),
         left_(dataset.rig.left),
@@ -76,7 +55,7 @@ class FramePrefetcher::Implementation {
       stop_ = true;
     }
     changed_.notify_all();
-    pairs_->stop();
+    if (stream_) stream_->stop();
     reader_.join();
   }
 
@@ -114,11 +93,19 @@ class FramePrefetcher::Implementation {
     return path_ + ", " + (side == Side::left ? "left" : "right") + " image " + std::to_string(pair.number);
   }
 
+  std::optional<StereoPair> next_pair() {
+    if (stream_) return stream_->next();
+    if (next_ == frames_.size()) return std::nullopt;
+    const FrameFiles& files = frames_[next_];
+    return StereoPair{static_cast<int>(next_++), files.stamp_ns, read_grey_image(files.left),
+                      read_grey_image(files.right)};
+  }
+
   /// Reads the next frame; nothing at the end.
-  std::optional<Item> read() const {
+  std::optional<Item> read() {
     Item item;
     try {
-      auto pair = pairs_->next();
+      auto pair = next_pair();
       if (!pair) return std::nullopt;
       data::check_image(pair->left, source_of(*pair, Side::left), left_, max_value_);
       data::check_image(pair->right, source_of(*pair, Side::right), right_, max_value_);
@@ -152,8 +139,9 @@ class FramePrefetcher::Implementation {
     changed_.notify_all();
   }
 
-  const std::unique_ptr<PairReader> pairs_;
-  const std::vector<FrameFiles> frames_;
+  const std::unique_ptr<PairReader> stream_;  ///< null for image files
+  const std::vector<FrameFiles> frames_;      ///< image files; empty for a stream
+  std::size_t next_ = 0;                      ///< of frames_
   const std::string path_;
   const PinholeCamera left_, right_;
   const int max_value_;

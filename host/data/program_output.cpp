@@ -55,8 +55,8 @@ ProgramOutput::ProgramOutput(const std::vector<std::string>& command, const std:
   if (problem == 0) return;
   for (const int pipe : pipes_)
     if (pipe >= 0) close(pipe);
-  throw DataError(needed_for + " needs the program " + command.front() + ", which cannot be started: " +
-                  (problem == ENOENT ? "it is not installed" : std::strerror(problem)));
+  throw DataError(needed_for + " needs the program " + command.front() +
+                  ", which cannot be started: " + (problem == ENOENT ? "it is not installed" : std::strerror(problem)));
 }
 
 ProgramOutput::~ProgramOutput() {

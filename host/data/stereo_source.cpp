@@ -2,21 +2,19 @@
 #include "quadedge/stereo_source.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <unistd.h>
-#include <utility>
 
 #include "data/calibrations/forms.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/picture_pipe.hpp"
 #include "data/source_line.hpp"
-#include "data/split_views.hpp"
 #include "data/stamps.hpp"
+#include "data/stream_reader.hpp"
 #include "data/text.hpp"
-#include "data/video_stream.hpp"
+#include "data/video_file.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -28,71 +26,6 @@ constexpr int kLiveQueue = 4;         // pairs that wait at most: a fifth of a s
 constexpr double kSameRate = 0.05;    // relative difference up to which two rates agree
 
 std::int64_t stamp_at(int number, double fps) { return std::llround(number / fps * kNanoseconds); }
-
-/// A part of a stream, with timestamps given by the user. Its first reader may have been opened before.
-class PartOfStream : public PairStream {
- public:
-  struct Part {
-    int first = 0, last = -1;             ///< half-open range; -1: to the end
-    std::vector<std::int64_t> stamps_ns;  ///< one per pair of the whole stream; empty: those of the stream
-    std::string stamps_from;
-  };
-  PartOfStream(std::shared_ptr<const PairStream> whole, Part part) : whole_(std::move(whole)), part_(std::move(part)) {}
-
-  std::unique_ptr<PairReader> open() const override {
-    auto reader = begun_ ? std::move(begun_) : whole_->open();
-    return std::make_unique<Reader>(std::move(reader), std::exchange(first_pair_, std::nullopt), part_);
-  }
-  int longest_queue() const override { return whole_->longest_queue(); }
-
-  /// Reads the first pair of the whole stream. The data read from a pipe stays with its reader.
-  /// \throws DataError if there is none
-  StereoPair look(const std::string& name) {
-    begun_ = whole_->open();
-    first_pair_ = begun_->next();
-    if (!first_pair_) fail(name, "no image", "stereo pairs");
-    return *first_pair_;
-  }
-
- private:
-  class Reader : public PairReader {
-   public:
-    Reader(std::unique_ptr<PairReader> whole, std::optional<StereoPair> first, const Part& part)
-        : whole_(std::move(whole)), first_(std::move(first)), part_(part) {}
-    std::optional<StereoPair> next() override {
-      for (;;) {
-        if (part_.last >= 0 && read_ >= part_.last) return std::nullopt;
-        auto pair = first_ ? std::exchange(first_, std::nullopt) : whole_->next();
-        const auto number = static_cast<std::size_t>(read_);
-        const std::size_t stamps = part_.stamps_ns.size();
-        if (stamps > 0 && !stopped_ && (pair ? number >= stamps : number < stamps))
-          fail(part_.stamps_from, counted(stamps, "time"),
-               pair ? "one for every pair" : std::to_string(read_) + ", one for every pair");
-        if (!pair) return std::nullopt;
-        if (stamps > 0) pair->stamp_ns = part_.stamps_ns[number];
-        if (read_++ < part_.first) continue;
-        pair->number -= part_.first;
-        return pair;
-      }
-    }
-    void stop() override {
-      stopped_ = true;
-      whole_->stop();
-    }
-
-   private:
-    std::unique_ptr<PairReader> whole_;
-    std::optional<StereoPair> first_;
-    const Part part_;
-    int read_ = 0;  ///< pairs of the whole stream read so far
-    std::atomic<bool> stopped_{false};
-  };
-
-  std::shared_ptr<const PairStream> whole_;
-  Part part_;
-  mutable std::unique_ptr<PairReader> begun_;
-  mutable std::optional<StereoPair> first_pair_;
-};
 
 /// Checks that the left and right images of an index differ by less than half a period in time.
 void check_partners(const CameraImages& left, const CameraImages& right) {
@@ -172,50 +105,60 @@ Dataset open_images(const StereoSource& source, Findings& findings) {
   return dataset;
 }
 
+ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
+
+/// Sets the rig for images of these sizes. \throws DataError if the calibration is for other sizes
+void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
+  dataset.calibration = read_calibration(source.calibration);
+  set_image_sizes(*dataset.calibration, left, right, images);
+  dataset.rig = make_rig(*dataset.calibration, source.fov);
+  if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
+  dataset.rig.max_value = left.max_value;
+}
+
 /// Number of pairs according to the videos' headers; 0 if unknown. \throws DataError if the videos differ
-int promised_pairs(const VideoPair& videos) {
-  if (!videos.right) return videos.left.promised;
-  const int left = videos.left.promised, right = videos.right->promised;
-  if (left == 0 || right == 0) return 0;
-  const bool right_is_short = right < left;
-  const Video &shorter = right_is_short ? *videos.right : videos.left,
-              &longer = right_is_short ? videos.left : *videos.right;
-  if (longer.promised - shorter.promised > 1) {  // the duration may refer to the start or the end of the last frame
+int promised_pairs(const Video& left, const Video& right) {
+  const bool right_is_short = right.promised < left.promised;
+  const Video &shorter = right_is_short ? right : left, &longer = right_is_short ? left : right;
+  if (shorter.promised > 0 && longer.promised - shorter.promised > 1) {  // a duration may be that of one frame less
     fail(shorter.file, counted(shorter.promised, "frame"),
          "the " + std::to_string(longer.promised) + " of " + longer.file);
   }
   return shorter.promised;
 }
 
-Dataset open_videos(const StereoSource& source) {
-  VideoPair videos{describe_video(source.video.empty() ? source.left : source.video), std::nullopt,
-                   parse_split(source.split), source.fps};
-  if (!source.right.empty()) videos.right = describe_video(source.right);
-  const std::string &left = videos.left.file, &right = videos.right ? videos.right->file : left;
+/// Opens the stream and looks at its first pair.
+Dataset open_stream(const StereoSource& source, const StreamOptions& options) {
   Dataset dataset;
-  dataset.format = "video";
-  dataset.path = left;
-  dataset.name = source_name(source);
-  dataset.stream = make_video_stream(videos);
-  const int pairs = promised_pairs(videos);
-  const double fps = source.fps > 0 ? source.fps : videos.left.fps;
-  if (!source.times.empty() && pairs > 0)
-    check_count(source.times, read_times(source.times).size(), "times", static_cast<std::size_t>(pairs), left);
-  for (int i = 0; fps > 0 && i < pairs; ++i) dataset.frames.push_back({stamp_at(i, fps), left, right});
-  return dataset;
-}
-
-Dataset open_pipe(const StereoSource& source) {
-  Dataset dataset;
-  dataset.format = dataset.name = "pipe";
-  dataset.path = "standard input";
-  const double fps = source.times.empty() ? source.fps : 1;  // replaced by the times
-  dataset.stream = make_picture_pipe(STDIN_FILENO, {parse_split(source.split), fps, source.live ? kLiveQueue : 0});
-  if (source.times.empty()) return dataset;
-  for (const std::int64_t stamp_ns : read_times(source.times)) {
-    const std::string number = " image " + std::to_string(dataset.frames.size());
-    dataset.frames.push_back({stamp_ns, dataset.path + ", left" + number, dataset.path + ", right" + number});
+  std::shared_ptr<StreamOfReaders> stream;
+  if (source.pipe) {
+    dataset.format = dataset.name = "pipe";
+    dataset.path = "standard input";
+    stream = make_picture_pipe(STDIN_FILENO, options);
+    for (std::size_t i = 0; i < options.stamps_ns.size(); ++i) {
+      const std::string number = " image " + std::to_string(i);
+      dataset.frames.push_back({0, dataset.path + ", left" + number, dataset.path + ", right" + number});
+    }
+  } else {
+    const Video left = describe_video(source.video.empty() ? source.left : source.video);
+    std::optional<Video> right;
+    if (!source.right.empty()) right = describe_video(source.right);
+    dataset.format = "video";
+    dataset.path = left.file;
+    dataset.name = source_name(source);
+    stream = make_video_stream(left, right, options);
+    const int pairs = promised_pairs(left, right.value_or(left));
+    const double fps = source.fps > 0 ? source.fps : left.fps;
+    if (!source.times.empty() && pairs > 0)
+      check_count(source.times, options.stamps_ns.size(), "times", static_cast<std::size_t>(pairs), left.file);
+    for (int i = 0; fps > 0 && i < pairs; ++i)
+      dataset.frames.push_back({stamp_at(i, fps), left.file, right.value_or(left).file});
   }
+  for (std::size_t i = 0; i < std::min(dataset.frames.size(), options.stamps_ns.size()); ++i)
+    dataset.frames[i].stamp_ns = options.stamps_ns[i];
+  const StereoPair first = stream->look(dataset.path);
+  set_rig(source, size_of(first.left), size_of(first.right), dataset.path, dataset);
+  dataset.stream = stream;
   return dataset;
 }
 
@@ -232,17 +175,6 @@ void check_source(const StereoSource& source) {
   if (source.pipe && source.fps == 0 && source.times.empty())
     throw UsageError("images in a pipe have no timestamps: give --fps N or --times FILE");
   if (source.live && !source.pipe) throw UsageError("--live applies to a pipe (-) only; files are read whole");
-}
-
-ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
-
-/// Sets the rig for images of these sizes. \throws DataError if the calibration is for other sizes
-void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
-  dataset.calibration = read_calibration(source.calibration);
-  set_image_sizes(*dataset.calibration, left, right, images);
-  dataset.rig = make_rig(*dataset.calibration, source.fov);
-  if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
-  dataset.rig.max_value = left.max_value;
 }
 
 /// \throws DataError for files and folders that do not exist, and for a folder beside a file.
@@ -263,19 +195,21 @@ Dataset read_source(const StereoSource& source, Findings& findings) {
   check_places(source);
   const auto holds_images = [](const std::string& place) { return fs::is_directory(place) || is_image_name(place); };
   const bool are_files = !source.left.empty() && holds_images(source.left) && holds_images(source.right);
-  Dataset dataset = source.pipe ? open_pipe(source) : are_files ? open_images(source, findings) : open_videos(source);
+  Dataset dataset;
   if (are_files) {
+    dataset = open_images(source, findings);
     const FrameFiles& first = dataset.frames.front();
     set_rig(source, image_size(first.left), image_size(first.right), first.left + ", " + first.right, dataset);
   } else {
-    PartOfStream::Part part{source.first_frame, source.last_frame, {}, source.times};
-    if (!source.times.empty()) part.stamps_ns = read_times(source.times);
-    auto stream = std::make_shared<PartOfStream>(dataset.stream, part);
-    const StereoPair first = stream->look(dataset.path);
-    set_rig(source, size_of(first.left), size_of(first.right), dataset.path, dataset);
-    for (std::size_t i = 0; i < std::min(dataset.frames.size(), part.stamps_ns.size()); ++i)
-      dataset.frames[i].stamp_ns = part.stamps_ns[i];
-    dataset.stream = stream;
+    StreamOptions options{parse_split(source.split),
+                          source.fps,
+                          source.live ? kLiveQueue : 0,
+                          source.first_frame,
+                          source.last_frame,
+                          {},
+                          source.times};
+    if (!source.times.empty()) options.stamps_ns = read_times(source.times);
+    dataset = open_stream(source, options);
   }
   finish_dataset(dataset, source.first_frame, source.last_frame, findings);
   return dataset;

@@ -8,17 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "data/image_file.hpp"
+#include "data/image_codecs.hpp"
 #include "data/program_output.hpp"
-#include "data/samples.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
 namespace {
 
 constexpr const char* kPurpose = "reading a video";
-constexpr int kReadAhead = 8;  // packets that ffmpeg's demuxer may be ahead of its decoder
-constexpr double kNanoseconds = 1e9;
+constexpr int kReadAhead = 8;             // packets that ffmpeg's demuxer may be ahead of its decoder
+constexpr double kStampsPerSecond = 1e9;  // nanoseconds
 
 /// The first error in what a program of FFmpeg says with `-loglevel level`; empty if there is none.
 std::string first_error(const std::string& messages) {
@@ -213,8 +212,8 @@ class VideoFile::Implementation {
   /// A video may round its timestamps; frames without timestamps follow the frame rate.
   std::int64_t stamp(const FrameFacts& facts) const {
     if (!video_.has_times || !facts.has_time || !first_.has_time)
-      return video_.fps > 0 ? std::llround(decoded_ / video_.fps * kNanoseconds) : decoded_;
-    return std::llround(static_cast<double>(facts.time - first_.time) * unit_[0] / unit_[1] * kNanoseconds);
+      return video_.fps > 0 ? std::llround(decoded_ / video_.fps * kStampsPerSecond) : decoded_;
+    return std::llround(static_cast<double>(facts.time - first_.time) * unit_[0] / unit_[1] * kStampsPerSecond);
   }
 
   Image image(const FrameFacts& facts) {
@@ -258,5 +257,60 @@ class VideoFile::Implementation {
 VideoFile::VideoFile(Video video) : implementation_(std::make_unique<Implementation>(std::move(video))) {}
 VideoFile::~VideoFile() = default;
 std::optional<VideoFile::Picture> VideoFile::next() { return implementation_->next(); }
+
+namespace {
+
+class VideoReader : public StreamReader {
+ public:
+  VideoReader(const Video& left, const std::optional<Video>& right, const StreamOptions& options)
+      : StreamReader(options), about_left_(left), left_(left) {
+    if (!right) return;
+    about_right_ = *right;
+    right_.emplace(*right);
+  }
+
+ private:
+  std::optional<StereoPair> read() override {
+    auto left = left_.next();
+    StereoPair pair;
+    if (right_) {
+      auto right = right_->next();
+      if (left && !right) end_early(about_right_, about_left_);
+      if (right && !left) end_early(about_left_, about_right_);
+      if (!left) return std::nullopt;
+      check_times(left->stamp_ns, right->stamp_ns);
+      pair.left = std::move(left->image);
+      pair.right = std::move(right->image);
+    } else {
+      if (!left) return std::nullopt;
+      pair = halves(left->image, about_left_.file);
+    }
+    pair.stamp_ns = left->stamp_ns;
+    return pair;
+  }
+  [[noreturn]] void end_early(const Video& shorter, const Video& other) const {
+    fail(shorter.file, "the end after " + counted(number_, "frame"), "as many as in " + other.file);
+  }
+  /// Checks that the frames of a pair differ by less than half a period in time.
+  void check_times(std::int64_t left, std::int64_t right) const {
+    const double fps = about_left_.fps, apart = static_cast<double>(right - left) / kStampsPerSecond;
+    if (options_.fps > 0 || !(fps > 0) || std::abs(apart) * fps < 0.5) return;
+    fail(about_right_.file, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
+         format_seconds(left) + " s as in " + about_left_.file);
+  }
+
+  const Video about_left_;
+  Video about_right_;
+  VideoFile left_;
+  std::optional<VideoFile> right_;
+};
+
+}  // namespace
+
+std::shared_ptr<StreamOfReaders> make_video_stream(const Video& left, const std::optional<Video>& right,
+                                                   const StreamOptions& options) {
+  return std::make_shared<StreamOfReaders>([=] { return std::make_unique<VideoReader>(left, right, options); },
+                                           options.queue);
+}
 
 }  // namespace quadedge::data

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "quadedge/image.hpp"
+#include "data/stream_reader.hpp"
 
 namespace quadedge::data {
 
@@ -50,5 +50,10 @@ class VideoFile {
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// Stereo pairs of two videos, or of one with both views (`right` is empty). Its readers throw DataError that names the
+/// file, if one video ends before the other or, without `options.fps`, if the times of a pair's frames differ.
+std::shared_ptr<StreamOfReaders> make_video_stream(const Video& left, const std::optional<Video>& right,
+                                                   const StreamOptions& options);
 
 }  // namespace quadedge::data

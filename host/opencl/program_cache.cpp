@@ -1,6 +1,5 @@
 #include "opencl/program_cache.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -8,7 +7,8 @@
 #include <iterator>
 #include <string_view>
 #include <unistd.h>
-#include <utility>
+
+#include "common/bounded_folder.hpp"
 
 namespace quadedge::opencl {
 namespace {
@@ -69,25 +69,7 @@ void ProgramCache::keep(const std::string& key, const Binary& binary) const {
   if (!failed) fs::rename(unfinished, path(key), failed);
   std::error_code ignored;
   if (failed) fs::remove(unfinished, ignored);
-  shrink();
-}
-
-void ProgramCache::shrink() const {
-  std::vector<std::pair<fs::file_time_type, fs::directory_entry>> files;
-  std::uintmax_t bytes = 0;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
-    const auto size = entry.file_size(ignored);
-    if (ignored || entry.path().extension() != kSuffix) continue;
-    bytes += size;
-    files.emplace_back(entry.last_write_time(ignored), entry);
-  }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [used, entry] : files) {
-    if (bytes <= kBound) return;
-    bytes -= entry.file_size(ignored);
-    fs::remove(entry.path(), ignored);
-  }
+  remove_oldest_files(folder_, kSuffix, kBound);
 }
 
 }  // namespace quadedge::opencl

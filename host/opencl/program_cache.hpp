@@ -29,8 +29,6 @@ class ProgramCache {
   std::string path(const std::string& key) const;
 
  private:
-  void shrink() const;
-
   std::string folder_;
 };
 

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "data/atomic_file.hpp"
-#include "data/jpeg_codec.hpp"
-#include "data/png_codec.hpp"
+#include "data/image_codecs.hpp"
 
 namespace quadedge::report {
 namespace {
