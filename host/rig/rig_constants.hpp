@@ -82,6 +82,16 @@ constexpr double kStaticCorrelation = 0.9, kChangedCorrelation = 0.5;
 constexpr double kMinStaticRatio = 0.05, kMinMovingRatio = 0.3;
 constexpr int kMinStaticMatches = 20;
 
+// Odd and even rows of different times (interlacing.cpp).
+
+constexpr int kCombCell = 32;        ///< size of the cells that are judged [px]
+constexpr int kMinCombCells = 20;    ///< textured ones that an image needs
+constexpr double kCombTexture = 4;   ///< mean squared horizontal gradient of a textured cell [(grey levels per px)^2]
+constexpr double kCombShift = 0.25;  ///< shift of odd rows against even ones [px]
+constexpr double kCombCorrelation = 0.1;
+constexpr double kInterlacedRatio = 0.08;
+constexpr int kCombPeriod = 5;  ///< frames from one examination to the next, until one finds something
+
 // The time between the two images (rig_monitor.cpp).
 
 constexpr int kMinSamples = 200;

@@ -82,9 +82,15 @@ std::string frozen(Side side) {
          camera + " camera frozen?";
 }
 
+std::string interlaced(double ratio) {
+  return "odd and even rows are shifted against one another in " + percent(ratio) +
+         " of the left image's texture, so that poses are doubtful: is the video interlaced? ffmpeg -vf bwdif "
+         "deinterlaces it";
+}
+
 }  // namespace
 
-Warning warning(const RigFinding& finding) {
+Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
   const std::string camera = "the " + name(finding.camera) + " camera's ";
   switch (finding.kind) {
     case RigFindingKind::frozen_camera: return {WarningKind::doubtful_calibration, frozen(finding.camera)};
@@ -115,6 +121,7 @@ Warning warning(const RigFinding& finding) {
           "all disparities seem to be off by " + number(finding.disparity_offset, 1) +
               " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
               "wrong?"};
+    case RigFindingKind::interlaced: return {WarningKind::unsynchronised_cameras, interlaced(finding.combed_ratio)};
     case RigFindingKind::static_region: {
       const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
       return {WarningKind::static_region,

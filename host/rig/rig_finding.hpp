@@ -27,6 +27,7 @@ enum class RigFindingKind {
   late_camera,                ///< distances from the epipolar lines are proportional to the image motion
   repeated_images,            ///< both images are identical to the previous ones
   large_disparity_offset,     ///< the offset that the odometry learns exceeds what rectification leaves
+  interlaced,                 ///< odd and even rows show different times
   static_region,              ///< a part of the image does not move while the rest does
   // Numbers of the calibration:
   long_baseline,
@@ -50,6 +51,7 @@ struct RigFinding {
   double max_disparity = 0;          ///< largest disparity searched [px]
   double time_offset = 0;            ///< of late_camera [frame intervals]
   double disparity_offset = 0;       ///< of large_disparity_offset [px]
+  double combed_ratio = 0;           ///< of interlaced
   StaticRegion region = {};          ///< of static_region
   Side camera = Side::left;          ///< the camera that is frozen or has an implausible number
   /// The implausible number: baseline [m], focal length [image widths], fx / fy.

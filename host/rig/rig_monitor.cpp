@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "rig/interlacing.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
@@ -119,6 +120,15 @@ void search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const 
   report.findings = judge_search(search, fit, report.evidence, turn);
 }
 
+/// Adds a finding if the left image is interlaced. \returns whether it is
+bool judge_rows(const ImageView& left, RigReport& report) {
+  const double ratio = combed_ratio(left);
+  if (ratio < kInterlacedRatio || report.mismatch() != nullptr) return false;
+  report.findings.push_back({RigFindingKind::interlaced});
+  report.findings.back().combed_ratio = ratio;
+  return true;
+}
+
 }  // namespace
 
 std::vector<RigFinding> implausible_numbers(const StereoRig& rig) {
@@ -215,6 +225,7 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
     fits_ = report.mismatch() == nullptr;
   }
   if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
+  if (!is_interlaced_ && frames_++ % kCombPeriod == 0) is_interlaced_ = judge_rows(frame.left, report);
   if (const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
       region && report.mismatch() == nullptr) {
     report.findings.push_back({RigFindingKind::static_region});
@@ -243,6 +254,7 @@ std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& cu
 RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
   RigReport report;
   search_and_judge(CornerMatcher(rig), rig, frame, max_disparity, report);
+  judge_rows(frame.left, report);
   return report;
 }
 

@@ -76,7 +76,8 @@ class RigMonitor {
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration
-  int frames_since_search_ = 0;
+  int frames_since_search_ = 0, frames_ = 0;
+  bool is_interlaced_ = false;
   std::optional<std::uint64_t> last_left_, last_right_;  ///< fingerprints of the previous images
 };
 
