@@ -235,6 +235,12 @@ TEST_CASE("run: no OpenCL device ends with code 4 and installation help", "[cli]
   const auto result = run_program({"run", small_sequence(), "-o", folder / "out"}, no_vendors);
   CHECK(result.code == 4);
   CHECK_THAT(result.err, Contains("pocl-opencl-icd") && Contains("--device reference"));
+  CHECK_THAT(result.err, Contains("OCL_ICD_VENDORS=" + folder.path()) && Contains("holds no .icd file"));
+  dataset_files::write_text(folder / "a.icd", "libno_such_driver.so.7\n");
+  const auto damaged = run_program({"run", small_sequence(), "-o", folder / "out"}, no_vendors);
+  CHECK_THAT(damaged.err, Contains(folder / "a.icd") && Contains("libno_such_driver.so.7"));
+  const auto missing = run_program({"run", small_sequence(), "-o", folder / "out"}, "OCL_ICD_VENDORS=/nowhere/b.icd");
+  CHECK_THAT(missing.err, Contains("/nowhere/b.icd") && Contains("does not exist"));
   const auto devices = run_program({"devices"}, no_vendors);
   CHECK(devices.code == 0);
   CHECK_THAT(devices.out, Contains("reference") && Contains("pocl-opencl-icd"));

@@ -9,6 +9,7 @@
 #include "opencl/context.hpp"
 #include "opencl/device_limits.hpp"
 #include "opencl/fork_guard.hpp"
+#include "opencl/loader_faults.hpp"
 #include "opencl/status.hpp"
 
 namespace quadedge {
@@ -113,7 +114,9 @@ std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const
 
 std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) {
-    return "no OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
+    const std::string faults = opencl::loader_faults();
+    return "no OpenCL device was found" + (faults.empty() ? ": " : ".\n" + faults) +
+           "`pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
            "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
            "(device=\"reference\" in Python) runs without OpenCL, slowly. PoCL has no devices where it cannot write to "
            "its cache: set POCL_CACHE_DIR to a writable folder (default: $XDG_CACHE_HOME or ~/.cache, pocl/kcache)";
