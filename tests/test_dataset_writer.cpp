@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "data/eth3d_slam_writer.hpp"
 #include "data/float_map.hpp"
@@ -88,4 +89,42 @@ TEST_CASE("dataset: truncated, colour and invalid PFM files are refused by name"
   refused("Pf\n99999 99999\n-1\n\0\0\0\0"s, "bytes", "99999 x 99999");
   std::filesystem::remove(file);
   CHECK_THROWS_WITH(data::read_float_map(file), Contains("m.pfm") && Contains("readable file"));
+}
+
+TEST_CASE("dataset: the cameras of ETH3D's SLAM benchmark are rendered and read back", "[dataset]") {
+  const TemporaryFolder folder;
+  SyntheticOptions options;
+  options.rig = "eth3d-slam";
+  options.scene = "cables";
+  options.frames = 2;
+  options.supersampling = 1;
+  const SyntheticSequence sequence(options);
+  write_eth3d_slam(folder / "s", sequence);
+  CHECK(check_dataset(folder / "s").errors.empty());
+  const Dataset set = open_dataset(folder / "s");
+  REQUIRE(set.frames.size() == 2);
+  // The left camera is rgb2/, as published: 742 x 464, its axis 76 px lower in the image than the right one's.
+  CHECK_THAT(set.frames[0].left, Contains("/rgb2/"));
+  CHECK(set.rig.left.width == 742);
+  CHECK(set.rig.right.height == 458);
+  CHECK(set.rig.left.cy - set.rig.right.cy == Approx(262.196411 - 186.465668));
+  CHECK(set.rig.right.fx == 726.287415);
+  CHECK(set.rig.baseline() == Approx(0.0898319).epsilon(1e-5));
+  CHECK((set.rig.right_from_left.matrix() - sequence.rig().right_from_left.matrix()).cwiseAbs().maxCoeff() < 1e-9);
+  // groundtruth.txt is of camera 1, the right one, and is converted to the left camera.
+  const Trajectory written = read_tum(folder / "s/groundtruth.txt");
+  const Eigen::Isometry3d right = sequence.world_from_left(1) * sequence.rig().right_from_left.inverse();
+  CHECK((written[1].world_from_left.matrix() - right.matrix()).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((set.truth[1].world_from_left.matrix() - sequence.world_from_left(1).matrix()).cwiseAbs().maxCoeff() < 1e-9);
+  // A point of the left view, by its depth, lies at the same depth in the right view.
+  const RenderedView left = sequence.render(0, Side::left), far = sequence.render(0, Side::right);
+  const Eigen::Vector2d pixel(371, 232);
+  const float depth = left.depth[232 * 742 + 371];
+  const Eigen::Vector3d point = sequence.rig().right_from_left * (set.rig.left.ray(pixel) * depth);
+  const Eigen::Vector2d seen = set.rig.right.project(point);
+  const auto index =
+      static_cast<std::size_t>(std::lround(seen.y())) * 739 + static_cast<std::size_t>(std::lround(seen.x()));
+  CHECK(far.depth[index] == Approx(point.z()).epsilon(0.02));
+  options.rig = "other";
+  CHECK_THROWS_WITH(SyntheticSequence(options), Contains("other") && Contains("eth3d-slam"));
 }

@@ -16,6 +16,11 @@ void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts)
                  "corridor: equal doors");
   options.number("--frames", scene.frames, "number of frames");
   declare_view(options, scene, texts.size);
+  options.choice("--rig", scene.rig, synthetic_rigs(),
+                 "cameras; eth3d-slam: those of cables_2, of different size and not rectified, which exclude the "
+                 "following options and --size");
+  options.number("--focal", texts.focal, "focal length [px]; 0: the same field of view for every size");
+  options.number("--baseline", scene.baseline, "distance between the cameras [m]");
   options.choice("--lens", scene.lens, synthetic_lenses(),
                  "lens of both cameras; wide ones see more than the pinhole camera");
   options.text("--right-rotation", texts.right_rotation,
@@ -35,7 +40,13 @@ void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts)
 }
 
 void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {
+  const SyntheticOptions defaults;
+  const bool states_cameras = !texts.size.empty() || !texts.right_rotation.empty() || texts.focal != 0 ||
+                              scene.baseline != defaults.baseline || scene.lens != defaults.lens;
+  if (scene.rig != defaults.rig && states_cameras)
+    throw UsageError("--rig " + scene.rig + " excludes --size, --focal, --baseline, --lens and --right-rotation");
   set_size(scene, texts.size);
+  if (texts.focal != 0) scene.focal = texts.focal;
   if (texts.right_rotation.empty()) return;
   double x = 0, y = 0, z = 0;
   int length = 0;

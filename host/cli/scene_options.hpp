@@ -8,9 +8,10 @@
 
 namespace quadedge::cli {
 
-/// What is read as text: "WIDTHxHEIGHT" (see set_size()), and "X,Y,Z" in degrees.
+/// What is read as text: "WIDTHxHEIGHT" (see set_size()), and "X,Y,Z" in degrees; the focal length, if not 0 [px].
 struct SceneTexts {
   std::string size, right_rotation;
+  double focal = 0;
 };
 
 /// Declares --scene, --frames, those of declare_view(), --lens and --right-rotation, and the disturbances.

@@ -47,11 +47,14 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
     data::fail(folder, "an existing sequence", "an empty or new folder");
   }
   for (const char* name : {"rgb", "rgb2", "depth", "depth2"}) make_folder(root / name);
+  const StereoRig& rig = sequence.rig();
+  const bool is_left_first = sequence.options().rig == "rectified";
+  const Side first = is_left_first ? Side::left : Side::right;
   if (sequence.calibration().left.is_pinhole()) {
-    data::write_atomically((root / "calibration.txt").string(), camera_row(sequence.rig().left));
-    data::write_atomically((root / "calibration2.txt").string(), camera_row(sequence.rig().right));
+    data::write_atomically((root / "calibration.txt").string(), camera_row(is_left_first ? rig.left : rig.right));
+    data::write_atomically((root / "calibration2.txt").string(), camera_row(is_left_first ? rig.right : rig.left));
     data::write_atomically((root / "extrinsics_1_2.txt").string(),
-                           matrix_rows(sequence.rig().right_from_left.inverse()));
+                           matrix_rows(is_left_first ? rig.right_from_left.inverse() : rig.right_from_left));
   } else {
     write_calibration((root / "calibration.yaml").string(), sequence.calibration());
   }
@@ -60,14 +63,16 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
   for (int frame = 0; frame < sequence.frames(); ++frame) {
     const std::string stamp = data::format_seconds(sequence.stamp_ns(frame));
     for (const Side side : kSides) {
-      const bool right = side == Side::right;
+      const bool second = side != first;
       const RenderedView view = sequence.render(frame, side);
-      write_png(root / (right ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
-      data::write_float_map((root / (right ? "depth2" : "depth") / (stamp + ".pfm")).string(),
+      write_png(root / (second ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
+      data::write_float_map((root / (second ? "depth2" : "depth") / (stamp + ".pfm")).string(),
                             {view.image.width, view.image.height, view.depth});
     }
     list += stamp + " rgb/" + stamp + ".png\n";
-    truth.push_back({sequence.stamp_ns(frame), sequence.world_from_left(frame)});
+    const Eigen::Isometry3d world_from_left = sequence.world_from_left(frame);
+    truth.push_back(
+        {sequence.stamp_ns(frame), is_left_first ? world_from_left : world_from_left * rig.right_from_left.inverse()});
     if (progress) progress(frame + 1, sequence.frames());
   }
   write_tum((root / "groundtruth.txt").string(), truth);

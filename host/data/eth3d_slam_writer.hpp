@@ -17,8 +17,8 @@ namespace quadedge {
 ///   groundtruth.txt                    TUM rows of world_from_left
 ///   depth/STAMP.pfm, depth2/STAMP.pfm  exact z of every pixel of the left and right image [m], 32-bit PFM
 /// (16-bit PNG would round depths to 0.2 mm, too coarse for evaluating sub-pixel disparities.) Camera 1 is the left
-/// one, so that groundtruth.txt and depth/ refer to the camera whose trajectory is estimated. `progress(done, all)` is
-/// called after each frame and may be empty.
+/// one, so that groundtruth.txt and depth/ refer to the camera whose trajectory is estimated; of the rig "eth3d-slam"
+/// it is the right one, as in that benchmark. `progress(done, all)` is called after each frame and may be empty.
 /// \throws DataError if the folder already contains such a sequence or something cannot be written
 void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequence,
                       const std::function<void(int, int)>& progress = {});

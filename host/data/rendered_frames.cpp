@@ -23,7 +23,7 @@ namespace {
 std::string key_of(const SyntheticOptions& options) {
   // Naming every member causes a compile error when one is added. The pixels do not depend on the number of threads,
   // and on the number of frames only for the loop, which closes with the last frame.
-  const auto& [scene, path, frames, width, height, focal, baseline, lens, right_rotation, noise, gain, right_gain,
+  const auto& [scene, path, frames, rig, width, height, focal, baseline, lens, right_rotation, noise, gain, right_gain,
                light, gamma, bits, contrast, blur, mover, supersampling, seed, threads] = options;
   static_cast<void>(threads);
   ContentHash hash;
@@ -34,7 +34,7 @@ std::string key_of(const SyntheticOptions& options) {
   hash.add({static_cast<double>(width), static_cast<double>(height), focal, baseline, noise, gain, right_gain, light,
             gamma, static_cast<double>(bits), contrast, blur, mover, static_cast<double>(supersampling)});
   hash.add(std::to_string(seed));
-  hash.add(lens);
+  hash.add(rig + "," + lens);
   hash.add({right_rotation.x(), right_rotation.y(), right_rotation.z()});
   return hash.hex();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/calibration.hpp"
 #include "quadedge/synthetic.hpp"
 
 namespace quadedge {
@@ -38,6 +39,11 @@ const std::vector<std::string>& synthetic_lenses() {
   return names;
 }
 
+const std::vector<std::string>& synthetic_rigs() {
+  static const std::vector<std::string> names = {"rectified", "eth3d-slam"};
+  return names;
+}
+
 namespace synthetic {
 
 Lens make_lens(const std::string& name, double focal) {
@@ -48,6 +54,20 @@ Lens make_lens(const std::string& name, double focal) {
   lens.parameters = found->parameters;
   lens.camera.fx = lens.camera.fy = found->focal * focal;
   return lens;
+}
+
+StereoCalibration eth3d_slam_rig() {
+  StereoCalibration calibration;
+  calibration.left.camera = {726.043884, 726.043884, 385.732483, 262.196411, 742, 464};
+  calibration.right.camera = {726.287415, 726.287415, 354.649689, 186.465668, 739, 458};
+  Eigen::Matrix3d camera1_from_camera2;
+  camera1_from_camera2 << 0.99992036819458, 0.012368063442409, -0.0024963859468699,  //
+      -0.012378259561956, 0.99991494417191, -0.0041112052276731,                     //
+      0.0024453257210553, 0.0041417786851525, 0.99998843669891;
+  calibration.right_from_left.linear() = camera1_from_camera2;
+  calibration.right_from_left.translation() << -0.089831538498402, -0.0001915143802762, 0.00019389642693568;
+  calibration.right_from_left = rounded_transform(calibration.right_from_left);
+  return calibration;
 }
 
 }  // namespace synthetic

@@ -66,8 +66,28 @@ double tone(double grey, const SyntheticOptions& options) {
   return grey;
 }
 
+/// The options with the numbers that the rig states.
+SyntheticOptions with_rig(SyntheticOptions options) {
+  require_known("rig", options.rig, synthetic_rigs());
+  if (options.rig == "rectified") return options;
+  const StereoCalibration rig = synthetic::eth3d_slam_rig();
+  const PinholeCamera& left = rig.left.camera;
+  options.width = left.width;
+  options.height = left.height;
+  options.focal = left.fx;
+  options.baseline = rig.right_from_left.translation().norm();
+  options.lens = "pinhole";
+  options.right_rotation.setZero();
+  return options;
+}
+
 StereoCalibration calibrate(const SyntheticOptions& options) {
   StereoCalibration calibration;
+  if (options.rig != "rectified") {
+    calibration = synthetic::eth3d_slam_rig();
+    calibration.files = "the rendered rig";
+    return calibration;
+  }
   calibration.left = synthetic::make_lens(options.lens, options.focal);
   // As in a real camera, the optical axis misses the middle of the image slightly.
   PinholeCamera& camera = calibration.left.camera;
@@ -120,14 +140,14 @@ const std::vector<std::string>& synthetic_paths() {
 class SyntheticSequence::Implementation {
  public:
   explicit Implementation(const SyntheticOptions& asked)
-      : options(asked),
-        calibration(calibrate(asked)),
+      : options(with_rig(asked)),
+        calibration(calibrate(options)),
         rig(rig_of(calibration, asked.bits)),
         left_rays(calibration.left),
         right_rays(calibration.right),
-        scene(synthetic::make_scene(asked.scene, asked.seed, asked.focal)),
+        scene(synthetic::make_scene(asked.scene, asked.seed, options.focal)),
         path(asked.path, asked.seed, asked.frames, scene.lane),
-        exposure(exposure_of(asked, path, rig.left)) {
+        exposure(exposure_of(options, path, rig.left)) {
     rig.max_disparity = std::ceil(rig.left.fx * options.baseline / scene.nearest);
     if (options.mover > 0.0) board.emplace(rig.left, options.mover, options.seed);
   }
@@ -164,6 +184,8 @@ const StereoRig& SyntheticSequence::rig() const { return implementation_->rig; }
 
 const StereoCalibration& SyntheticSequence::calibration() const { return implementation_->calibration; }
 
+const SyntheticOptions& SyntheticSequence::options() const { return implementation_->options; }
+
 int SyntheticSequence::frames() const { return implementation_->options.frames; }
 
 std::int64_t SyntheticSequence::stamp_ns(int frame) const { return frame * kFramePeriod; }
@@ -188,7 +210,7 @@ RenderedView SyntheticSequence::render(int frame, Side side) const {
       options.light * (frame % 2 == 1 ? options.gain : 1.0) * (side == Side::right ? options.right_gain : 1.0);
 
   RenderedView view;
-  view.image = Image(options.width, options.height, rig().max_value);
+  view.image = Image(rays.width(), rays.height(), rig().max_value);
   view.depth = std::move(radiance.depth);
   const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), index_of(side));
   for (std::size_t i = 0; i < radiance.grey.size(); ++i) {
@@ -196,7 +218,7 @@ RenderedView SyntheticSequence::render(int frame, Side side) const {
     if (options.noise > 0.0)
       grey += options.noise * synthetic::normal(synthetic::combine(key, static_cast<std::int64_t>(i)));
     const double value = tone(grey, options) * view.image.max_value / kMaxValue8;
-    view.image.set(static_cast<int>(i) % options.width, static_cast<int>(i) / options.width,
+    view.image.set(static_cast<int>(i) % rays.width(), static_cast<int>(i) / rays.width(),
                    static_cast<int>(std::floor(value + 0.5)));
   }
   return view;

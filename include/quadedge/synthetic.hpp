@@ -27,11 +27,17 @@ const std::vector<std::string>& synthetic_paths();
 /// Lenses that can be rendered: pinhole, and one of typical strength for each LensModel, by its name.
 const std::vector<std::string>& synthetic_lenses();
 
+/// Rigs that can be rendered. rectified: two equal cameras; eth3d-slam: the stereo cameras of the recording cables_2 of
+/// ETH3D's SLAM benchmark, pinholes of different size and principal point that are not rectified. Its left camera is
+/// camera 2 of that benchmark.
+const std::vector<std::string>& synthetic_rigs();
+
 /// Rendering options.
 struct SyntheticOptions {
   std::string scene = "room";    ///< one of synthetic_scenes()
   std::string path = "ellipse";  ///< one of synthetic_paths()
   int frames = 60;
+  std::string rig = "rectified";  ///< one of synthetic_rigs(); another than rectified states the next six itself
   int width = 942, height = 489;
   double focal = 541.764;        ///< px
   double baseline = 0.0598913;   ///< m
@@ -81,6 +87,7 @@ class SyntheticSequence {
       int frame) const;  ///< exact, at the middle of the exposure; identity for the first frame
   RenderedView render(int frame, Side side) const;  ///< thread-safe
   StereoPair pair(int frame) const;                 ///< both images of a frame
+  const SyntheticOptions& options() const;          ///< with the numbers of the rig
 
  private:
   class Implementation;
