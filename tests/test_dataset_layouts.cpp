@@ -216,3 +216,52 @@ TEST_CASE("dataset: the third Middlebury benchmark has spaces around keys and th
   CHECK(benchmark.rig.right.cx == 23.5);
   CHECK(benchmark.rig.max_disparity == Approx(193.5));
 }
+
+TEST_CASE("dataset: ETH3D's many-view scenes are sequences of stereo_pairs", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string calibration =
+      "cam0=[50 0 15.5; 0 50 11.5; 0 0 1]\ncam1=[50 0 15.5; 0 50 11.5; 0 0 1]\ndoffs=0\nbaseline=60\nwidth=32\n"
+      "height=24\nndisp=32\n";
+  const std::string pairs = folder / "delivery/stereo_pairs";
+  // A camera that moves by 0.1 m along x, looking along z: camera_from_world has the translation -0.1 i. The last one
+  // is turned by 90 degrees about y, which maps the world's z to the camera's x.
+  const char* rows[] = {"7 1 0 0 0 0 0 0 0 im0.png", "9 1 0 0 0 -0.1 0 0 0 im0.png",
+                        "11 0.70710678118654757 0 0.70710678118654757 0 0 0 0.2 0 im0.png"};
+  for (int i = 0; i < 3; ++i) {
+    const std::string pair = pairs + "/" + std::to_string(1477843917481127523 + 100'000'000LL * i);
+    for (const char* name : {"/im0.png", "/im1.png"}) write_image(pair + name);
+    write_text(pair + "/calib.txt", calibration);
+    write_text(pair + "/images.txt",
+               "# IMAGE_ID, QW ...\n6 1 0 0 0 9 9 9 1 im1.png\n1 2 3\n" + std::string(rows[i]) + "\n\n");
+    if (i == 0) write_text(pair + "/disp0GT.pfm", "Pf");
+  }
+  for (const std::string& path : {folder / "delivery", pairs}) {
+    const Dataset set = open_dataset(path);
+    CHECK(set.format == "eth3d-stereo-pairs");
+    CHECK(set.name == "delivery");
+    REQUIRE(set.frames.size() == 3);
+    CHECK(set.frames[1].stamp_ns == 1477843917581127523);
+    CHECK_THAT(set.frames[1].right, Contains("1477843917581127523/im1.png"));
+    CHECK(set.rig.baseline() == Approx(0.06));
+    CHECK(set.rig.max_disparity == 64);  // ndisp is the width, which says nothing
+    REQUIRE(set.truth.size() == 3);
+    CHECK(set.truth[1].world_from_left.translation().isApprox(Eigen::Vector3d(0.1, 0, 0)));
+    CHECK(set.truth[2].world_from_left.translation().isApprox(Eigen::Vector3d(0.2, 0, 0)));
+    CHECK((set.truth[2].world_from_left.linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitZ()));
+    CHECK_THAT(set.disparity_truth, Contains("1477843917481127523/disp0GT.pfm"));
+  }
+  write_text(pairs + "/1477843917681127523/images.txt", "6 1 0 0 0 9 9 9 1 im1.png\n");
+  CHECK_THROWS_WITH(open_dataset(pairs), Contains("1477843917681127523/images.txt") && Contains("no row of im0.png"));
+  std::filesystem::remove(pairs + "/1477843917681127523/images.txt");
+  CHECK(open_dataset(pairs).truth.size() == 2);
+  std::string other = calibration;
+  write_text(pairs + "/1477843917681127523/calib.txt", other.replace(other.find("60"), 2, "61"));
+  CHECK_THROWS_WITH(open_dataset(pairs), Contains("1477843917681127523/calib.txt") && Contains("another calibration"));
+  for (const auto& entry : std::filesystem::directory_iterator(pairs))
+    std::filesystem::remove(entry.path() / "calib.txt");
+  CHECK_THROWS_WITH(open_dataset(pairs), Contains("1477843917481127523/calib.txt"));
+  write_text(folder / "delivery/calib.txt", calibration);
+  CHECK(open_dataset(pairs).rig.left.fx == 50);
+  std::filesystem::remove(pairs + "/1477843917581127523/im1.png");
+  CHECK_THROWS_WITH(open_dataset(pairs), Contains("1477843917581127523/im1.png"));
+}

@@ -23,6 +23,15 @@ std::vector<std::string> names(const std::vector<data::FoundSequence>& sequences
 
 }  // namespace
 
+TEST_CASE("find sequences: a folder of still pairs is told from one without any data", "[data]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"two_view/a/im0.png", "two_view/a/im1.png", "two_view/b/im0.png", "two_view/b/im1.png"})
+    write_image(folder / name);
+  CHECK_THROWS_WITH(data::find_sequences(folder.path()), Contains("2 still pairs") && Contains("evaluate matching"));
+  std::filesystem::remove_all(folder / "two_view");
+  CHECK_THROWS_WITH(data::find_sequences(folder.path()), Contains("no sequence") && Contains("eth3d-stereo-pairs"));
+}
+
 TEST_CASE("find sequences: all layouts below a folder are found, except still pairs", "[data]") {
   const TemporaryFolder folder;
   write_kitti(folder / "data/kitti");

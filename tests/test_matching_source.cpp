@@ -92,3 +92,31 @@ TEST_CASE("Where the views disagree, measured disparities of the right view deci
   const auto found = positions(*source, {16, 35});
   CHECK(found.state == std::vector<Visibility>{Visibility::occluded, Visibility::occluded});
 }
+
+TEST_CASE("A sequence of pairs has the disparities of every frame and, with poses, depths", "[matching][io]") {
+  const TemporaryFolder folder;
+  const std::string root = folder / "scene/stereo_pairs/";
+  for (const char* name : {"1000000000.0", "1000000000.1"}) {
+    write_image(root + name + "/im0.png", kWidth, kHeight);
+    write_image(root + name + "/im1.png", kWidth, kHeight);
+    const float disparity = name[11] == '0' ? 6.0F : 5.0F;
+    data::write_float_map(root + name + "/disp0GT.pfm",
+                          {kWidth, kHeight, std::vector<float>(kWidth * kHeight, disparity)});
+    write_text(root + name + "/images.txt",
+               std::string("1 1 0 0 0 0 0 ") + (name[11] == '0' ? "0" : "0.2") + " 1 im0.png\n");
+    write_text(
+        root + name + "/calib.txt",
+        "cam0=[100 0 24; 0 100 12; 0 0 1]\ncam1=[100 0 24; 0 100 12; 0 0 1]\nbaseline=60\nwidth=48\nheight=24\n");
+  }
+  const auto source = make_recorded_source(open_dataset(folder / "scene"));
+  const FrameTruth first = source->load(0).truth, second = source->load(1).truth;
+  CHECK(first.left.nearness[100] == 6);
+  CHECK(second.left.nearness[100] == 5);
+  // The wall at 100 x 0.06 / 6 = 1 m is seen from 0.2 m further back, at 1.2 m: column 36 moves to 24 + 12 / 1.2.
+  const std::vector<float> x = {36}, y = {12}, direction = {kVertical};
+  const auto later = true_later_positions(source->rig(), first, second, Side::left, {x, y, direction});
+  CHECK(later.x[0] == Approx(34));
+  CHECK(later.state[0] == Visibility::visible);
+  std::filesystem::remove(root + "1000000000.1/disp0GT.pfm");
+  CHECK_THROWS_WITH(source->load(1), Catch::Contains("1000000000.1/disp0GT.pfm"));
+}

@@ -28,6 +28,11 @@ std::string truth_of(const fs::path& folder) {
 
 }  // namespace
 
+double eth3d_max_disparity(const PairCalibration& calibration) {
+  const bool is_stated = calibration.disparities > 0 && calibration.disparities < calibration.rig.left.width;
+  return is_stated ? calibration.disparities + calibration.disparity_offset : kMaxDisparity;
+}
+
 bool is_eth3d_two_view(const fs::path& folder) {
   if (!fs::exists(folder / "im0.png") && !fs::exists(folder / "im1.png")) return false;
   const fs::path clean = whole_path(folder);
@@ -43,8 +48,7 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     if (fs::exists(folder / "calib.txt")) {
       const PairCalibration calibration = read_pair_calibration((folder / "calib.txt").string());
       dataset.rig = calibration.rig;
-      if (calibration.disparities > 0 && calibration.disparities < dataset.rig.left.width)
-        max_disparity = calibration.disparities + calibration.disparity_offset;
+      max_disparity = eth3d_max_disparity(calibration);
       return;
     }
     set_sizes_from_first_frame(dataset);

@@ -34,6 +34,7 @@ const std::vector<Layout>& layouts() {
       {"euroc", is_euroc, read_euroc, is_euroc},
       {"tartanair", is_tartanair, read_tartanair, is_tartanair},
       {"eth3d-slam", is_eth3d_slam, read_eth3d_slam, is_eth3d_slam},
+      {"eth3d-stereo-pairs", is_eth3d_stereo_pairs, read_eth3d_stereo_pairs, is_eth3d_stereo_pairs},
       {"viso2-quad", is_viso2_quad, read_viso2_quad},
       {"paired-names", is_paired_names, read_paired_names, is_paired_names},
       {"eth3d-two-view", is_eth3d_two_view, read_eth3d_two_view},
@@ -48,10 +49,13 @@ const std::vector<Layout>& layouts() {
 std::vector<std::string> image_names(const fs::path& folder) {
   if (!fs::is_directory(folder)) fail(folder.string(), "no such folder", "a folder of images");
   std::vector<std::string> names;
+  std::string other;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (is_image_name(name) && name[0] != '.') names.push_back(name);
+    if (is_other_image_name(name)) other = name;
   }
+  if (names.empty() && !other.empty()) fail(folder.string(), "images such as " + other, kConverted);
   if (names.empty()) fail(folder.string(), "no image", "PNG, JPEG, PGM or PPM files");
   std::sort(names.begin(), names.end());
   return names;

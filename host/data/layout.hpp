@@ -89,6 +89,8 @@ bool is_eth3d_slam(const fs::path& folder);
 Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 bool is_eth3d_two_view(const fs::path& folder);
 Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_eth3d_stereo_pairs(const fs::path& folder);
+Dataset read_eth3d_stereo_pairs(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 bool is_middlebury_2003(const fs::path& folder);
 Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 bool is_middlebury_2005(const fs::path& folder);
@@ -148,5 +150,8 @@ struct PairCalibration {
   double disparities = 0;       ///< px; the documented bound ndisp, 0 when absent
 };
 PairCalibration read_pair_calibration(const std::string& file);
+
+/// Largest disparity expected in ETH3D's low-resolution scenes [px].
+double eth3d_max_disparity(const PairCalibration& calibration);
 
 }  // namespace quadedge::data

@@ -47,10 +47,11 @@ std::string depth_file(const std::string& image) {
   return (folder.parent_path() / ("depth" + name.substr(3)) / path.stem()).string() + ".pfm";
 }
 
-FrameTruth read_pair_truth(const Dataset& dataset) {
+/// \param file disparities of the left view
+FrameTruth read_pair_truth(const Dataset& dataset, const std::string& file) {
   FrameTruth truth;
-  const fs::path left(dataset.disparity_truth);
-  truth.left = read_disparity(dataset.disparity_truth, dataset.disparity_truth_scale, dataset.rig.left);
+  const fs::path left(file);
+  truth.left = read_disparity(file, dataset.disparity_truth_scale, dataset.rig.left);
   for (const auto& names : kCompanions) {
     if (left.filename() != names.left) continue;
     const fs::path right = left.parent_path() / names.right, mask = left.parent_path() / names.mask;
@@ -81,17 +82,20 @@ class RecordedSource : public MatchingSource {
     const FrameFiles& files = dataset_.frames[static_cast<std::size_t>(number)];
     TrueFrame frame;
     frame.frame = {number, files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)};
-    if (!dataset_.disparity_truth.empty()) {
-      frame.truth = read_pair_truth(dataset_);
-      return frame;
-    }
     const double scale = dataset_.rig.left.fx * dataset_.rig.baseline();
-    frame.truth.depth_scale = scale;
-    frame.truth.right_is_measured = true;
-    frame.truth.left = surface_from_depth(data::read_float_map(depth_file(files.left)), scale);
-    frame.truth.right = surface_from_depth(data::read_float_map(depth_file(files.right)), scale);
-    check_size(frame.truth.left, dataset_.rig.left, depth_file(files.left));
-    check_size(frame.truth.right, dataset_.rig.right, depth_file(files.right));
+    if (!dataset_.disparity_truth.empty()) {
+      const fs::path pair = fs::path(files.left).parent_path(), of_first(dataset_.disparity_truth);
+      const bool is_sequence = frames() > 1;  // a file of the same name beside every left image
+      frame.truth = read_pair_truth(dataset_, is_sequence ? (pair / of_first.filename()).string() : of_first.string());
+      if (is_sequence && dataset_.rig.left.cx == dataset_.rig.right.cx) frame.truth.depth_scale = scale;
+    } else {
+      frame.truth.depth_scale = scale;
+      frame.truth.right_is_measured = true;
+      frame.truth.left = surface_from_depth(data::read_float_map(depth_file(files.left)), scale);
+      frame.truth.right = surface_from_depth(data::read_float_map(depth_file(files.right)), scale);
+      check_size(frame.truth.left, dataset_.rig.left, depth_file(files.left));
+      check_size(frame.truth.right, dataset_.rig.right, depth_file(files.right));
+    }
     for (const auto& pose : dataset_.truth) {
       if (pose.stamp_ns == files.stamp_ns) frame.truth.world_from_left = pose.world_from_left;
     }
