@@ -424,3 +424,87 @@ TEST_CASE("calibration forms: the extended unified camera model is the unified o
     CHECK((*mapping.project(*ray) - pixel).norm() < 1e-8);
   }
 }
+
+TEST_CASE("calibration forms: rectified images have the cameras of the projection matrices", "[calibration]") {
+  const TemporaryFolder folder;
+  const Rig rig;
+  const auto infos = ros_camera_infos(rig);
+  write_text(folder / "left.yaml", infos.first);
+  write_text(folder / "right.yaml", infos.second);
+  write_text(folder / "settings.yaml", orb_slam2(rig));
+  cv::Mat r, t, r1, r2, p1, p2, q;  // as OpenCV computes them
+  rotation_and_translation(rig, r, t);
+  cv::stereoRectify(camera_matrix(rig.left_intrinsics), row_matrix(rig.left_distortion),
+                    camera_matrix(rig.right_intrinsics), row_matrix(rig.right_distortion), {752, 480}, r, t, r1, r2, p1,
+                    p2, q);
+  for (const std::string& files : {(folder / "left.yaml") + "," + (folder / "right.yaml"), folder / "settings.yaml"}) {
+    CHECK_FALSE(read_calibration(files).left.is_pinhole());
+    const StereoCalibration rectified = read_calibration(files, true);
+    CHECK(rectified.left.is_pinhole());
+    CHECK(rectified.left.camera.fx == p1.at<double>(0, 0));
+    CHECK(rectified.right.camera.cx == p2.at<double>(0, 2));
+    CHECK(rectified.right.camera.width == 752);
+    CHECK(rectified.right_from_left.linear().isIdentity());
+    CHECK(rectified.right_from_left.translation().x() == Approx(p2.at<double>(0, 3) / p2.at<double>(0, 0)));
+  }
+  write_text(folder / "K.yaml", plain_opencv(rig, "K", "D"));
+  CHECK_THROWS_WITH(read_calibration(folder / "K.yaml", true), Contains("K.yaml") && Contains("projection matrices"));
+}
+
+TEST_CASE("calibration forms: names of left and right, and models that other programs write", "[calibration]") {
+  const TemporaryFolder folder;
+  const Rig rig;
+  std::string named = plain_opencv(rig, "cameraMatrix", "distCoeffs");
+  for (const auto& [from, to] : {std::pair("Matrix1", "MatrixL"), std::pair("Coeffs1", "CoeffsL"),
+                                 std::pair("Matrix2", "MatrixR"), std::pair("Coeffs2", "CoeffsR")})
+    named.replace(named.find(from), std::string(from).size(), to);
+  write_text(folder / "named.yaml", named);
+  check_rig(read_calibration(folder / "named.yaml"), 3e-9);
+  for (const bool right : {false, true}) {
+    const auto k = values_of(right ? rig.right_distortion : rig.left_distortion);
+    write_text(folder / (right ? "cam1.yaml" : "cam0.yaml"),
+               "%YAML:1.0\n---\nmodel_type: PINHOLE_FULL\nimage_width: 752\nimage_height: 480\ndistortion_parameters:\n"
+               "   k1: " +
+                   numbers({k[0]}) + "\n   k2: " + numbers({k[1]}) +
+                   "\n   k3: 0.01\n   k4: 0.02\n   k5: 0.03\n   k6: 0.04\n   p1: " + numbers({k[2]}) +
+                   "\n   p2: " + numbers({k[3]}) + "\nprojection_parameters:\n" +
+                   entries("", kPinhole, right ? rig.right_intrinsics : rig.left_intrinsics, "   "));
+  }
+  write_text(folder / "config.yaml", "%YAML:1.0\ncam0_calib: \"cam0.yaml\"\ncam1_calib: \"cam1.yaml\"\n" +
+                                         opencv_matrix("body_T_cam0", 4, 4, matrix4(rig.body_from_left)) +
+                                         opencv_matrix("body_T_cam1", 4, 4, matrix4(rig.body_from_right)));
+  CHECK(read_calibration(folder / "config.yaml").left.parameters ==
+        std::vector<double>{-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.01, 0.02, 0.03, 0.04});
+  std::string unified = basalt(rig);
+  for (std::size_t at = 0; (at = unified.find("pinhole-radtan8", at)) != std::string::npos;)
+    unified.replace(at, 15, "ucm");
+  for (std::size_t at = 0; (at = unified.find("\"k1\": ", at)) != std::string::npos;)
+    unified.replace(at, unified.find(',', at) - at, "\"alpha\": 0.6");
+  write_text(folder / "ucm.json", unified);
+  CHECK(read_calibration(folder / "ucm.json").left.parameters == std::vector<double>{0.6, 1});
+}
+
+TEST_CASE("calibration forms: settings of other cameras are not taken for rectified stereo", "[calibration]") {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::string& text) -> std::string {
+    write_text(folder / "file.txt", text);
+    try {
+      read_calibration(folder / "file.txt");
+    } catch (const DataError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string camera = "Camera.fx: 517\nCamera.fy: 516\nCamera.cx: 318\nCamera.cy: 255\nCamera.bf: 40\n";
+  CHECK(complaint("%YAML:1.0\n" + camera + "Camera.k1: 0.0\n").empty());
+  CHECK_THAT(complaint("%YAML:1.0\n" + camera + "DepthMapFactor: 5000\n"), Contains("depth camera"));
+  CHECK_THAT(complaint("%YAML:1.0\n" + camera + "Camera.k1: 0.26\n"), Contains("Camera.k1") && Contains("rectified"));
+  CHECK_THAT(complaint("Camera.setup: stereo\nCamera.cols: 752\nCamera.rows: 480\nCamera.focal_x_baseline: 40\n" +
+                       camera + "Camera.k2: 0.1\n"),
+             Contains("Camera.k2") && Contains("StereoRectifier"));
+  std::string inverse = realsense(Rig());
+  inverse.replace(inverse.find("Brown Conrady"), 13, "Inverse Brown Conrady");
+  CHECK_THAT(complaint(inverse), Contains("inverse distortion"));
+  std::string skewed = opencv_matrix("Tlr", 3, 4, "1, 0.1, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0");
+  CHECK_THAT(complaint("%YAML:1.0\n" + camera + skewed), Contains("Tlr") && Contains("orthonormal"));
+}

@@ -1,7 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include "data/file_list.hpp"
 #include "data/image_list.hpp"
+#include "data/stamps.hpp"
 #include "dataset_files.hpp"
+#include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "temporary_folder.hpp"
 
@@ -85,4 +88,47 @@ TEST_CASE("image list: inconsistent files are reported", "[data]") {
   dataset_files::write_text(folder / "a/data.csv", "5,../1.png\n");
   CHECK_THAT(complaint(), Contains("data.csv:1"));
   CHECK_THROWS_AS(list_images(folder / "absent"), DataError);
+}
+
+TEST_CASE("image list: timestamps are paired with the nearest ones", "[data]") {
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  // Half of the usual period of 10 is not reached by 4: 20 and 24 are a pair, 40 has none.
+  const StampPairs found = pair_stamps({0, 10, 20, 30, 40}, {1, 11, 24, 29, 60});
+  CHECK(found.pairs == Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}});
+  CHECK(found.largest_difference_ns == 4);
+  CHECK(pair_stamps({0, 10, 20}, {1, 11, 24}, 3).pairs == Pairs{{0, 0}, {1, 1}});
+  // Both left stamps are nearest to 11, which is nearest to 10; the order of the left stamps is kept.
+  CHECK(pair_stamps({14, 10}, {11}).pairs == Pairs{{1, 0}});
+  CHECK(pair_stamps({20, 10}, {10, 20}).pairs == Pairs{{0, 1}, {1, 0}});
+  CHECK(pair_stamps({5}, {70}).pairs == Pairs{{0, 0}});
+  CHECK(pair_stamps({5}, {}).pairs.empty());
+}
+
+TEST_CASE("image list: stamps may go back where that is asked for, and never repeat", "[data]") {
+  const TemporaryFolder folder;
+  dataset_files::write_text(folder / "times.txt", "1.0\n2.0\n1.5\n");
+  CHECK_THROWS_WITH(read_times(folder / "times.txt"), Contains("1.5") && Contains("after 2.0"));
+  CHECK(read_times(folder / "times.txt", true) ==
+        std::vector<std::int64_t>{1'000'000'000, 2'000'000'000, 1'500'000'000});
+  dataset_files::write_text(folder / "times.txt", "1.0\n1.0\n");
+  CHECK_THROWS_AS(read_times(folder / "times.txt", true), DataError);
+}
+
+TEST_CASE("image list: two files are separated by the comma that leaves two existing ones", "[data]") {
+  const TemporaryFolder folder;
+  const std::string left = folder / "a,b/left.yaml", right = folder / "a,b/right.yaml";
+  for (const auto& file : {left, right}) dataset_files::write_text(file, "");
+  using Files = std::vector<std::string>;
+  CHECK(file_list(left) == Files{left});
+  CHECK(file_list(left + "," + right) == Files{left, right});
+  CHECK(file_list("one,two") == Files{"one", "two"});
+}
+
+TEST_CASE("image list: TIFF and BMP are named, with a converter", "[data]") {
+  const TemporaryFolder folder;
+  dataset_files::write_text(folder / "t/1.tif", std::string("II*\0\0\0\0\0", 8));
+  dataset_files::write_text(folder / "b/1.png", "BM12345678");
+  CHECK_THROWS_WITH(list_images(folder / "t"), Contains("1.tif") && Contains("mogrify"));
+  CHECK_THROWS_WITH(read_grey_image(folder / "b/1.png"), Contains("a BMP image") && Contains("mogrify"));
+  CHECK_THROWS_WITH(read_grey_image(folder / "t/1.tif"), Contains("a TIFF image"));
 }

@@ -565,6 +565,28 @@ TEST_CASE("odometry: a timestamp that goes back is refused without effect", "[od
   CHECK(result.reference_frame == 0);
 }
 
+TEST_CASE("odometry: after a restart, stamps may go back and a segment starts", "[odometry][device]") {
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, room().config);
+  odometry.restart();  // before the first frame it means nothing
+  for (std::size_t i = 0; i < 3; ++i) odometry.track(at(1000 + static_cast<std::int64_t>(i), room().frame(i)));
+  odometry.restart();
+  const FrameResult first = odometry.track(at(5, room().frame(5)));
+  CHECK(first.status == FrameStatus::first);
+  CHECK(first.segment == 1);
+  CHECK(first.new_key_rig);
+  CHECK_THAT(first.message, Catch::Matchers::Contains("segment 1 starts"));
+  const FrameResult second = odometry.track(at(6, room().frame(6)));
+  CHECK(second.status == FrameStatus::tracked);
+  CHECK(second.segment == 1);
+  // The motion within the segment is measured; the segment begins where the last one ended.
+  const auto step = [](const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) { return from.inverse() * to; };
+  check_pose(step(*first.world_from_left, *second.world_from_left),
+             step(room().world_from_left[5], room().world_from_left[6]), 6e-3, 0.15);
+  CHECK((first.world_from_left->translation() - room().world_from_left[2].translation()).norm() < 6e-3);
+  CHECK_THROWS_AS(odometry.track(at(4, room().frame(7))), DataError);
+}
+
 TEST_CASE("odometry: once the scene has been seen, frames allocate nothing on the device", "[odometry][device]") {
   for (const auto& name : all_devices()) {
     Device device(name, kept_programs());

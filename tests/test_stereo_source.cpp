@@ -159,7 +159,7 @@ TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
   }
 }
 
-TEST_CASE("own camera: images paired by order must have matching timestamps", "[data]") {
+TEST_CASE("own camera: images of both folders are paired by time, and those alone are dropped and counted", "[data]") {
   const TemporaryFolder folder;
   const auto& frames = own_camera::small_dataset().frames;
   const auto fill = [&](const char* side, const std::vector<const char*>& names) {
@@ -170,13 +170,27 @@ TEST_CASE("own camera: images paired by order must have matching timestamps", "[
   fill("left", {"1.00", "1.05", "1.10"});
   fill("right", {"1.0001", "1.0499", "1.1001"});
   fill("late", {"1.00", "1.10", "1.15"});
+  fill("another day", {"86401.00", "86401.05", "86401.10"});
   StereoSource source = recording().folders();
   source.fps = 0;
   source.left = folder / "left";
   source.right = folder / "right";
   CHECK(open_stereo_source(source).frames[2].stamp_ns == 1'100'000'000);
+  CHECK(open_stereo_source(source).warnings.empty());
+  source.tolerance_ms = 0.11;  // 0.1 ms between the stamps of every pair
+  CHECK(open_stereo_source(source).frames.size() == 3);
+  source.tolerance_ms = 0.09;
+  CHECK_THAT(complaint(source), Contains("3 images of which 0") && Contains("--times"));
+  source.tolerance_ms = 0;
   source.right = folder / "late";
-  CHECK_THAT(complaint(source), Contains("late/1.10.png") && Contains("left/1.05.png"));
+  const Dataset paired = open_stereo_source(source);
+  REQUIRE(paired.frames.size() == 2);
+  CHECK_THAT(paired.frames[1].left, Contains("left/1.10.png"));
+  CHECK_THAT(paired.frames[1].right, Contains("late/1.10.png"));
+  REQUIRE(paired.warnings.size() == 1);
+  CHECK_THAT(paired.warnings[0], Contains("1 left and 1 right images") && Contains("dropped"));
+  source.right = folder / "another day";
+  CHECK_THAT(complaint(source), Contains("another day") && Contains("86401.0") && Contains("one clock"));
 }
 
 TEST_CASE("own camera: missing and contradictory options are reported", "[data]") {
@@ -208,6 +222,9 @@ TEST_CASE("own camera: missing and contradictory options are reported", "[data]"
   source = recording().folders();
   source.right = recording().file("right.mkv");
   CHECK_THAT(complaint(source), Contains("right.mkv: found a file, expected a folder"));
+  source = recording().folders();
+  source.tolerance_ms = -1;
+  CHECK_THAT(complaint(source), Contains("--tolerance"));
   source = recording().folders();
   source.live = true;
   CHECK_THAT(complaint(source), Contains("--live"));

@@ -27,6 +27,33 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
   for (const auto& finding : findings) check.warnings.push_back(frame + rig::warning(finding).text);
+  if (pair.number > 0) return;
+  if (const std::string proposal = rectified_proposal(dataset, pair); !proposal.empty())
+    check.warnings.push_back(frame + proposal);
+}
+
+std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair) {
+  if (!dataset.calibration || dataset.calibration->of_rectified.empty()) return {};
+  const auto evidence_of = [&](StereoRig rig) {
+    rig.max_value = dataset.rig.max_value;
+    return rig::RigMonitor::examine(rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(rig))
+        .evidence;
+  };
+  const RigEvidence recorded = evidence_of(dataset.rig),
+                    rectified = evidence_of(make_rig(dataset.calibration->of_rectified.front()));
+  constexpr double kMinFound = 0.3, kDoubtful = 0.25, kBetter = 0.5;
+  if (!(rectified.found_ratio > kMinFound && rectified.searched_residual < kDoubtful)) return {};
+  const bool is_off =
+      recorded.searched_residual > kDoubtful && rectified.searched_residual < kBetter * recorded.searched_residual;
+  if (!is_off && !(recorded.found_ratio < kBetter * rectified.found_ratio)) return {};
+  const auto figures = [](const RigEvidence& evidence) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.0f %% of the corners found, %.2f px off their lines",
+                  100 * evidence.found_ratio, evidence.searched_residual);
+    return std::string(text);
+  };
+  return "the images fit the calibration's projection matrices P (" + figures(rectified) + ") better than K and D (" +
+         figures(recorded) + "): are they rectified? --rectified takes P";
 }
 
 void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {

@@ -10,6 +10,10 @@ namespace quadedge::cli {
 /// Adds a warning for each implausible value of the calibration.
 void check_numbers(const StereoRig& rig, DatasetCheck& check);
 
+/// A sentence that proposes --rectified, if a pair fits the cameras of rectified images better than those that record;
+/// otherwise empty.
+std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
+
 /// Tests the calibration on one frame: adds the figures, and warnings where it does not fit.
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check);
 

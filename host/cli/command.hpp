@@ -22,6 +22,9 @@ class Options {
   virtual void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) = 0;
   virtual void text(const std::string& names, std::string& value, const std::string& help,
                     const std::string& placeholder) = 0;
+  /// One or two files: "LEFT,RIGHT", or given twice.
+  virtual void files(const std::string& names, std::string& value, const std::string& help,
+                     const std::string& placeholder) = 0;
   virtual void number(const std::string& names, double& value, const std::string& help) = 0;
   virtual void number(const std::string& names, int& value, const std::string& help) = 0;
   virtual void number(const std::string& names, std::uint64_t& value, const std::string& help) = 0;

@@ -33,6 +33,7 @@ class CheckCommand : public Command {
     options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);
+    source_.declare_restarts(options);
   }
   int run() override {
     path_ = source_.path();

@@ -40,6 +40,7 @@ class RunCommand : public Command {
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.points.declare(options);
     source_.declare(options);
+    source_.declare_restarts(options);
     method_.declare(options);
   }
 
@@ -51,6 +52,7 @@ class RunCommand : public Command {
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     method_.config();  // reports wrong options before data is read
     set_frames(dataset_, frames_);
+    run_.restarts = source_.has_restarts();
     run_.loops = run_.loops || !run_.saved_map.empty();
     Dataset dataset = source_.open(dataset_);
     if (run_.profile && dataset.format == "pipe")

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/calibration_check.hpp"
+#include "cli/console.hpp"
 #include "data/user_folder.hpp"
 #include "quadedge/error.hpp"
 
@@ -47,6 +49,9 @@ report::InputFacts FrameSource::facts() const {
 void FrameSource::prepare() {
   pairs_ = std::make_unique<FramePrefetcher>(dataset_, 2, stop_);
   first_ = pairs_->next();
+  if (!std::exchange(has_begun_, true) && first_ && !rendered_)
+    if (const std::string proposal = rectified_proposal(dataset_, *first_); !proposal.empty())
+      note("warning: " + proposal);
   if (stop_) stop_();  // shows that rendering is done
 }
 

@@ -44,6 +44,7 @@ class FrameSource {
   std::shared_ptr<const data::RenderedFrames> rendered_;
   std::unique_ptr<FramePrefetcher> pairs_;
   std::optional<StereoPair> first_;
+  bool has_begun_ = false;
 };
 
 /// Reads "WIDTHxHEIGHT" into the options. \throws UsageError.

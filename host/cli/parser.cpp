@@ -67,6 +67,11 @@ class ParserOptions : public Options {
             const std::string& placeholder) override {
     add(names, value, help)->check(kText)->type_name(placeholder);
   }
+  void files(const std::string& names, std::string& value, const std::string& help,
+             const std::string& placeholder) override {
+    text(names, value, help + "; may be given twice", placeholder);
+    last_->multi_option_policy(CLI::MultiOptionPolicy::Join)->delimiter(',');
+  }
   void number(const std::string& names, double& value, const std::string& help) override {
     add(names, value, help)->check(kNumber);
   }

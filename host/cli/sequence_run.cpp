@@ -141,6 +141,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     while (const auto frame = source.next()) {
       report::FrameRecord record;
       record.start_ms = milliseconds_since(start);
+      if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().result.stamp_ns)
+        odometry.restart();
       record.result = odometry.track(frame->view());
       files.add(record.result);
       report_doubts(record.result, run);
@@ -178,7 +180,9 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
   StereoOdometry odometry(source.rig(), device, run.config);
   source.prepare();
   Progress progress(options.quiet, "frames");
+  std::int64_t last_ns = INT64_MIN;
   while (const auto frame = source.next()) {
+    if (options.restarts && frame->stamp_ns < std::exchange(last_ns, frame->stamp_ns)) odometry.restart();
     run.kernel_times.push_back(odometry.track(frame->view()).timing.kernels);
     progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
     if (interruption.signal() != 0) return;

@@ -20,6 +20,7 @@ struct SequenceRunOptions {
   std::string trace;     ///< file of the Chrome trace; empty: none
   bool profile = false;  ///< measure kernel times in a second pass
   bool quiet = false, force = false;
+  bool restarts = false;  ///< a stamp that goes back starts a segment
   /// Drawings of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
   int draw_every = 0;
   int draw_frame = -1;

@@ -40,16 +40,21 @@ void SourceOptions::declare(Options& options) {
   options.text("--right", own_.right, "folder of right images, or right video", "B");
   options.text("--video", own_.video, "video with both views in each picture", "FILE");
   options.text("--split", own_.split, "arrangement of the two views in a picture: left-right or top-bottom", "WORD");
-  options.text(
+  options.files(
       "--calibration", own_.calibration,
-      "calibration of both cameras by Kalibr, OpenCV, ROS, EuRoC or `check --write-calibration`; replaces that "
-      "of a recorded sequence",
+      "calibration of both cameras in one of the forms of doc/your-own-data.md, replaces that of a recorded sequence; "
+      "one file, or left and right",
       "FILE[,FILE]");
+  options.flag("--rectified", own_.rectified,
+               "the images are rectified: the calibration's P describes them, not K and D");
   options.number("--fps", own_.fps,
                  "pairs per second, for sources without stamps and in place of a video's own; images keep the stamps "
                  "of their names, times.txt or data.csv; 0: the source's own");
   options.text("--times", own_.times, "stamps in place of all others: seconds, one per line, or EuRoC's data.csv",
                "FILE");
+  options.number("--tolerance", own_.tolerance_ms,
+                 "largest difference between the stamps of a pair of image files [ms]; others are dropped; 0: half a "
+                 "period");
   options.flag("--live", own_.live,
                "the pipe comes from a camera: drop the oldest pairs when tracking falls behind; without it every pair "
                "is read, and the writer waits");
@@ -57,8 +62,13 @@ void SourceOptions::declare(Options& options) {
       "--fov", own_.fov,
       "horizontal field of view of the pinhole images [degrees]; 0: the scale of the lens at its centre, up to 120 "
       "degrees");
-  options.text("--mask", own_.mask, "mask image, black where edges are excluded; one file, or left and right",
-               "FILE[,FILE]");
+  options.files("--mask", own_.mask, "mask image, black where edges are excluded; one file, or left and right",
+                "FILE[,FILE]");
+}
+
+void SourceOptions::declare_restarts(Options& options) {
+  options.flag("--restarts", own_.restarts,
+               "stamps of --times may go back, where a clock was set: a new segment of the trajectory starts there");
 }
 
 StereoSource SourceOptions::own_camera() const {
@@ -69,11 +79,14 @@ StereoSource SourceOptions::own_camera() const {
 }
 
 DatasetOptions SourceOptions::layout(DatasetOptions options) const {
-  if (!own_.split.empty() || own_.fps != 0 || !own_.times.empty() || own_.live)
+  if (!own_.split.empty() || own_.fps != 0 || !own_.times.empty() || own_.live || own_.restarts ||
+      own_.tolerance_ms != 0) {
     throw UsageError(path_ +
-                     ": a recorded sequence has its own stamps; --split, --fps, --times and --live are for --left, "
-                     "--right, --video and -");
+                     ": a recorded sequence has its own stamps; --split, --fps, --times, --restarts, --tolerance and "
+                     "--live are for --left, --right, --video and -");
+  }
   options.calibration = own_.calibration;
+  options.rectified = own_.rectified;
   options.fov = own_.fov;
   options.mask = own_.mask;
   return options;

@@ -27,14 +27,19 @@ class SourceOptions {
   void declare_path(Options& options, const std::string& help, const std::string& name = "PATH");
   /// Pictures from a pipe, for a command whose positional arguments are something else.
   void read_pipe() { path_ = "-"; }
-  /// --left, --right, --video, --split, --calibration, --fps, --times, --live, --fov, --mask, as a group.
+  /// --left, --right, --video, --split, --calibration ... as a group.
   void declare(Options& options);
+
+  /// --restarts, for commands that can start a segment where stamps go back. After declare().
+  void declare_restarts(Options& options);
 
   /// Whether anything is given.
   bool is_given() const { return !path_.empty() || own_.is_given(); }
   /// Whether the pairs come from the user's own cameras, not from a published layout.
   bool is_own_camera() const { return path_ == "-" || own_.is_given(); }
   const std::string& path() const { return path_; }
+  /// Whether stamps may go back, where a segment starts.
+  bool has_restarts() const { return own_.restarts; }
   bool has_calibration() const { return !own_.calibration.empty(); }
   /// The given options and their values in turn, except PATH and --live.
   std::vector<std::string> words() const;

@@ -51,7 +51,8 @@ void cut_frames(Dataset& dataset, int first_frame, int last_frame) {
 
 void check_stamps(const Dataset& dataset, Findings& findings) {
   for (std::size_t i = 1; i < dataset.frames.size(); ++i) {
-    if (dataset.frames[i].stamp_ns > dataset.frames[i - 1].stamp_ns) continue;
+    const std::int64_t step = dataset.frames[i].stamp_ns - dataset.frames[i - 1].stamp_ns;
+    if (step > 0 || (step < 0 && dataset.restarts)) continue;
     findings.error(dataset.frames[i].left,
                    "timestamp " + format_seconds(dataset.frames[i].stamp_ns) + " after " +
                        format_seconds(dataset.frames[i - 1].stamp_ns),
@@ -68,9 +69,11 @@ void set_sizes_from_images(StereoCalibration& calibration, const Dataset& datase
 /// Applies the user's calibration, field of view and mask to the layout's own.
 void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
   if (!options.calibration.empty()) {
-    dataset.calibration = read_calibration(options.calibration);
+    dataset.calibration = read_calibration(options.calibration, options.rectified);
     set_sizes_from_images(*dataset.calibration, dataset);
   }
+  if (options.rectified && options.calibration.empty())
+    throw UsageError("--rectified is for a --calibration that describes rectified images, as ROS's camera_info does");
   if (options.fov != 0 && !dataset.calibration) {
     throw UsageError("--fov: " + dataset.path + " does not describe lenses; give --calibration or omit --fov");
   }

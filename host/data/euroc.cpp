@@ -41,23 +41,20 @@ std::vector<std::pair<std::int64_t, std::string>> read_camera(const fs::path& ca
 
 void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
   const auto left = read_camera(folder / "cam0"), right = read_camera(folder / "cam1");
-  const std::map<std::int64_t, std::string> right_by_stamp(right.begin(), right.end());
-  std::size_t alone = 0;
-  for (const auto& [stamp, name] : left) {
-    const auto partner = right_by_stamp.find(stamp);
-    if (partner == right_by_stamp.end()) {
-      ++alone;
-      continue;
-    }
-    add_frame(dataset, stamp, name, partner->second, findings);
-  }
-  if (2 * alone > left.size()) {
-    findings.error((folder / "cam1" / "data.csv").string(),
-                   counted(left.size() - alone, "timestamp") + " in common with cam0",
+  const auto stamps = [](const auto& list) {
+    std::vector<std::int64_t> stamps_ns;
+    for (const auto& entry : list) stamps_ns.push_back(entry.first);
+    return stamps_ns;
+  };
+  const StampPairs found = pair_stamps(stamps(left), stamps(right));
+  for (const auto& [l, r] : found.pairs) add_frame(dataset, left[l].first, left[l].second, right[r].second, findings);
+  const std::size_t pairs = found.pairs.size();
+  if (2 * pairs < left.size()) {
+    findings.error((folder / "cam1").string(), counted(pairs, "timestamp") + " in common with cam0",
                    "the " + std::to_string(left.size()) + " of the left camera");
-  } else if (alone > 0 || right.size() != left.size()) {  // the published recordings lack a few images
-    const std::string note = std::to_string(alone) + " left and " + std::to_string(right.size() + alone - left.size()) +
-                             " right images without a counterpart of the same timestamp are skipped";
+  } else if (pairs < left.size() || pairs < right.size()) {  // the published recordings lack a few images
+    const std::string note = std::to_string(left.size() - pairs) + " left and " + std::to_string(right.size() - pairs) +
+                             " right images without a counterpart are skipped";
     dataset.notes.push_back(note);
     findings.warn(note);
   }

@@ -67,6 +67,8 @@ ImageHeader read_header(std::string_view bytes, const std::string& name) {
     };
     return {ImageKind::png, {side(number), side(number + 4), number[8] == 16 ? kMaxValue16 : kMaxValue8}};
   }
+  const bool is_tiff = bytes.substr(0, 4) == "II*\0"sv || bytes.substr(0, 4) == "MM\0*"sv;
+  if (is_tiff || bytes.substr(0, 2) == "BM"sv) fail(name, is_tiff ? "a TIFF image" : "a BMP image", kConverted);
   fail(name, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
        "a PNG, JPEG or binary PGM/PPM image");
 }
@@ -102,9 +104,23 @@ std::string to_string(ImageSize size) { return std::to_string(size.width) + " x 
 
 ImageSize image_size(const std::string& file) { return checked_header(read_bytes(file), file).size; }
 
-bool is_image_name(const std::string& name) {
+namespace {
+
+std::string extension_of(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return extension;
+}
+
+}  // namespace
+
+bool is_other_image_name(const std::string& name) {
+  const std::string extension = extension_of(name);
+  return extension == ".tif" || extension == ".tiff" || extension == ".bmp";
+}
+
+bool is_image_name(const std::string& name) {
+  const std::string extension = extension_of(name);
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" ||
          extension == ".ppm";
 }

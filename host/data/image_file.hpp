@@ -27,4 +27,11 @@ ImageSize image_size(const std::string& file);
 /// Whether the name has the extension of one of the formats above.
 bool is_image_name(const std::string& name);
 
+/// Whether the name has the extension of TIFF or BMP, which are not read.
+bool is_other_image_name(const std::string& name);
+
+/// What is expected in place of TIFF and BMP.
+inline constexpr const char* kConverted =
+    "PNG, JPEG, PGM or PPM; `mogrify -format png *` of ImageMagick converts others, at their full depth";
+
 }  // namespace quadedge::data

@@ -90,8 +90,8 @@ std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::str
   return list;
 }
 
-std::vector<std::int64_t> read_times(const std::string& file) {
-  if (fs::path(file).extension() != ".csv") return read_time_rows(file).stamps_ns;
+std::vector<std::int64_t> read_times(const std::string& file, bool restarts) {
+  if (fs::path(file).extension() != ".csv") return read_time_rows(file, restarts).stamps_ns;
   std::vector<std::int64_t> stamps;
   for (const auto& row : read_image_list(file)) stamps.push_back(row.first);
   return stamps;

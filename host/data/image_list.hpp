@@ -15,7 +15,7 @@ std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::str
 
 /// Timestamps [ns] of a file with one row per frame, in its order: read_time_rows(), or EuRoC's format if the name ends
 /// in .csv. \throws DataError
-std::vector<std::int64_t> read_times(const std::string& file);
+std::vector<std::int64_t> read_times(const std::string& file, bool restarts = false);
 
 /// The images of one camera.
 struct CameraImages {

@@ -1,5 +1,6 @@
 #include "data/source_line.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -29,7 +30,15 @@ struct Number {
   const char* option;
   double StereoSource::*value;
 };
-constexpr Number kNumbers[] = {{"--fps", &StereoSource::fps}, {"--fov", &StereoSource::fov}};
+constexpr Number kNumbers[] = {
+    {"--fps", &StereoSource::fps}, {"--fov", &StereoSource::fov}, {"--tolerance", &StereoSource::tolerance_ms}};
+
+/// An option without a value.
+struct Flag {
+  const char* option;
+  bool StereoSource::*value;
+};
+constexpr Flag kFlags[] = {{"--rectified", &StereoSource::rectified}, {"--restarts", &StereoSource::restarts}};
 
 /// Prepends `folder` to each of the comma-separated paths.
 std::string in_folder(const std::string& paths, const fs::path& folder) {
@@ -60,11 +69,19 @@ StereoSource parse_source_line(const std::string& text, const std::string& folde
     return false;
   };
   for (std::size_t i = 0; i < words.size(); i += 2) {
+    const auto* flag =
+        std::find_if(std::begin(kFlags), std::end(kFlags), [&](const Flag& each) { return words[i] == each.option; });
+    if (flag != std::end(kFlags)) {
+      source.*flag->value = true;
+      --i;
+      continue;
+    }
     const bool has_value = i + 1 < words.size();
     if (has_value && set(words[i], words[i + 1])) continue;
     std::string options;
     for (const auto& word : kWords) options += std::string(word.option) + " ";
     for (const auto& number : kNumbers) options += std::string(number.option) + " ";
+    for (const auto& each : kFlags) options += std::string(each.option) + " ";
     fail(file, line, in_quotes(words[i]) + (has_value ? "" : " without a value"),
          "one of " + options + "with its value");
   }
@@ -77,6 +94,8 @@ std::vector<std::string> source_words(const StereoSource& source) {
     if (!(source.*word.value).empty()) words.insert(words.end(), {word.option, source.*word.value});
   for (const auto& number : kNumbers)
     if (source.*number.value != 0) words.insert(words.end(), {number.option, format_exact(source.*number.value)});
+  for (const auto& flag : kFlags)
+    if (source.*flag.value) words.emplace_back(flag.option);
   return words;
 }
 

@@ -86,7 +86,7 @@ std::optional<std::vector<std::int64_t>> stamps_of_names(const std::vector<std::
   return stamps;
 }
 
-TimeRows read_time_rows(const std::string& file) {
+TimeRows read_time_rows(const std::string& file, bool restarts) {
   TimeRows rows;
   const std::vector<Line> lines = data_lines(file);
   if (lines.empty()) fail(file, "no timestamps", "one in seconds on every line");
@@ -115,12 +115,45 @@ TimeRows read_time_rows(const std::string& file) {
       rows.stamps_ns.push_back(parse_seconds(words_of_times[i], file, lines[i].number));
   }
   for (std::size_t i = 1; i < rows.stamps_ns.size(); ++i) {
-    if (rows.stamps_ns[i] > rows.stamps_ns[i - 1]) continue;
+    const std::int64_t step = rows.stamps_ns[i] - rows.stamps_ns[i - 1];
+    if (step > 0 || (step < 0 && restarts)) continue;
     fail(file, lines[i].number,
          "timestamp " + format_seconds(rows.stamps_ns[i]) + " after " + format_seconds(rows.stamps_ns[i - 1]),
          "increasing timestamps");
   }
   return rows;
+}
+
+StampPairs pair_stamps(const std::vector<std::int64_t>& left_ns, const std::vector<std::int64_t>& right_ns,
+                       std::int64_t tolerance_ns) {
+  using Indexed = std::vector<std::pair<std::int64_t, std::size_t>>;
+  const auto in_order = [](const std::vector<std::int64_t>& stamps) {
+    Indexed indexed;
+    for (std::size_t i = 0; i < stamps.size(); ++i) indexed.emplace_back(stamps[i], i);
+    std::sort(indexed.begin(), indexed.end());
+    return indexed;
+  };
+  const auto nearest = [](const Indexed& stamps, std::int64_t stamp) {
+    auto after = std::lower_bound(stamps.begin(), stamps.end(), std::make_pair(stamp, std::size_t{0}));
+    const bool takes_before =
+        after == stamps.end() || (after != stamps.begin() && stamp - std::prev(after)->first <= after->first - stamp);
+    return takes_before ? std::prev(after) : after;
+  };
+  StampPairs result;
+  const Indexed left = in_order(left_ns), right = in_order(right_ns);
+  std::vector<std::int64_t> sorted;
+  for (const auto& entry : left) sorted.push_back(entry.first);
+  const std::int64_t half = (usual_period(sorted) - 1) / 2;
+  const std::int64_t tolerance = tolerance_ns > 0 ? tolerance_ns : half > 0 ? half : INT64_MAX;
+  for (auto entry = left.begin(); entry != left.end() && !right.empty(); ++entry) {
+    const auto partner = nearest(right, entry->first);
+    const std::int64_t difference = std::abs(partner->first - entry->first);
+    if (nearest(left, partner->first) != entry || difference > tolerance) continue;
+    result.pairs.emplace_back(entry->second, partner->second);
+    result.largest_difference_ns = std::max(result.largest_difference_ns, difference);
+  }
+  std::sort(result.pairs.begin(), result.pairs.end());
+  return result;
 }
 
 std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns) {

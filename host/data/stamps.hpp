@@ -21,9 +21,20 @@ struct TimeRows {
 };
 
 /// Reads one row per frame: seconds; integers as stamps_of_names(); "name seconds exposure" as DSO and TUM-VI write it;
-/// a date and time as KITTI's raw drives have them. \throws DataError for other rows and for stamps that do not
-/// increase
-TimeRows read_time_rows(const std::string& file);
+/// a date and time as KITTI's raw drives have them. \throws DataError for other rows, for stamps that repeat, and
+/// unless `restarts` for stamps that go back
+TimeRows read_time_rows(const std::string& file, bool restarts = false);
+
+/// Indices of left and right timestamps that are mutually nearest.
+struct StampPairs {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< in the order of the left timestamps
+  std::int64_t largest_difference_ns = 0;
+};
+
+/// \param tolerance_ns largest difference of a pair; 0: less than half the usual period of the left timestamps, or any
+/// for a single one
+StampPairs pair_stamps(const std::vector<std::int64_t>& left_ns, const std::vector<std::int64_t>& right_ns,
+                       std::int64_t tolerance_ns = 0);
 
 /// Median period of timestamps [ns]; 0 for fewer than two.
 std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns);

@@ -27,16 +27,35 @@ constexpr double kSameRate = 0.05;    // relative difference up to which two rat
 
 std::int64_t stamp_at(int number, double fps) { return std::llround(number / fps * kNanoseconds); }
 
-/// Checks that the left and right images of an index differ by less than half a period in time.
-void check_partners(const CameraImages& left, const CameraImages& right) {
-  const std::vector<std::int64_t>&a = left.stamps_ns, &b = right.stamps_ns;
-  if (a.size() < 2 || b.empty()) return;
-  const std::int64_t period = (a.back() - a.front()) / static_cast<std::int64_t>(a.size() - 1);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (2 * std::abs(a[i] - b[i]) < period) continue;
-    fail(right.files[i], "timestamp " + format_seconds(b[i]) + " (" + right.stamps_from + ")",
-         format_seconds(a[i]) + " as of its counterpart " + left.files[i] + ", or --times FILE");
+/// Keeps the images of both cameras that are nearest in time. \returns a warning if some are dropped
+/// \throws DataError if most of the images would be
+std::string keep_pairs(const StereoSource& source, CameraImages& left, CameraImages& right) {
+  constexpr double kNanosecondsPerMillisecond = 1e6;
+  const std::size_t lefts = left.files.size(), rights = right.files.size();
+  const StampPairs found =
+      pair_stamps(left.stamps_ns, right.stamps_ns, std::llround(source.tolerance_ms * kNanosecondsPerMillisecond));
+  const std::size_t pairs = found.pairs.size();
+  if (2 * pairs < std::max(lefts, rights)) {
+    fail(source.right,
+         counted(rights, "image") + " of which " + std::to_string(pairs) + " are as old as one of the " +
+             std::to_string(lefts) + " in " + source.left + " (" + right.stamps_from + " from " +
+             format_seconds(right.stamps_ns.front()) + ", " + left.stamps_from + " from " +
+             format_seconds(left.stamps_ns.front()) + ")",
+         "timestamps of one clock, or --times FILE");
   }
+  CameraImages kept_left{{}, {}, left.stamps_from}, kept_right{{}, {}, right.stamps_from};
+  for (const auto& [l, r] : found.pairs) {
+    kept_left.files.push_back(left.files[l]);
+    kept_left.stamps_ns.push_back(left.stamps_ns[l]);
+    kept_right.files.push_back(right.files[r]);
+    kept_right.stamps_ns.push_back(right.stamps_ns[r]);
+  }
+  left = std::move(kept_left);
+  right = std::move(kept_right);
+  if (pairs == lefts && pairs == rights) return {};
+  return std::to_string(lefts - pairs) + " left and " + std::to_string(rights - pairs) +
+         " right images without a counterpart are dropped; the timestamps of a pair differ by up to " +
+         format_fixed(static_cast<double>(found.largest_difference_ns) / kNanosecondsPerMillisecond, 3) + " ms";
 }
 
 void check_count(const std::string& shorter_or_equal, std::size_t found, const std::string& what, std::size_t expected,
@@ -61,13 +80,12 @@ std::vector<std::int64_t> stamps_of_images(const StereoSource& source, const Cam
                                            const CameraImages& right, std::vector<std::string>& warnings) {
   const std::size_t pairs = left.files.size();
   if (!source.times.empty()) {
-    const auto stamps = read_times(source.times);
+    const auto stamps = read_times(source.times, source.restarts);
     check_count(source.times, stamps.size(), "times", pairs, source.left);
     return stamps;
   }
   const CameraImages& stamped = left.stamps_ns.empty() ? right : left;
   if (!stamped.stamps_ns.empty()) {
-    check_partners(left, right);
     const std::string warning = rate_warning(source.fps, stamped);
     if (!warning.empty()) warnings.push_back(warning);
     return stamped.stamps_ns;
@@ -90,12 +108,15 @@ CameraImages images_of(const std::string& place, bool needs_stamps) {
 
 Dataset open_images(const StereoSource& source, Findings& findings) {
   const bool needs_stamps = source.times.empty();
-  const CameraImages left = images_of(source.left, needs_stamps), right = images_of(source.right, needs_stamps);
+  CameraImages left = images_of(source.left, needs_stamps), right = images_of(source.right, needs_stamps);
+  Dataset dataset;
+  if (!left.stamps_ns.empty() && !right.stamps_ns.empty())
+    if (const std::string dropped = keep_pairs(source, left, right); !dropped.empty())
+      dataset.warnings.push_back(dropped);
   if (left.files.size() > right.files.size()) {
     check_count(source.right, right.files.size(), "images", left.files.size(), source.left);
   }
   check_count(source.left, left.files.size(), "images", right.files.size(), source.right);
-  Dataset dataset;
   const auto stamps = stamps_of_images(source, left, right, dataset.warnings);
   dataset.format = "images";
   dataset.path = source.left;
@@ -109,7 +130,7 @@ ImageSize size_of(const Image& image) { return {image.width, image.height, image
 
 /// Sets the rig for images of these sizes. \throws DataError if the calibration is for other sizes
 void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
-  dataset.calibration = read_calibration(source.calibration);
+  dataset.calibration = read_calibration(source.calibration, source.rectified);
   set_image_sizes(*dataset.calibration, left, right, images);
   dataset.rig = make_rig(*dataset.calibration, source.fov);
   if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
@@ -174,6 +195,8 @@ void check_source(const StereoSource& source) {
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
   if (source.pipe && source.fps == 0 && source.times.empty())
     throw UsageError("images in a pipe have no timestamps: give --fps N or --times FILE");
+  if (!(source.tolerance_ms >= 0 && std::isfinite(source.tolerance_ms)))
+    throw UsageError("--tolerance: expected milliseconds, above 0");
   if (source.live && !source.pipe) throw UsageError("--live applies to a pipe (-) only; files are read whole");
 }
 
@@ -208,9 +231,10 @@ Dataset read_source(const StereoSource& source, Findings& findings) {
                           source.last_frame,
                           {},
                           source.times};
-    if (!source.times.empty()) options.stamps_ns = read_times(source.times);
+    if (!source.times.empty()) options.stamps_ns = read_times(source.times, source.restarts);
     dataset = open_stream(source, options);
   }
+  dataset.restarts = source.restarts;
   finish_dataset(dataset, source.first_frame, source.last_frame, findings);
   return dataset;
 }

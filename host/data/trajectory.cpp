@@ -79,7 +79,9 @@ Trajectory read_tum(const std::string& path) {
     trajectory.push_back(tum_pose(line, path));
     trajectory.back().segment = segment;
     const std::size_t count = trajectory.size();
-    if (count > 1 && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
+    const bool starts_segment =
+        count > 1 && trajectory[count - 2].segment != segment;  // where a clock may have been set
+    if (count > 1 && !starts_segment && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
       data::fail(path, line.number,
                  "timestamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
                      data::format_seconds(trajectory[count - 2].stamp_ns),

@@ -178,7 +178,9 @@ ImageSize YamlMap::size(const std::string& columns, const std::string& rows) con
 }
 
 Eigen::Isometry3d YamlMap::transform(const std::string& key) const {
-  const auto values = matrix(key, 4, 4);
+  auto values = matrix(key).values;
+  if (values.size() == 12) values.insert(values.end(), {0, 0, 0, 1});
+  if (values.size() != 16) complain(key, counted(values.size(), "number"), "4 x 4 numbers, row by row, or 3 x 4");
   if (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1)
     complain(key, "a last row other than 0 0 0 1", name(key) + ": a 4 x 4 matrix, row by row");
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();

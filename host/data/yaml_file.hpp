@@ -61,7 +61,7 @@ class YamlMap {
   ImageSize size(const std::string& key) const;
   /// Columns and rows in separate entries.
   ImageSize size(const std::string& columns, const std::string& rows) const;
-  /// A 4 x 4 matrix. Its 3 x 3 part is replaced by the nearest rotation.
+  /// A 4 x 4 matrix, or its first three rows. Its 3 x 3 part is replaced by the nearest rotation.
   Eigen::Isometry3d transform(const std::string& key) const;
 
   /// \throws DataError about an existing entry.

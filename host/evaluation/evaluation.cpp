@@ -25,12 +25,15 @@ struct Match {
   int segment;
 };
 
-/// Nearest truth pose for each estimated pose, both in increasing order and each used at most once.
+/// Nearest truth pose for each estimated pose, both in increasing order and each used at most once. Where a segment of
+/// the estimate goes back in time, the search starts anew.
 std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& truth, std::int64_t tolerance_ns) {
   std::vector<Match> matches;
   std::size_t next = 0;
-  for (const auto& pose : estimate) {
-    const auto distance = [&](std::size_t i) { return std::abs(truth[i].stamp_ns - pose.stamp_ns); };
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const StampedPose& pose = estimate[i];
+    if (i > 0 && pose.stamp_ns < estimate[i - 1].stamp_ns) next = 0;
+    const auto distance = [&](std::size_t row) { return std::abs(truth[row].stamp_ns - pose.stamp_ns); };
     while (next + 1 < truth.size() && distance(next + 1) <= distance(next)) ++next;
     if (next >= truth.size() || distance(next) > tolerance_ns) continue;
     matches.push_back({pose.stamp_ns, pose.world_from_left, truth[next].world_from_left, pose.segment});

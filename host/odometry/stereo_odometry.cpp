@@ -76,6 +76,7 @@ class StereoOdometry::Implementation {
         motion_search_(config, preparation_.frontend(), offset_) {}
 
   FrameResult track(const StereoFrame& frame);
+  void restart();
   FrameDetails details() const;
 
   const StereoEdges& stereo_edges() const {
@@ -111,6 +112,7 @@ class StereoOdometry::Implementation {
   frontend::FrameEdgesHandle current_;  ///< of the last frame tracked; null before the first frame
   odometry::StepHandle step_;           ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
+  bool starts_segment_ = false;    ///< with the next frame that has edges
   std::vector<double> distances_;  ///< buffer of median_parallax()
 };
 
@@ -164,6 +166,15 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   return result;
 }
 
+void StereoOdometry::Implementation::restart() {
+  last_stamp_ns_.reset();
+  velocity_.forget();
+  starts_segment_ = starts_segment_ || state_.has_started();
+  const odometry::TrackingState before = std::exchange(state_, {});
+  state_.segment = before.segment;
+  state_.world_from_last = before.world_from_last;
+}
+
 /// Turns the images into the current rig.
 void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResult& result) {
   step_ = nullptr;
@@ -180,8 +191,14 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   result.message = std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped";
 }
 
-/// Starts the trajectory at the first frame with edges.
+/// Starts the trajectory, or after restart() a segment, at the first frame with edges.
 void StereoOdometry::Implementation::start(FrameResult& result) {
+  if (std::exchange(starts_segment_, false)) {
+    ++state_.segment;
+    add_message(
+        "segment " + std::to_string(state_.segment) + " starts: its place relative to the earlier ones is unknown",
+        result);
+  }
   result.status = FrameStatus::first;
   result.world_from_left = state_.world_from_last;
   result.new_key_rig = true;
@@ -337,6 +354,7 @@ StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Confi
 
 StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
+void StereoOdometry::restart() { implementation_->restart(); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
 odometry::LatestFrame odometry::LatestFrame::of(const StereoOdometry& odometry) {

@@ -20,12 +20,15 @@ struct StereoCalibration {
   std::string format;  ///< the form of the files, as doc/your-own-data.md names it: euroc, kalibr, opencv, ros ...
   std::string files;   ///< files that it was read from, for messages
   std::vector<StereoCalibration> other_sizes;  ///< the same cameras at other image sizes, if the file has several
+  /// The cameras of rectified images (camera_info's P), if the files describe them as well: none or one.
+  std::vector<StereoCalibration> of_rectified;
 };
 
 /// Reads a calibration in one of the forms that doc/your-own-data.md lists; the form is recognised from the content.
-/// `files`: one path, or two separated by a comma (left, right). \throws DataError that names file and entry, the value
-/// found and the value expected.
-StereoCalibration read_calibration(const std::string& files);
+/// `files`: one path, or two separated by a comma (left, right). `rectified`: the images are rectified, and
+/// StereoCalibration::of_rectified describes them. \throws DataError that names file and entry, the value found and the
+/// value expected.
+StereoCalibration read_calibration(const std::string& files, bool rectified = false);
 
 /// Writes the native format: ten entries, see doc/your-own-data.md. \throws DataError if the file cannot be written.
 void write_calibration(const std::string& file, const StereoCalibration& calibration);

@@ -39,7 +39,8 @@ struct Dataset {
   std::string truth_file;       ///< file that the ground truth was read from
   std::string disparity_truth;  ///< file with the disparities of the left view; empty if there is none
   double disparity_truth_scale =
-      1;  ///< px of this image per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
+      1;                  ///< px of this image per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
+  bool restarts = false;  ///< whether stamps may go back, where StereoOdometry::restart() is due
   std::vector<std::string> notes;     ///< remarks for the user: nominal calibration, assumed timestamps, skipped images
   std::vector<std::string> warnings;  ///< options that contradict the data
 };
@@ -51,6 +52,7 @@ struct DatasetOptions {
   int first_frame = 0;          ///< frames first_frame .. last_frame - 1
   int last_frame = -1;          ///< -1: up to the last frame
   std::string calibration;      ///< files of read_calibration(); empty: the calibration of the dataset
+  bool rectified = false;       ///< the images are rectified, see read_calibration()
   double fov = 0;               ///< see make_rig(); for recordings with a lens calibration
   std::string mask;             ///< files of mask_rig(); empty: none
 };

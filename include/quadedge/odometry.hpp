@@ -148,6 +148,10 @@ class StereoOdometry {
   /// DeviceError.
   FrameResult track(const StereoFrame& frame);
 
+  /// Forgets all earlier frames: the next one may have any stamp, and starts a new segment at the last pose, which is
+  /// no measurement. For clocks that were set, and recordings that were joined.
+  void restart();
+
   /// Details of the frame tracked last, read back from the device; empty before the first frame.
   FrameDetails details() const;
 

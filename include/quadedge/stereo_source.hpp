@@ -15,6 +15,7 @@ struct StereoSource {
   bool pipe = false;        ///< standard input: binary PGM or PPM images in succession, left before right
   std::string split;  ///< "left-right" or "top-bottom": arrangement of the two views in an image of `video` or `pipe`
   std::string calibration;  ///< files of read_calibration()
+  bool rectified = false;   ///< the images are rectified, see read_calibration()
   double fov = 0;           ///< see make_rig()
   std::string mask;         ///< files of mask_rig(); empty: none
   /// Pairs per second: timestamps are 0, 1 / fps ... for a pipe and for images without timestamps, and replace those of
@@ -22,6 +23,9 @@ struct StereoSource {
   /// Dataset::warnings. 0: the timestamps of the source.
   double fps = 0;
   std::string times;  ///< file with one row per pair, seconds or EuRoC's data.csv, that replaces all other timestamps
+  bool restarts = false;  ///< whether stamps may go back, see Dataset::restarts
+  /// Largest difference between the stamps of a pair of image files [ms]; others are dropped. 0: half the usual period.
+  double tolerance_ms = 0;
   /// For a pipe: whether the oldest of the waiting pairs is dropped when pairs arrive faster than they are read.
   /// Otherwise the writer waits, and every pair is read.
   bool live = false;

@@ -19,7 +19,7 @@ struct StampedPose {
 using Trajectory = std::vector<StampedPose>;
 
 /// TUM format: `timestamp tx ty tz qx qy qz qw`, seconds with 9 decimals; '#' starts a comment. A comment `# segment N`
-/// precedes the poses of each segment after the first; other programs skip it.
+/// precedes the poses of each segment after the first; other programs skip it. Stamps increase within a segment.
 /// \throws DataError that names file and line, what was found and what was expected.
 Trajectory read_tum(const std::string& path);
 /// Written to a temporary name and renamed. \throws DataError if the file cannot be written (including a full disk).

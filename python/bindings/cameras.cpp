@@ -41,8 +41,8 @@ void bind_camera(nb::module_& module) {
 }
 
 StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std::optional<std::pair<int, int>>& size,
-                        int max_value) {
-  StereoCalibration calibration = read_calibration(files_of(files));
+                        int max_value, bool rectified) {
+  StereoCalibration calibration = read_calibration(files_of(files), rectified);
   for (const StereoCalibration& other : std::exchange(calibration.other_sizes, {})) {
     const PinholeCamera& camera = other.left.camera;
     if (size && camera.width == size->first && camera.height == size->second) calibration = other;
@@ -86,11 +86,11 @@ void bind_rig(nb::module_& module) {
          "right_from_left that is not a rigid transform.")
       .def_static(
           "from_file", &rig_from_file, "files"_a, nb::kw_only(), "fov"_a = 0.0, "mask"_a = nb::none(),
-          "size"_a = nb::none(), "max_value"_a = kMaxValue8,
+          "size"_a = nb::none(), "max_value"_a = kMaxValue8, "rectified"_a = false,
           nb::sig(
               "def from_file(files: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike], *, fov: float = "
               "0, mask: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike] | None = None, size: "
-              "tuple[int, int] | None = None, max_value: int = 255) -> Rig"),
+              "tuple[int, int] | None = None, max_value: int = 255, rectified: bool = False) -> Rig"),
           "Reads a calibration: Kalibr, OpenCV, ROS (camera_info), EuRoC or the native format, recognised by "
           "content.\n\n"
           "files: one file, or a pair (left, right).\n"
@@ -99,7 +99,8 @@ void bind_rig(nb::module_& module) {
           "the scale at the optical axis.\n"
           "mask: image file of the size of the recorded images, black where no edges are detected, or a pair.\n"
           "size: (width, height) of the recorded images [px], where the file does not specify it.\n"
-          "max_value: value of a saturated pixel, as in the constructor.\n\n"
+          "max_value: value of a saturated pixel, as in the constructor.\n"
+          "rectified: the images are rectified, and the files' projection matrices P describe them.\n\n"
           "Raises DataError that names the file, the entry, what was found and what was expected.")
       .def_ro("left", &StereoRig::left, "Left pinhole camera.")
       .def_ro("right", &StereoRig::right, "Right pinhole camera.")

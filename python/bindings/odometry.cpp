@@ -57,6 +57,10 @@ class Odometry {
     }
     return result;
   }
+  void restart() {
+    const std::lock_guard<std::mutex> alone(in_use_);
+    running().odometry.restart();
+  }
   Trajectory map_trajectory() {
     const std::lock_guard<std::mutex> alone(in_use_);
     return map().trajectory();
@@ -400,6 +404,9 @@ void bind_odometry(nb::module_& module) {
       .def_prop_ro("device", &Odometry::device, "The device in use, a DeviceInfo. Raises UsageError after close().")
       .def_prop_ro("variants", &Odometry::variants,
                    "Kernel variant of every stage, by the stage's name; empty on the plain C++ reference.")
+      .def("restart", &Odometry::restart,
+           "Forgets all earlier frames: the next one may have any stamp, and starts a new segment at the last pose,\n"
+           "which is no measurement. For clocks that were set, and recordings that were joined.")
       .def("close", &Odometry::close, kReleasesGil,
            "Releases the device memory. Results remain valid; track(), edges() and details() raise UsageError\n"
            "afterwards.")

@@ -106,6 +106,63 @@ def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
     assert "2 left images without a right one" in str(pairing)
 
 
+def test_a_stamp_that_goes_back_starts_a_segment(room, frames, tmp_path):
+    """The clock is set back by 0.12 s after the third frame, one right image earlier than the left one is recorded."""
+    stamps = [1_000_000_000 + 50_000_000 * i - (120_000_000 if i > 2 else 0) for i in range(6)]
+    with BagWriter(tmp_path / "room", "ros1") as bag:
+        write_infos(bag, room.rig)
+        for i in range(6):
+            bag.image("/stereo/left/image_raw", stamps[i], frames[i].left)
+            bag.image("/stereo/right/image_raw", stamps[i] + 1000, frames[i].right)
+    recording = quadedge.bag.open_bag(bag.path, restarts=True)
+    assert recording.stamps_ns == stamps and recording.pairing.restarts == [3]
+    assert "6 pairs in 2 segments" in str(recording.pairing)
+    segments = []
+    with quadedge.Odometry(recording.rig) as odometry:
+        for frame, original in zip(recording, frames):
+            numpy.testing.assert_array_equal(frame.left, original.left)
+            if frame.starts_segment:
+                odometry.restart()
+            segments.append(odometry.track(frame.stamp_ns, frame.left, frame.right).segment)
+    assert segments == [0, 0, 0, 1, 1, 1]
+    done = subprocess.run([sys.executable, "-m", "quadedge.bag", bag.path, "--restarts", "-o", tmp_path / "out"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    rows = (tmp_path / "out" / "trajectory.txt").read_text().splitlines()
+    assert rows[4] == "# segment 1"
+    assert [row.split()[0] for row in rows if row[0] != "#"] == [f"{ns / 1e9:.9f}" for ns in stamps]
+
+
+def test_parts_of_both_cameras_are_paired_in_turn():
+    pair = quadedge.bag.pairing.pair_parts
+    # The right camera has no image of the second part but two of the first that the left one lacks.
+    parts = pair([10, 20, 5, 15, 7], [10, 20, 30, 40, 15, 6], 2)
+    assert parts.pairs == [(0, 0), (1, 1), (3, 4), (4, 5)] and parts.restarts == [2, 3]
+    assert parts.left_dropped == 1 and parts.right_dropped == 2
+    assert pair([10, 0, 20], [10, 20, 0], 0).pairs == [(0, 0), (2, 1)]
+
+
+def test_rectified_images_on_image_raw_are_seen(room, frames, tmp_path):
+    """camera_info states lenses that distort; the images are those of P."""
+    with BagWriter(tmp_path / "room", "mcap") as bag:
+        for side, camera, tx in (("left", room.rig.left, 0.0),
+                                 ("right", room.rig.right, -room.rig.right.fx * room.rig.baseline)):
+            k, p = camera.matrix.copy(), numpy.hstack([camera.matrix, [[tx], [0], [0]]])
+            k[1, 2] += 9.0 if side == "right" else 0.0
+            region = bag.store.types["sensor_msgs/msg/RegionOfInterest"](0, 0, 0, 0, False)
+            bag.write(f"/{side}/camera_info", "sensor_msgs/msg/CameraInfo", header=bag.header(1), height=camera.height,
+                      width=camera.width, distortion_model="plumb_bob", binning_x=0, binning_y=0, roi=region,
+                      d=numpy.array([-0.3, 0.1, 0.0, 0.0, 0.0]), k=k.reshape(-1), r=numpy.eye(3).reshape(-1),
+                      p=p.reshape(-1))
+            for frame in frames[:3]:
+                bag.image(f"/{side}/image_raw", frame.stamp_ns + 1, getattr(frame, side))
+    command = [sys.executable, "-m", "quadedge.bag", bag.path, "-o"]
+    done = subprocess.run([*command, tmp_path / "raw"], capture_output=True, text=True)
+    assert "--rectified takes P" in done.stderr
+    done = subprocess.run([*command, tmp_path / "rectified", "--rectified"], capture_output=True, text=True)
+    assert done.returncode == 0 and "--rectified" not in done.stderr, done.stderr
+
+
 def test_pairs_are_mutually_nearest():
     pair = quadedge.bag.pair_stamps
     assert pair([10, 20, 30], [11, 29, 21], 5).pairs == [(0, 0), (1, 2), (2, 1)]

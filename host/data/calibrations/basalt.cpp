@@ -22,6 +22,8 @@ const std::vector<Model>& models() {
       {"kb4", LensModel::equidistant, {"k1", "k2", "k3", "k4"}},
       {"ds", LensModel::double_sphere, {"xi", "alpha"}},
       {"eucm", LensModel::extended_unified, {"alpha", "beta"}},
+      {"ucm", LensModel::extended_unified, {"alpha"}},
+      {"fov", LensModel::field_of_view, {"w"}},
   };
   return all;
 }
@@ -36,15 +38,15 @@ StatedLens read_lens(const YamlMap& camera, ImageSize size) {
     stated.lens.camera = {numbers.number("fx"), numbers.number("fy"), numbers.number("cx"),
                           numbers.number("cy"), size.width,           size.height};
     for (const char* name : model.parameters) stated.lens.parameters.push_back(numbers.number(name));
+    if (type == "ucm") stated.lens.parameters.push_back(1);  // beta
     return stated;
   }
-  camera.complain("camera_type", in_quotes(type), "pinhole, pinhole-radtan8, kb4, ds or eucm");
+  camera.complain("camera_type", in_quotes(type), "pinhole, pinhole-radtan8, kb4, ds, eucm, ucm or fov");
 }
 
 Eigen::Isometry3d read_pose(const YamlMap& pose) {
-  const Eigen::Quaterniond turn(pose.number("qw"), pose.number("qx"), pose.number("qy"), pose.number("qz"));
-  if (std::abs(turn.norm() - 1) > 1e-3) pose.complain("qw", "a quaternion of length " + format_exact(turn.norm()), "1");
-  Eigen::Isometry3d result(turn.normalized());
+  Eigen::Isometry3d result(
+      Eigen::Quaterniond(pose.number("qw"), pose.number("qx"), pose.number("qy"), pose.number("qz")));
   result.translation() << pose.number("px"), pose.number("py"), pose.number("pz");
   return result;
 }

@@ -43,15 +43,18 @@ void apply_roi_and_binning(const YamlMap& camera, PinholeCamera& lens) {
 }
 
 StatedLens read_lens(const YamlMap& camera, const Names& names) {
+  const ImageSize size = camera.size(names.width, names.height);
+  const std::string model = camera.word("distortion_model");
   StatedLens stated(camera.file(), names.k, names.d);
   Lens& lens = stated.lens;
-  const ImageSize size = camera.size(names.width, names.height);
-  lens.camera.width = size.width;
-  lens.camera.height = size.height;
-  set_intrinsics(camera, names.k, lens.camera);
-  const std::string model = camera.word("distortion_model");
+  if (model == "none" || model.empty()) {
+    lens.camera.width = size.width;
+    lens.camera.height = size.height;
+    set_intrinsics(camera, names.k, lens.camera);
+  } else {
+    stated = read_matrix_lens(camera, names.k, names.d, size);
+  }
   lens.model = model_of_word(camera, "distortion_model", model);
-  if (model != "none" && !model.empty()) lens.parameters = camera.matrix(names.d).values;
   if (lens.model == LensModel::equidistant)
     while (lens.parameters.size() > 4 && lens.parameters.back() == 0) lens.parameters.pop_back();
   apply_roi_and_binning(camera, lens.camera);
@@ -82,6 +85,12 @@ StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right) {
   stated.right = read_lens(right, right_names);
   stated.right_from_left =
       right_from_left_of(read_rectification(left, left_names), read_rectification(right, right_names));
+  StatedCalibration rectified =
+      rectified_cameras(left, left_names.p, left.size(left_names.width, left_names.height), right, right_names.p,
+                        right.size(right_names.width, right_names.height));
+  apply_roi_and_binning(left, rectified.left.lens.camera);
+  apply_roi_and_binning(right, rectified.right.lens.camera);
+  stated.of_rectified.push_back(std::move(rectified));
   return stated;
 }
 

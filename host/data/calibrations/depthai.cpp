@@ -16,13 +16,8 @@ constexpr ImageSize kResolutions[] = {{1920, 1200}, {1920, 1080}, {1280, 800}, {
                                       {640, 400},   {640, 360},   {480, 300},  {416, 416},  {320, 200}};
 
 StatedLens read_lens(const YamlMap& camera) {
-  StatedLens stated(camera.file(), camera.name("intrinsicMatrix"), camera.name("distortionCoeff"));
+  StatedLens stated = read_matrix_lens(camera, "intrinsicMatrix", "distortionCoeff", camera.size("width", "height"));
   Lens& lens = stated.lens;
-  const ImageSize size = camera.size("width", "height");
-  lens.camera.width = size.width;
-  lens.camera.height = size.height;
-  set_intrinsics(camera, "intrinsicMatrix", lens.camera);
-  lens.parameters = camera.matrix("distortionCoeff").values;
   if (camera.number_or("cameraType", 0) == 1) {
     lens.model = LensModel::equidistant;
     lens.parameters.resize(std::min<std::size_t>(lens.parameters.size(), 4));

@@ -7,6 +7,7 @@
 
 #include "common/calibration.hpp"
 #include "data/file_list.hpp"
+#include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
@@ -223,6 +224,7 @@ StereoCalibration judged(const StatedCalibration& stated, const std::string& for
   calibration.left = stated.left.lens;
   calibration.right = stated.right.lens;
   calibration.right_from_left = stated.right_from_left;
+  calibration.right_from_left.linear() = nearest_rotation(stated.right_from_left.linear(), files);
   calibration.body_from_left = stated.body_from_left;
   calibration.format = format;
   calibration.files = files;
@@ -230,6 +232,8 @@ StereoCalibration judged(const StatedCalibration& stated, const std::string& for
   calibration.right_from_left = rounded_transform(calibration.right_from_left);
   for (const StatedCalibration& other : stated.other_sizes)
     calibration.other_sizes.push_back(judged(other, format, files));
+  for (const StatedCalibration& other : stated.of_rectified)
+    calibration.of_rectified.push_back(judged(other, format, files));
   return calibration;
 }
 
@@ -250,6 +254,19 @@ void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera
   result.cy = k[5];
 }
 
+StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,
+                            ImageSize size) {
+  StatedLens stated(camera.file(), camera.name(matrix), camera.name(coefficients));
+  stated.lens.camera.width = size.width;
+  stated.lens.camera.height = size.height;
+  set_intrinsics(camera, matrix, stated.lens.camera);
+  const YamlMatrix values = camera.matrix(coefficients);
+  if (values.rows > 1 && values.columns > 1)
+    camera.complain(coefficients, "a matrix of several rows and columns", "one row of coefficients");
+  stated.lens.parameters = values.values;
+  return stated;
+}
+
 Eigen::Isometry3d right_from_left_of(const Rectification& left, const Rectification& right) {
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   const Eigen::Matrix3d right_from_rectified = right.rectified_from_camera.transpose();
@@ -266,6 +283,21 @@ Eigen::Vector3d projection_offset(const YamlMap& camera, const std::string& key)
   if (p[8] != 0 || p[9] != 0 || p[10] != 1)
     camera.complain(key, "a last row other than 0 0 1", "that of a rectified camera");
   return {(p[3] - p[2] * p[11]) / p[0], (p[7] - p[6] * p[11]) / p[5], p[11]};
+}
+
+StatedCalibration rectified_cameras(const YamlMap& left, const std::string& left_key, ImageSize left_size,
+                                    const YamlMap& right, const std::string& right_key, ImageSize right_size) {
+  const auto lens = [](const YamlMap& camera, const std::string& key, ImageSize size) {
+    StatedLens stated(camera.file(), key, key);
+    const auto p = camera.matrix(key, 3, 4);
+    stated.lens.camera = {p[0], p[5], p[2], p[6], size.width, size.height};
+    return stated;
+  };
+  StatedCalibration rectified;
+  rectified.left = lens(left, left_key, left_size);
+  rectified.right = lens(right, right_key, right_size);
+  rectified.right_from_left.translation() = projection_offset(right, right_key) - projection_offset(left, left_key);
+  return rectified;
 }
 
 void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize right, const std::string& images) {
@@ -292,11 +324,15 @@ void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize r
   };
   set(calibration.left.camera, left, "left");
   set(calibration.right.camera, right, "right");
+  for (StereoCalibration& rectified : calibration.of_rectified) {
+    if (rectified.left.camera.width == 0) set(rectified.left.camera, left, "left");
+    if (rectified.right.camera.width == 0) set(rectified.right.camera, right, "right");
+  }
 }
 
 }  // namespace data
 
-StereoCalibration read_calibration(const std::string& files) {
+StereoCalibration read_calibration(const std::string& files, bool rectified) {
   std::vector<data::CalibrationText> texts;
   for (const std::string& file : data::file_list(files)) texts.push_back(data::read_calibration_text(file));
   for (const data::CalibrationForm& form : data::calibration_forms()) {
@@ -305,7 +341,10 @@ StereoCalibration read_calibration(const std::string& files) {
       data::fail(texts[0].file, "the calibration of one camera (" + std::string(form.contents) + ")",
                  "those of both cameras: LEFT,RIGHT");
     }
-    return data::judged(form.read(texts), form.name, files);
+    const StereoCalibration calibration = data::judged(form.read(texts), form.name, files);
+    if (rectified && calibration.of_rectified.empty())
+      data::fail(files, "no projection matrices of rectified images", "P as in ROS's camera_info, or no --rectified");
+    return rectified ? calibration.of_rectified.front() : calibration;
   }
   data::fail_unknown(texts);
 }

@@ -36,7 +36,8 @@ struct StatedCalibration {
   StatedLens left, right;
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Isometry3d> body_from_left;
-  std::vector<StatedCalibration> other_sizes;  ///< the same cameras at other image sizes
+  std::vector<StatedCalibration> other_sizes;   ///< the same cameras at other image sizes
+  std::vector<StatedCalibration> of_rectified;  ///< the cameras of rectified images, if stated: none or one
 };
 
 /// A form of calibration files.
@@ -95,6 +96,10 @@ LensModel model_of_word(const YamlMap& camera, const std::string& key, const std
 /// Rows of a 3 x 3 matrix. \throws DataError for numbers that are not those of fx 0 cx 0 fy cy 0 0 1
 void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result);
 
+/// A camera by its matrix and its coefficients in OpenCV's order, of which there may be none.
+StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,
+                            ImageSize size);
+
 /// What a rectifying calibration states of a camera: the rotation of its images, and the position of the rectified
 /// camera in units of the baseline's.
 struct Rectification {
@@ -107,6 +112,10 @@ Eigen::Isometry3d right_from_left_of(const Rectification& left, const Rectificat
 
 /// The fourth column of a projection matrix K [I | t] as t [m]. \throws DataError for another matrix
 Eigen::Vector3d projection_offset(const YamlMap& camera, const std::string& key);
+
+/// The cameras of rectified images by their projection matrices. \throws DataError as projection_offset()
+StatedCalibration rectified_cameras(const YamlMap& left, const std::string& left_key, ImageSize left_size,
+                                    const YamlMap& right, const std::string& right_key, ImageSize right_size);
 
 /// Rotation of a rotation vector (axis times radians). \throws DataError that names `where`, for more than a half turn,
 /// which suggests degrees

@@ -30,7 +30,8 @@ void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& ov
 
 }  // namespace
 
-StatedCalibration read_kalibr_chain(const YamlMap& chain) {
+StatedCalibration read_kalibr_chain(const YamlMap& whole) {
+  const YamlMap chain = whole.as("a Kalibr chain of two cameras, cam0 and cam1");
   const YamlMap left = chain.map("cam0"), right = chain.map("cam1");
   StatedCalibration calibration;
   calibration.left = read_named_lens(left, "distortion_coeffs");

@@ -16,22 +16,8 @@ ImageSize size_of(const YamlMap& cameras, const std::string& key) {
   return {static_cast<int>(values[0]), static_cast<int>(values[1])};
 }
 
-StatedLens read_rectified(const YamlMap& cameras, const std::string& number) {
-  StatedLens stated(cameras.file(), "P_rect_" + number, "P_rect_" + number);
-  const ImageSize size = size_of(cameras, "S_rect_" + number);
-  const auto p = cameras.matrix("P_rect_" + number, 3, 4);
-  stated.lens.camera = {p[0], p[5], p[2], p[6], size.width, size.height};
-  return stated;
-}
-
 StatedLens read_recording(const YamlMap& cameras, const std::string& number) {
-  StatedLens stated(cameras.file(), "K_" + number, "D_" + number);
-  const ImageSize size = size_of(cameras, "S_" + number);
-  stated.lens.camera.width = size.width;
-  stated.lens.camera.height = size.height;
-  set_intrinsics(cameras, "K_" + number, stated.lens.camera);
-  stated.lens.parameters = cameras.matrix("D_" + number).values;
-  return stated;
+  return read_matrix_lens(cameras, "K_" + number, "D_" + number, size_of(cameras, "S_" + number));
 }
 
 Eigen::Isometry3d camera_from_reference(const YamlMap& cameras, const std::string& number) {
@@ -44,11 +30,8 @@ Eigen::Isometry3d camera_from_reference(const YamlMap& cameras, const std::strin
 }  // namespace
 
 StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& left, const std::string& right) {
-  StatedCalibration rectified;
-  rectified.left = read_rectified(cameras, left);
-  rectified.right = read_rectified(cameras, right);
-  rectified.right_from_left.translation() =
-      projection_offset(cameras, "P_rect_" + right) - projection_offset(cameras, "P_rect_" + left);
+  StatedCalibration rectified = rectified_cameras(cameras, "P_rect_" + left, size_of(cameras, "S_rect_" + left),
+                                                  cameras, "P_rect_" + right, size_of(cameras, "S_rect_" + right));
   if (cameras.has("K_" + left) && cameras.has("K_" + right) && cameras.has("S_" + left)) {
     StatedCalibration recording;
     recording.left = read_recording(cameras, left);

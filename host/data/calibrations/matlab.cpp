@@ -3,7 +3,6 @@
 /// row vectors, TranslationOfCamera2 [mm]. Pixels count from 1.
 
 #include "data/calibrations/forms.hpp"
-#include "data/layout.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
@@ -73,8 +72,7 @@ StatedCalibration read_matlab(const CalibrationText& text) {
   const auto r = required(text, "RotationOfCamera2", 0, all, 9), t = required(text, "TranslationOfCamera2", 0, all, 3);
   constexpr double kMetres = 1e-3;  // MATLAB's calibrator works in millimetres
   // Column by column, the transpose: MATLAB multiplies row vectors from the left.
-  stated.right_from_left.linear() =
-      nearest_rotation(Eigen::Map<const Eigen::Matrix3d>(r.data()), text.file + " (RotationOfCamera2)");
+  stated.right_from_left.linear() = Eigen::Map<const Eigen::Matrix3d>(r.data());
   stated.right_from_left.translation() = kMetres * Eigen::Vector3d(t[0], t[1], t[2]);
   return stated;
 }

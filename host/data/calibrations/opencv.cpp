@@ -3,19 +3,19 @@
 /// metres. YAML, XML or JSON. Optional: image_width and image_height; distortion_model: equidistant for
 /// fisheye::stereoCalibrate.
 
-#include <algorithm>
-
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
 namespace {
 
-/// The names that programs give to the matrices of camera N, and to the transform.
-const std::vector<std::string> kCameraNames = {"M", "K", "cameraMatrix", "camera_matrix_", "CM"},
-                               kDistortionNames = {"D", "distCoeffs", "dist_coeffs_", "distortion_coefficients_"},
-                               kRotationNames = {"R", "rotation_matrix"},
-                               kTranslationNames = {"T", "translation_vector", "t"};
+/// The names that programs give to the matrices of a camera, what they append for the left and right one, and the names
+/// of the transform.
+using Words = std::vector<std::string>;
+const Words kCameraNames = {"M", "K", "cameraMatrix", "camera_matrix", "CM"},
+            kDistortionNames = {"D", "distCoeffs", "dist_coeffs", "distortion_coefficients", "dist"},
+            kLeft = {"1", "_1", "L", "_l", "_left", "Left"}, kRight = {"2", "_2", "R", "_r", "_right", "Right"},
+            kRotationNames = {"R", "rotation_matrix"}, kTranslationNames = {"T", "translation_vector", "t"};
 
 /// An entry of one of the files.
 struct Place {
@@ -23,31 +23,30 @@ struct Place {
   std::string key;
 };
 
-std::optional<Place> find(const std::vector<CalibrationText>& texts, const std::vector<std::string>& names,
-                          const std::string& number) {
+std::optional<Place> find(const std::vector<CalibrationText>& texts, const Words& names, const Words& sides = {""}) {
   for (const CalibrationText& text : texts)
     for (const std::string& name : names)
-      if (text.map->has(name + number)) return Place{&*text.map, name + number};
+      for (const std::string& side : sides)
+        if (text.has((name + side).c_str())) return Place{&*text.map, name + side};
   return std::nullopt;
 }
 
-Place required(const std::vector<CalibrationText>& texts, const std::vector<std::string>& names,
-               const std::string& number) {
-  if (const auto place = find(texts, names, number)) return *place;
+Place required(const std::vector<CalibrationText>& texts, const Words& names, const Words& sides = {""}) {
+  if (const auto place = find(texts, names, sides)) return *place;
   std::string files;
   for (const CalibrationText& text : texts) files += (files.empty() ? "" : ", ") + text.file;
-  fail(files, "no entry " + names[0] + number, "M1 D1 M2 D2 R T, or K1 or cameraMatrix1, distCoeffs1 ...");
+  fail(files, "no entry " + names[0] + sides[0], "M1 D1 M2 D2 R T, or K1 or cameraMatrix1, distCoeffs1 ...");
 }
 
-StatedLens read_lens(const std::vector<CalibrationText>& texts, const std::string& number) {
-  const Place k = required(texts, kCameraNames, number), d = required(texts, kDistortionNames, number);
+StatedLens read_lens(const std::vector<CalibrationText>& texts, const Words& side) {
+  const Place k = required(texts, kCameraNames, side), d = required(texts, kDistortionNames, side);
   StatedLens stated(k.map->file(), k.key, d.key);
   set_intrinsics(*k.map, k.key, stated.lens.camera);
   const YamlMatrix coefficients = d.map->matrix(d.key);
   if (coefficients.rows > 1 && coefficients.columns > 1)
     d.map->complain(d.key, "a matrix of several rows and columns", "one row of coefficients");
   stated.lens.parameters = coefficients.values;
-  if (const auto model = find(texts, {"distortion_model"}, "")) {
+  if (const auto model = find(texts, {"distortion_model"})) {
     const std::string word = model->map->word(model->key);
     if (word == "equidistant" || word == "fisheye") {
       stated.lens.model = LensModel::equidistant;
@@ -57,7 +56,7 @@ StatedLens read_lens(const std::vector<CalibrationText>& texts, const std::strin
                            "plumb_bob, radtan, rational_polynomial, equidistant or fisheye");
     }
   }
-  if (const auto width = find(texts, {"image_width"}, "")) {
+  if (const auto width = find(texts, {"image_width"})) {
     const ImageSize size = width->map->size("image_width", "image_height");
     stated.lens.camera.width = size.width;
     stated.lens.camera.height = size.height;
@@ -74,21 +73,22 @@ Eigen::Matrix3d read_rotation(const Place& place) {
 }  // namespace
 
 bool is_opencv_stereo(const CalibrationText& text) {
-  if (!text.map) return false;
-  const auto has_any = [&](const std::vector<std::string>& names, const char* number) {
-    return std::any_of(names.begin(), names.end(), [&](const auto& name) { return text.map->has(name + number); });
-  };
-  return has_any(kCameraNames, "1") || has_any(kCameraNames, "2") || has_any(kRotationNames, "") ||
-         has_any(kTranslationNames, "");
+  return find({text}, kCameraNames, kLeft) || find({text}, kCameraNames, kRight) || find({text}, kRotationNames) ||
+         find({text}, kTranslationNames);
 }
 
 StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts) {
   StatedCalibration stated;
-  stated.left = read_lens(texts, "1");
-  stated.right = read_lens(texts, "2");
-  stated.right_from_left.linear() = read_rotation(required(texts, kRotationNames, ""));
-  const Place translation = required(texts, kTranslationNames, "");
+  stated.left = read_lens(texts, kLeft);
+  stated.right = read_lens(texts, kRight);
+  stated.right_from_left.linear() = read_rotation(required(texts, kRotationNames));
+  const Place translation = required(texts, kTranslationNames);
   stated.right_from_left.translation() = translation.map->vector(translation.key);
+  if (const auto left = find(texts, {"P"}, kLeft), right = find(texts, {"P"}, kRight); left && right) {
+    const auto size = [](const StatedLens& lens) { return ImageSize{lens.lens.camera.width, lens.lens.camera.height}; };
+    stated.of_rectified.push_back(
+        rectified_cameras(*left->map, left->key, size(stated.left), *right->map, right->key, size(stated.right)));
+  }
   return stated;
 }
 

@@ -25,7 +25,13 @@ StatedLens read_lens(const YamlMap& settings, const std::string& prefix, bool is
                  settings.number(prefix + "cy"),
                  size.width,
                  size.height};
-  if (is_rectified || !settings.has(prefix + "k1")) return stated;
+  if (is_rectified) {
+    for (const char* name : {"k1", "k2", "k3", "p1", "p2"})
+      if (settings.has(prefix + name) && settings.number(prefix + name) != 0)
+        settings.complain(prefix + name, "distortion of rectified images", "0, or Stereo.T_c1_c2 and Camera2.fx ...");
+    return stated;
+  }
+  if (!settings.has(prefix + "k1")) return stated;
   const std::string type = settings.has("Camera.type") ? settings.word("Camera.type") : "PinHole";
   if (type == "KannalaBrandt8")
     lens.model = LensModel::equidistant;
@@ -40,13 +46,7 @@ StatedLens read_lens(const YamlMap& settings, const std::string& prefix, bool is
 
 /// LEFT.K, LEFT.D, LEFT.R, LEFT.P of ORB-SLAM2: what camera_info calls K, D, R, P.
 StatedLens read_recording_lens(const YamlMap& settings, const std::string& side) {
-  StatedLens stated(settings.file(), side + "K", side + "D");
-  const ImageSize size = settings.size(side + "width", side + "height");
-  stated.lens.camera.width = size.width;
-  stated.lens.camera.height = size.height;
-  set_intrinsics(settings, side + "K", stated.lens.camera);
-  stated.lens.parameters = settings.matrix(side + "D").values;
-  return stated;
+  return read_matrix_lens(settings, side + "K", side + "D", settings.size(side + "width", side + "height"));
 }
 
 }  // namespace
@@ -60,6 +60,8 @@ StatedCalibration read_orb_slam_settings(const YamlMap& settings) {
       return Rectification{settings.rotation(side + "R"), projection_offset(settings, side + "P")};
     };
     stated.right_from_left = right_from_left_of(rectification("LEFT."), rectification("RIGHT."));
+    stated.of_rectified.push_back(rectified_cameras(settings, "LEFT.P", settings.size("LEFT.width", "LEFT.height"),
+                                                    settings, "RIGHT.P", settings.size("RIGHT.width", "RIGHT.height")));
     return stated;
   }
   const std::string left = settings.has("Camera1.fx") ? "Camera1." : "Camera.";
@@ -67,20 +69,11 @@ StatedCalibration read_orb_slam_settings(const YamlMap& settings) {
     if (!settings.has(transform)) continue;
     stated.left = read_lens(settings, left, false);
     stated.right = read_lens(settings, "Camera2.", false);
-    // Tlr has three rows in some settings.
-    const YamlMatrix rows = settings.matrix(transform);
-    if (rows.rows == 3) {
-      const auto t = settings.matrix(transform, 3, 4);
-      const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> matrix(t.data());
-      Eigen::Isometry3d left_from_right = Eigen::Isometry3d::Identity();
-      left_from_right.linear() = matrix.leftCols<3>();
-      left_from_right.translation() = matrix.col(3);
-      stated.right_from_left = left_from_right.inverse();
-    } else {
-      stated.right_from_left = settings.transform(transform).inverse();
-    }
+    stated.right_from_left = settings.transform(transform).inverse();
     return stated;
   }
+  for (const char* depth : {"DepthMapFactor", "RGBD.DepthMapFactor"})
+    if (settings.has(depth)) settings.complain(depth, "the settings of a depth camera", "those of two cameras");
   stated.left = stated.right = read_lens(settings, left, true);
   if (settings.has("Stereo.b")) {
     stated.right_from_left.translation().x() = -settings.number("Stereo.b");

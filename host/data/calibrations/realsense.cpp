@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "data/calibrations/forms.hpp"
-#include "data/layout.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
@@ -23,7 +22,7 @@ std::vector<double> numbers_in(const std::string& text, const std::string& file,
 std::vector<StatedLens> read_stream(const CalibrationText& text, const std::vector<Line>& lines,
                                     const std::string& stream) {
   std::vector<StatedLens> found;
-  bool is_inside = false;
+  bool is_inside = false, is_inverse = false;
   for (const Line& line : lines) {
     const auto words = split(line.text, " \t\r:");
     if (words.empty()) continue;
@@ -41,9 +40,14 @@ std::vector<StatedLens> read_stream(const CalibrationText& text, const std::vect
     if (words[0] == "PPY") lens.camera.cy = number();
     if (words[0] == "Fx") lens.camera.fx = number();
     if (words[0] == "Fy") lens.camera.fy = number();
-    if (words[0] == "Distortion" && line.text.find("Kannala") != std::string::npos) lens.model = LensModel::equidistant;
+    if (words[0] == "Distortion") {
+      is_inverse = line.text.find("Inverse") != std::string::npos;
+      if (line.text.find("Kannala") != std::string::npos) lens.model = LensModel::equidistant;
+    }
     if (words[0] == "Coeffs") {
       lens.parameters = numbers_in(after_colon(line.text), text.file, line.number);
+      if (is_inverse && std::any_of(lens.parameters.begin(), lens.parameters.end(), [](double k) { return k != 0; }))
+        fail(text.file, line.number, "coefficients of the inverse distortion", "zeros, or another model");
       if (lens.model == LensModel::equidistant) lens.parameters.resize(4);
     }
   }
@@ -66,16 +70,14 @@ Eigen::Isometry3d read_extrinsics(const CalibrationText& text, const std::vector
     if (line.find("Extrinsic") == std::string::npos || first == std::string::npos || second == std::string::npos ||
         first > second || i + 5 >= lines.size())
       continue;
-    Eigen::Matrix3d rotation;
+    Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
     for (std::size_t row = 0; row < 3; ++row) {
       const auto values = numbers_in(lines[i + 2 + row].text, text.file, lines[i + 2 + row].number);
       if (values.size() != 3) fail(text.file, lines[i + 2 + row].number, counted(values.size(), "number"), "3");
-      rotation.row(static_cast<int>(row)) << values[0], values[1], values[2];
+      transform.linear().row(static_cast<int>(row)) << values[0], values[1], values[2];
     }
     const auto t = numbers_in(after_colon(lines[i + 5].text), text.file, lines[i + 5].number);
     if (t.size() != 3) fail(text.file, lines[i + 5].number, counted(t.size(), "number"), "a translation vector");
-    Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-    transform.linear() = nearest_rotation(rotation, text.file + ":" + std::to_string(lines[i].number));
     transform.translation() << t[0], t[1], t[2];
     return transform;
   }

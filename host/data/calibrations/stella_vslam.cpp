@@ -21,11 +21,7 @@ Section section(const YamlMap& settings, const std::string& name) {
 }
 
 StatedLens read_recording_lens(const Section& rectifier, const std::string& side, ImageSize size) {
-  StatedLens stated(rectifier.map.file(), rectifier.key("K_" + side), rectifier.key("D_" + side));
-  stated.lens.camera.width = size.width;
-  stated.lens.camera.height = size.height;
-  set_intrinsics(rectifier.map, rectifier.key("K_" + side), stated.lens.camera);
-  stated.lens.parameters = rectifier.map.matrix(rectifier.key("D_" + side)).values;
+  StatedLens stated = read_matrix_lens(rectifier.map, rectifier.key("K_" + side), rectifier.key("D_" + side), size);
   if (rectifier.map.has(rectifier.key("model")) && rectifier.map.word(rectifier.key("model")) == "fisheye")
     stated.lens.model = LensModel::equidistant;
   return stated;
@@ -49,6 +45,9 @@ StatedCalibration read_stella_vslam(const YamlMap& settings) {
     left.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_left"));
     right.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_right"));
   } else {
+    for (const char* name : {"k1", "k2", "k3", "k4", "p1", "p2"})
+      if (map.has(camera.key(name)) && map.number(camera.key(name)) != 0)
+        map.complain(camera.key(name), "distortion without StereoRectifier", "0, as rectified images have it");
     stated.left = StatedLens(map.file(), map.name(camera.key("fx")), map.name(camera.key("fx")));
     stated.left.lens.camera = {focal,
                                map.number(camera.key("fy")),

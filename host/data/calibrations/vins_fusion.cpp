@@ -25,6 +25,9 @@ StatedLens read_camodocal(const std::string& file) {
   if (model == "PINHOLE") {
     k = read(projection, {"fx", "fy", "cx", "cy"});
     lens.parameters = read(camera.map("distortion_parameters"), {"k1", "k2", "p1", "p2"});
+  } else if (model == "PINHOLE_FULL") {
+    k = read(projection, {"fx", "fy", "cx", "cy"});
+    lens.parameters = read(camera.map("distortion_parameters"), {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"});
   } else if (model == "KANNALA_BRANDT") {
     k = read(projection, {"mu", "mv", "u0", "v0"});
     lens.model = LensModel::equidistant;
@@ -35,7 +38,7 @@ StatedLens read_camodocal(const std::string& file) {
     lens.parameters = read(camera.map("distortion_parameters"), {"k1", "k2", "p1", "p2"});
     lens.parameters.insert(lens.parameters.begin(), camera.map("mirror_parameters").number("xi"));
   } else {
-    camera.complain("model_type", in_quotes(model), "PINHOLE, KANNALA_BRANDT or MEI");
+    camera.complain("model_type", in_quotes(model), "PINHOLE, PINHOLE_FULL, KANNALA_BRANDT or MEI");
   }
   lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
   return stated;

@@ -39,6 +39,9 @@ def _parser() -> argparse.ArgumentParser:
                         help="the images are rectified: P of camera_info describes them, not K and D")
     parser.add_argument("--sort-stamps", action="store_true",
                         help="take the images in the order of their stamps; by default one that goes back is refused")
+    parser.add_argument("--restarts", action="store_true",
+                        help="start a new segment of the trajectory where a stamp goes back: a clock was set, or a "
+                             "simulation restarted")
     parser.add_argument("--calibration", metavar="FILE[,FILE]",
                         help="calibration to use instead of the recorded camera_info; one file, or left and right")
     parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
@@ -80,6 +83,7 @@ def _run_program(recording: Recording, options: argparse.Namespace, more: list[s
         times.write_text("".join(f"{ns // 10**9}.{ns % 10**9:09d}\n" for ns in recording.stamps_ns))
         command = [*program(), "run", "-", "--output", options.output, "--name", recording.name, "--times", str(times),
                    "--calibration", recording.write_calibration(Path(folder)), *more]
+        command += ["--restarts"] * bool(recording.pairing.restarts) + ["--rectified"] * recording.calibration_states_p
         for name in ("device", "preset", "config"):
             if value := getattr(options, name):
                 command += [f"--{name}", value]
@@ -96,7 +100,7 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
     recording = open_bag(options.bag, left=options.left, right=options.right, left_info=options.left_info,
                          right_info=options.right_info, calibration=options.calibration,
                          tolerance_ns=round(options.tolerance * 1e6), sort_stamps=options.sort_stamps,
-                         rectified=options.rectified)
+                         restarts=options.restarts, rectified=options.rectified)
     print(f"recording  {recording.name}\nleft       {recording.topics.left}\nright      {recording.topics.right}\n"
           f"frames     {recording.pairing}", flush=True)
     if options.output is None:

@@ -28,6 +28,8 @@ def _as_file(message, rectified: bool) -> str:
         "distortion_model": "plumb_bob" if rectified else message.distortion_model or "plumb_bob",
         "distortion_coefficients": _matrix(1, len(d), d),
         "rectification_matrix": _matrix(3, 3, r), "projection_matrix": _matrix(3, 4, p),
+        "binning_x": int(message.binning_x), "binning_y": int(message.binning_y),
+        "roi": {name: int(getattr(message.roi, name)) for name in ("x_offset", "y_offset", "width", "height")},
     })  # fmt: skip
 
 

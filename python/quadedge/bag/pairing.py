@@ -1,6 +1,7 @@
 """Pairs left and right images by their time stamps."""
 
 from dataclasses import dataclass, field
+from itertools import zip_longest
 
 
 @dataclass
@@ -13,6 +14,7 @@ class Pairing:
     without_stamp: int = 0  #: left and right images whose stamp is zero
     repeated: int = 0  #: images that repeat an earlier stamp of the same camera
     largest_difference_ns: int = 0  #: between the stamps of a pair
+    restarts: list[int] = field(default_factory=list)  #: indices of pairs whose stamps go back behind those before
 
     @property
     def dropped(self) -> int:
@@ -21,6 +23,8 @@ class Pairing:
 
     def __str__(self) -> str:
         text = f"{len(self.pairs)} pairs"
+        if self.restarts:
+            text += f" in {len(self.restarts) + 1} segments"
         if self.largest_difference_ns:
             text += f", stamps up to {self.largest_difference_ns / 1e6:.3f} ms apart"
         reasons = [(self.left_dropped, "left images without a right one"),
@@ -74,3 +78,27 @@ def pair_stamps(left_ns: list[int], right_ns: list[int], tolerance_ns: int) -> P
     pairing.left_dropped = len(left) - len(pairing.pairs)
     pairing.right_dropped = len(right) - len(pairing.pairs)
     return pairing
+
+
+def _parts(stamps_ns: list[int]) -> list[range]:
+    """The ranges of indices in which stamps do not go back. Stamps that are zero count for nothing."""
+    firsts, last = [0], 0
+    for i, stamp in enumerate(stamps_ns):
+        if 0 < stamp < last:
+            firsts.append(i)
+        last = stamp or last
+    return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(stamps_ns)])]
+
+
+def pair_parts(left_ns: list[int], right_ns: list[int], tolerance_ns: int) -> Pairing:
+    """As pair_stamps(), for stamps that go back: pairs the first part of both lists, the second part, and so on."""
+    whole = Pairing()
+    for left, right in zip_longest(_parts(left_ns), _parts(right_ns), fillvalue=range(0)):
+        part = pair_stamps([left_ns[i] for i in left], [right_ns[i] for i in right], tolerance_ns)
+        if whole.pairs and part.pairs:
+            whole.restarts.append(len(whole.pairs))
+        whole.pairs += [(left[i], right[j]) for i, j in part.pairs]
+        for name in ("left_dropped", "right_dropped", "without_stamp", "repeated"):
+            setattr(whole, name, getattr(whole, name) + getattr(part, name))
+        whole.largest_difference_ns = max(whole.largest_difference_ns, part.largest_difference_ns)
+    return whole

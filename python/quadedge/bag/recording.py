@@ -13,7 +13,7 @@ from .. import DataError, Error, Rig
 from ..ros_messages import message_store, stamp_ns
 from .calibration import rig_of, write_calibration
 from .images import grey_image
-from .pairing import Pairing, pair_stamps
+from .pairing import Pairing, pair_parts, pair_stamps
 from .topics import StereoTopics, find_topics
 
 TOLERANCE_NS = 5_000_000
@@ -26,6 +26,7 @@ class BagFrame:
     stamp_ns: int  #: stamp of the left image [ns]
     left: numpy.ndarray  #: (height, width), uint8 or uint16
     right: numpy.ndarray  #: (height, width), uint8 or uint16
+    starts_segment: bool = False  #: its stamp goes back: Odometry.restart() is due before it is tracked
 
 
 class Recording:
@@ -35,20 +36,22 @@ class Recording:
     """
 
     def __init__(self, paths: Sequence[Path], topics: StereoTopics, calibration, tolerance_ns: int,
-                 sort_stamps: bool, rectified: bool | None):
+                 sort_stamps: bool, restarts: bool, rectified: bool | None):
         self.name = ", ".join(str(path) for path in paths)
         self._paths = paths
-        self._sort_stamps = sort_stamps
+        self._may_go_back = sort_stamps or restarts
         self._calibration = calibration
         self._recorded_stamps = False
         with self._reader() as reader:
             kinds = {connection.topic: connection.msgtype for connection in reader.connections}
             self.topics: StereoTopics = find_topics(kinds, self.name, topics)
+            #: whether the given calibration describes rectified images beside those recorded
+            self.calibration_states_p: bool = calibration is not None and rectified is True
             self.rectified: bool = self.topics.names_rectified if rectified is None else rectified
             self._infos = self._first_infos(reader)
             left_ns, right_ns = self._stamps(reader)
         self._left_ns = left_ns
-        self.pairing: Pairing = pair_stamps(left_ns, right_ns, tolerance_ns)
+        self.pairing: Pairing = (pair_parts if restarts else pair_stamps)(left_ns, right_ns, tolerance_ns)
         if not self.pairing.pairs:
             raise DataError(f"{self.name}: found no two images of {self.topics.left} and {self.topics.right} within "
                             f"{tolerance_ns / 1e6:g} ms ({self.pairing})")
@@ -94,7 +97,7 @@ class Recording:
             recorded[topic].append(recorded_ns)
         self._recorded_stamps = not any(stamps[self.topics.left]) and not any(stamps[self.topics.right])
         chosen = recorded if self._recorded_stamps else stamps
-        if not self._sort_stamps:
+        if not self._may_go_back:
             for topic, list_ns in chosen.items():
                 self._refuse_falling(topic, list_ns)
         return chosen[self.topics.left], chosen[self.topics.right]
@@ -106,7 +109,8 @@ class Recording:
             if 0 < stamp < last:
                 raise DataError(f"{self.name}: found stamp {stamp} ns after {last} ns in message {number} of {topic}, "
                                 "expected increasing stamps: was a clock set, or a simulation restarted? "
-                                "--sort-stamps (sort_stamps=True) takes the images in the order of their stamps")
+                                "--restarts (restarts=True) starts a new segment there, --sort-stamps "
+                                "(sort_stamps=True) takes the images in the order of their stamps")
             last = max(last, stamp)
 
     @property
@@ -133,10 +137,9 @@ class Recording:
         """The rig from the calibration given to open_bag(), or from camera_info. Raises DataError without either."""
         max_value = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
         if self._calibration is not None:
-            return Rig.from_file(self._calibration, max_value=max_value)
+            return Rig.from_file(self._calibration, max_value=max_value, rectified=self.calibration_states_p)
         infos, topics = self._camera_infos(), (self.topics.left_info, self.topics.right_info)
         return rig_of(infos, [f"{self.name}: {topic}" for topic in topics], self.rectified, max_value)
-
     def write_calibration(self, folder: Path) -> str:
         """The calibration as ``quadedge run --calibration`` takes it; camera_info is written to files in ``folder``."""
         given = self._calibration
@@ -164,28 +167,30 @@ class Recording:
                     left, right = (self.topics.left, pairs[turn][0]), (self.topics.right, pairs[turn][1])
                     if left not in waiting or right not in waiting:
                         break
-                    yield self._frame(waiting.pop(left), waiting.pop(right), self._left_ns[left[1]])
+                    yield self._frame(waiting.pop(left), waiting.pop(right), self._left_ns[left[1]],
+                                      turn in self.pairing.restarts)
                     turn += 1
 
-    def _frame(self, left, right, stamp_ns: int) -> BagFrame:
+    def _frame(self, left, right, stamp_ns: int, starts_segment: bool) -> BagFrame:
         return BagFrame(stamp_ns, grey_image(left, f"{self.name}: {self.topics.left} at {stamp_ns} ns"),
-                        grey_image(right, f"{self.name}: {self.topics.right} at {stamp_ns} ns"))
+                        grey_image(right, f"{self.name}: {self.topics.right} at {stamp_ns} ns"), starts_segment)
 
 
 def open_bag(path: str | PathLike | Sequence[str | PathLike], *, left: str = "", right: str = "", left_info: str = "",
              right_info: str = "", calibration=None, tolerance_ns: int = TOLERANCE_NS, sort_stamps: bool = False,
-             rectified: bool | None = None) -> Recording:
+             restarts: bool = False, rectified: bool | None = None) -> Recording:
     """Opens a stereo recording: one or several ``.bag`` files of ROS 1, a ROS 2 folder, or an ``.mcap`` file.
 
     left, right: image topics, of type ``sensor_msgs/Image`` or ``CompressedImage``; by default found by their names.
     left_info, right_info: their topics of ``sensor_msgs/CameraInfo``, by default beside the images. calibration: files
     as for Rig.from_file(), instead of the recorded camera_info. tolerance_ns: largest difference between the stamps of
     a pair [ns]; images without a partner are dropped and counted in ``Recording.pairing``. sort_stamps: takes images in
-    the order of their stamps; by default a stamp that goes back is refused. rectified: whether the images are those of
-    the projection matrix P, not those of K and D; by default only if their topics say so.
+    the order of their stamps; by default a stamp that goes back is refused. restarts: such a stamp starts a new
+    segment, see ``BagFrame.starts_segment``. rectified: whether the images are those of the projection matrix P, not
+    those of K and D; by default only if their topics say so.
 
     Raises DataError for a path that is not a readable recording or has no stereo topics, ImportError without rosbags.
     """
     paths = [path] if isinstance(path, (str, PathLike)) else list(path)
     topics = StereoTopics(left, right, left_info, right_info)
-    return Recording([Path(one) for one in paths], topics, calibration, tolerance_ns, sort_stamps, rectified)
+    return Recording([Path(one) for one in paths], topics, calibration, tolerance_ns, sort_stamps, restarts, rectified)
