@@ -74,15 +74,13 @@ StatedCalibration read_orb_slam_settings(const YamlMap& settings) {
   }
   for (const char* depth : {"DepthMapFactor", "RGBD.DepthMapFactor"})
     if (settings.has(depth)) settings.complain(depth, "the settings of a depth camera", "those of two cameras");
-  stated.left = stated.right = read_lens(settings, left, true);
-  if (settings.has("Stereo.b")) {
-    stated.right_from_left.translation().x() = -settings.number("Stereo.b");
-  } else if (settings.has("Camera.bf")) {
-    stated.right_from_left.translation().x() = -settings.number("Camera.bf") / stated.left.lens.camera.fx;
-  } else {
+  const bool has_baseline = settings.has("Stereo.b");
+  if (!has_baseline && !settings.has("Camera.bf"))
     fail(settings.file(), "no pose of the right camera",
          "Stereo.T_c1_c2 or Tlr, or for rectified images Stereo.b or Camera.bf: are these settings of one camera?");
-  }
+  stated.left = stated.right = read_lens(settings, left, true);
+  stated.right_from_left.translation().x() =
+      has_baseline ? -settings.number("Stereo.b") : -settings.number("Camera.bf") / stated.left.lens.camera.fx;
   return stated;
 }
 
