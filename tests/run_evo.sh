@@ -24,6 +24,24 @@ done
 sed '6i # segment 1: an unknown motion' "$folder/run/trajectory.txt" >"$folder/segments.txt"
 "$quadedge" evaluate trajectory "$folder/segments.txt" "$truth" --json "$folder/segments.json" >/dev/null
 for segment in 0 1; do compare "$folder/segments.txt" "$truth" "$folder/segments.json" --segment $segment; done
+# A recording whose halves show two scenes, so that the motion between them is unknown: evo reads a file per segment.
+"$quadedge" synth "$folder/facade" --scene facade --frames 8 --size 480x300 --quiet
+for side in rgb rgb2; do
+  cp -r "$folder/room/$side" "$folder/cut_$side"
+  for image in $(ls "$folder/room/$side" | tail -n 4); do cp "$folder/facade/$side/$image" "$folder/cut_$side/"; done
+done
+"$quadedge" check "$folder/room" --write-calibration "$folder/rig.yaml" --quiet >/dev/null
+"$quadedge" run --left "$folder/cut_rgb" --right "$folder/cut_rgb2" --fps 20 --calibration "$folder/rig.yaml" \
+  -o "$folder/cut" --min-tracked 0 --quiet >/dev/null
+for segment in 0 1; do
+  file="$folder/cut/trajectory_segment_$segment.txt"
+  "$quadedge" evaluate trajectory "$file" "$file" --json "$folder/same.json" --force >/dev/null
+  compare "$file" "$file" "$folder/same.json"
+done
+for file in trajectory.txt trajectory_kitti.txt; do
+  "$quadedge" evaluate trajectory "$folder/cut/$file" "$folder/cut/$file" 2>&1 >/dev/null |
+    grep "the motions between its 2 segments are unknown"
+done
 # The errors of each sequence in a batch summary; the ground truth is the run's copy.
 "$quadedge" synth "$folder/batch/cables" --scene cables --frames 6 --size 320x200 --quiet
 "$quadedge" synth "$folder/batch/facade" --scene facade --path handheld --frames 6 --size 320x200 --quiet

@@ -54,6 +54,12 @@ struct Caller {
   }
 };
 
+StampedPose pose_at(std::int64_t stamp_ns) {
+  StampedPose pose;
+  pose.stamp_ns = stamp_ns;
+  return pose;
+}
+
 struct LibraryAttack {
   std::string name;
   std::function<void(Caller&)> call;
@@ -105,6 +111,31 @@ const std::vector<LibraryAttack>& library_attacks() {
       {"a focal length of zero", [](C c) { c.rig.left.fx = 0, c.track(); }, LibraryAttack::data, ""},
       {"a focal length of NaN", [](C c) { c.rig.right.fy = kNoNumber, c.track(); }, LibraryAttack::data, ""},
       {"an invalid rotation", [](C c) { c.rig.right_from_left.linear() *= 2, c.track(); }, LibraryAttack::data, ""},
+      {"a rotation with NaN", [](C c) { c.rig.right_from_left.linear()(1, 2) = kNoNumber, c.track(); },
+       LibraryAttack::data, "rotation"},
+      {"a translation with NaN", [](C c) { c.rig.right_from_left.translation().z() = kNoNumber, c.track(); },
+       LibraryAttack::data, "baseline"},
+      {"a transform whose last row is not that of a rigid one",
+       [](C c) { c.rig.right_from_left.matrix()(3, 0) = 1, c.track(); }, LibraryAttack::data, "rotation"},
+      {"a mask with a size and no pixels",
+       [](C c) { c.rig.left_mask.width = 160, c.rig.left_mask.height = 100, c.track(); }, LibraryAttack::data,
+       "a mask of 160 x 100 with 0 values"},
+      {"a mask with pixels and no size", [](C c) { c.rig.right_mask.hidden.resize(16000), c.track(); },
+       LibraryAttack::data, "a mask of 0 x 0"},
+      {"an undistortion table without y", [](C c) { c.distort(), c.rig.left_undistortion.source_y.clear(), c.track(); },
+       LibraryAttack::data, "table of 160 x 100 with 0 values"},
+      {"an undistortion table of negative size",
+       [](C c) { c.distort(), c.rig.left_undistortion.width = -160, c.track(); }, LibraryAttack::data, "table of -160"},
+      {"an undistortion table of recorded images of negative size",
+       [](C c) { c.distort(), c.rig.left_undistortion.recorded_width = -1, c.track(); }, LibraryAttack::data,
+       "recorded images of -1"},
+      {"an undistortion table with NaN",
+       [](C c) {
+         c.distort(), c.rig.right_undistortion.source_x[7] = std::numeric_limits<float>::quiet_NaN(), c.track();
+       },
+       LibraryAttack::data, "NaN"},
+      {"a constant that is nearly zero", [](C c) { c.config.pose.disparity_offset_sigma = 1e-160, c.track(); },
+       LibraryAttack::usage, "1e-160"},
       {"cameras without pixels", [](C c) { c.rig.left.width = 0, c.track(); }, LibraryAttack::data, ""},
       {"a constant out of range", [](C c) { c.config.stereo.ncc_min = 7, c.track(); }, LibraryAttack::usage, "ncc_min"},
       {"a constant of NaN", [](C c) { c.config.pose.inlier_distance = kNoNumber, c.track(); }, LibraryAttack::usage,
@@ -158,12 +189,20 @@ const std::vector<LibraryAttack>& library_attacks() {
       {"a missing trajectory", [](C) { read_trajectory("/no/such.txt"); }, LibraryAttack::data, "no/such"},
       {"trajectories at different times",
        [](C) {
-         evaluate_trajectory({{0, {}}, {1, {}}}, {{3'000'000'000, {}}, {4'000'000'000, {}}});
+         evaluate_trajectory({pose_at(0), pose_at(1)}, {pose_at(3'000'000'000), pose_at(4'000'000'000)});
        },
        LibraryAttack::data, ""},
+      {"a trajectory with NaN in y",
+       [](C) {
+         Trajectory poses = {pose_at(0), pose_at(1)};
+         poses[1].world_from_left.translation().y() = kNoNumber;
+         evaluate_trajectory(poses, {pose_at(0), pose_at(1)});
+       },
+       LibraryAttack::data, "estimate: found pose 1"},
+      {"a file without a name", [](C) { write_tum("", {}); }, LibraryAttack::data, "empty name"},
       {"a trajectory of one pose",
        [](C) {
-         evaluate_trajectory({{0, {}}}, {{0, {}}, {1, {}}});
+         evaluate_trajectory({pose_at(0)}, {pose_at(0), pose_at(1)});
        },
        LibraryAttack::data, ""},
   };

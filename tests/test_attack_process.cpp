@@ -72,6 +72,49 @@ const std::vector<ProcessAttack> kProcessAttacks = {
      "$OUT "
      "--frames 0:2 --offset-file $OUT.toml; code=$?; cmp $OUT.toml $OUT.copy || exit 99; exit $code",
      2, "out.toml: found another file", false},
+    {"two outputs are one file", "$QUADEDGE run $DATA -o $OUT --save-map $OUT.x --points $OUT.x", 2,
+     "out.x: two outputs would be written", false},
+    {"two outputs are one file under two names",
+     "touch $OUT.a; ln $OUT.a $OUT.b; ln -s $OUT.b $OUT.c; $QUADEDGE edges $DATA/rgb/0.000000000.png --csv $OUT.a "
+     "--draw "
+     "$OUT.c --force",
+     2, "out.a: two outputs would be written", false},
+    {"two outputs are one device", "$QUADEDGE edges $DATA/rgb/0.000000000.png --csv /dev/null --draw /dev/null --quiet",
+     0, "", false},
+    {"an output is an input",
+     "cp $DATA/rgb/0.000000000.png $OUT.png; $QUADEDGE edges $OUT.png --draw $OUT.png --force; code=$?; cmp $OUT.png "
+     "$DATA/rgb/0.000000000.png || exit 99; exit $code",
+     2, "out.png: an output would replace this file, which is read", false},
+    {"an output is the configuration",
+     "echo seed = 3 >$OUT.toml; $QUADEDGE run $DATA -o $OUT --config $OUT.toml --trace $OUT.toml --force", 2,
+     "out.toml: an output would replace this file", false},
+    {"an output is one of the files of the run", "$QUADEDGE run $DATA -o $OUT --save-map $OUT/./frames.csv", 2,
+     "frames.csv: the run writes its own results", false},
+    {"an output lies among the pictures of the run", "$QUADEDGE run $DATA -o $OUT --trace $OUT/pictures/trace.json", 2,
+     "trace.json: the run writes its own results", false},
+    {"an output beside the files of the run is fine",
+     "$QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet --trace $OUT/trace.json", 0, ""},
+    {"an output is an image of the recording",
+     "cp -r $DATA $OUT.data; $QUADEDGE run $OUT.data -o $OUT --force --trace $OUT.data/rgb/0.000000000.png", 2,
+     "0.000000000.png: this file belongs to the recording", false},
+    {"the results go among the files of the recording",
+     "cp -r $DATA $OUT.data; $QUADEDGE run $OUT.data -o $OUT.data --force; code=$?; test -s $OUT.data/groundtruth.txt "
+     "|| "
+     "exit 99; exit $code",
+     2, "out.data: the results would be written among the files of the recording", false},
+    {"an output lies in the folder of the COLMAP model",
+     "$QUADEDGE run $DATA -o $OUT --points-colmap $OUT.model --trace $OUT.model/sparse/0/points3D.txt", 2,
+     "the folder of --points-colmap", false},
+    {"the data of a page is the page", "$QUADEDGE evaluate matching $DATA --frames 1 --html $OUT.json", 2,
+     "out.json: two outputs", false},
+    {"an output is a symbolic link to nothing, which stays",
+     "ln -s $OUT.nothing $OUT.csv; $QUADEDGE edges $DATA/rgb/0.000000000.png --csv $OUT.csv --force; code=$?; test -L "
+     "$OUT.csv || exit 99; exit $code",
+     3, "out.csv: cannot follow the symbolic link", false},
+    {"the name of a file has control characters",
+     "$QUADEDGE check \"$(printf \"a\\033[2Jb\\302\\233c\")\"; code=$?; exit $code", 3, "a\\x1b[2Jb\\x9bc", false},
+    {"a standard deviation is nearly zero", "$QUADEDGE run $DATA -o $OUT --pose.disparity_offset_sigma 1e-160", 2,
+     "pose.disparity_offset_sigma is 1e-160; allowed: 0, and magnitudes of at least 1e-09", false},
     {"times go back",
      "$QUADEDGE check $DATA --write-calibration $OUT.yaml >$OUT.log; printf \"0\\n2\\n1\\n3\\n\" >$OUT.txt; $QUADEDGE "
      "run "

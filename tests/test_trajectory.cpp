@@ -64,6 +64,23 @@ TEST_CASE("trajectory: a TUM file keeps the segments in comments", "[trajectory]
   CHECK_THROWS_WITH(read_tum(folder / "c.txt"), Contains("c.txt:4: found segment 2 after segment 2"));
 }
 
+TEST_CASE("trajectory: split into its segments", "[trajectory]") {
+  Trajectory poses(5);
+  const int segments[] = {0, 0, 2, 2, 3};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i].stamp_ns = static_cast<std::int64_t>(i);
+    poses[i].segment = segments[i];
+  }
+  const auto parts = split_segments(poses);
+  REQUIRE(parts.size() == 3);
+  CHECK(parts[0].size() == 2);
+  CHECK(parts[1].size() == 2);
+  CHECK(parts[1][0].stamp_ns == 2);
+  CHECK(parts[2].size() == 1);
+  CHECK(parts[2][0].segment == 3);
+  CHECK(split_segments({}).empty());
+}
+
 TEST_CASE("trajectory: a KITTI file keeps the matrices", "[trajectory]") {
   const TemporaryFolder folder;
   const Trajectory written = winding(5);

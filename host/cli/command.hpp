@@ -25,6 +25,8 @@ class Options {
   /// One or two files: "LEFT,RIGHT", or given twice.
   virtual void files(const std::string& names, std::string& value, const std::string& help,
                      const std::string& placeholder) = 0;
+  /// A text that names a file to write. Two of a command may not name the same file, nor one that the command reads.
+  virtual void output(const std::string& names, std::string& value, const std::string& help) = 0;
   virtual void number(const std::string& names, double& value, const std::string& help) = 0;
   virtual void number(const std::string& names, int& value, const std::string& help) = 0;
   virtual void number(const std::string& names, std::uint64_t& value, const std::string& help) = 0;

@@ -42,8 +42,8 @@ class BenchCommand : public Command {
     options.number("--warm-up", warm_up_, "number of frames between the first and the measured ones");
     options.flag("--baseline", baseline_,
                  "also time two OpenCV yardsticks: SIFT on both images, nine filters of 35 taps");
-    options.text("--json", json_, "write all figures", "FILE");
-    options.text("--trace", trace_, "write the stages of every frame in Chrome's trace format", "FILE");
+    options.output("--json", json_, "write all figures");
+    options.output("--trace", trace_, "write the stages of every frame in Chrome's trace format");
     options.text("--compare", compare_, "print the differences from an older result; exit code 6 for a regression",
                  "OLD.json");
     options.number("--noise", noise_, "noise band: increases up to this count as equal [percent]");

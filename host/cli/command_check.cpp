@@ -28,8 +28,8 @@ class CheckCommand : public Command {
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
     options.text("--sequence", options_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
-    options.text("--write-calibration", calibration_,
-                 "write the cameras in the program's own format, for --calibration", "FILE");
+    options.output("--write-calibration", calibration_,
+                   "write the cameras in the program's own format, for --calibration");
     options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);

@@ -56,7 +56,7 @@ class CompareCommand : public Command {
     options.number("--edges", edges_, "choose edges.threshold for this number of edges per image; 0: as configured");
     options.number("--repetitions", repetitions_, "measurements per variant, interleaved");
     options.flag("--save", save_, "save the fastest variants for this device, for `run`, `demo` and `bench`");
-    options.text("--json", json_, "write all figures", "FILE");
+    options.output("--json", json_, "write all figures");
     options.flag("--force", force_, "overwrite an existing file");
     options.flag("--quiet", quiet_, "hide progress");
     method_.declare(options);

@@ -20,7 +20,7 @@ class DemoCommand : public Command {
   void declare(Options& options) override {
     options.text("-o,--output", run_.output, "folder for the results", "OUT");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
-    options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
+    options.output("--trace", run_.trace, "write the stages of every frame in Chrome's trace format");
     options.number("--draw", run_.draw_every,
                    "pictures of the edges and quads of every N-th frame; 0: of the middle frame");
     options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");

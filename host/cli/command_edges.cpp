@@ -27,8 +27,8 @@ class EdgesCommand : public Command {
     source_.declare_path(options, "image file; colour is converted to grey", "IMAGE");
     options.number("--frame", frame_,
                    "with --left and --right, --video or -: number of the pair, from 0; its left pinhole image is used");
-    options.text("--csv", csv_, "write x, y, direction_rad and strength of every edge", "FILE");
-    options.text("--draw", draw_, "draw the edges to a PNG file", "FILE");
+    options.output("--csv", csv_, "write x, y, direction_rad and strength of every edge");
+    options.output("--draw", draw_, "draw the edges to a PNG file");
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide the summary");
     source_.declare(options);

@@ -24,10 +24,25 @@ struct Loaded {
   bool timed = true;
 };
 
+/// Sets the segments of the poses of all frames of a run, if they are beside its frames.csv: KITTI's format has none.
+void set_segments(Trajectory& poses, const std::string& frames_csv) {
+  if (!std::filesystem::is_regular_file(frames_csv)) return;
+  const auto lines = data::data_lines(frames_csv);
+  if (lines.size() != poses.size() + 1) return;
+  const auto names = data::split(lines[0].text, ",");
+  const auto column = static_cast<std::size_t>(std::find(names.begin(), names.end(), "segment") - names.begin());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto cells = data::split(lines[i + 1].text, ",");
+    if (column >= cells.size()) return;
+    poses[i].segment = data::parse_whole(cells[column], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
+  }
+}
+
 Loaded load_file(const std::string& path) {
   Loaded loaded;
   loaded.poses = read_trajectory(path);
   loaded.timed = data::split(data::data_lines(path).front().text).size() == 8;
+  if (!loaded.timed) set_segments(loaded.poses, std::filesystem::path(path).replace_filename("frames.csv").string());
   return loaded;
 }
 
@@ -64,7 +79,7 @@ class EvaluateTrajectoryCommand : public Command {
         "also classify each step: right if its errors are below a distance + 10 % of the motion and below an angle");
     options.number("--step-metres", step_limits_.translation_m, "distance for --steps [m]");
     options.number("--step-degrees", step_limits_.rotation_deg, "angle for --steps [deg]");
-    options.text("--json", json_, "also write the errors, including those of every pose, to a file", "FILE");
+    options.output("--json", json_, "also write the errors, including those of every pose, to a file");
     options.flag("--force", force_, "overwrite the --json file");
   }
 
@@ -94,6 +109,9 @@ class EvaluateTrajectoryCommand : public Command {
                                                     : evaluate_trajectory(estimate.poses, truth, from_frame_);
     std::printf("estimate   %s\ntruth      %s\n", estimate_.c_str(), truth_.c_str());
     print_evaluation(result);
+    if (!result.segments.empty())
+      note("warning: " + estimate_ + ": the motions between its " + data::counted(result.segments.size(), "segment") +
+           " are unknown; the errors of the whole judge predictions there, those of each segment do not");
     std::optional<evaluation::StepJudgement> steps;
     if (steps_) {
       const std::int64_t tolerance = row_numbers ? 0 : kStampToleranceNs,

@@ -129,12 +129,11 @@ class EvaluateMatchingCommand : public Command {
     options.number("--tolerance", tolerance_.position,
                    "maximum distance of a veridical match from the true position [px]");
     options.text("--sweep", sweep_, "print only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
-    options.text("--json", json_, "also write the tables to a file", "FILE");
-    options.text(
+    options.output("--json", json_, "also write the tables to a file");
+    options.output(
         "--html", html_,
         "also make an HTML page with tables, plots and drawings; its data is written beside it, as by --json and "
-        "--draw",
-        "FILE");
+        "--draw");
     options.text("--draw", draw_, "also draw the last frame of each pair or sequence as PNG, in a folder", "DIR");
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide progress");
@@ -150,6 +149,7 @@ class EvaluateMatchingCommand : public Command {
     }
     report::check_output_file(html_, force_);
     place_data_of_page();
+    report::refuse_shared_files({html_, json_}, {});
     report::check_output_file(json_, force_);
     report::refuse_full_folder(draw_, force_);
     const Config config = method_.config();

@@ -72,6 +72,7 @@ class LocaliseCommand : public Command {
     record.command = command_line();
     record.map_file = map_;
     record.key_rigs = map.key_rigs();
+    report::check_beside_results({}, output_, dataset.path);
     const report::FolderLock lock = report::prepare_output_folder(output_, force_);
     const Interruption interruption;
     FrameSource source(
@@ -134,7 +135,7 @@ class LocaliseCommand : public Command {
 
   void print(const report::LocalisationRecord& record) const {
     std::printf("map        %s, %s\n", map_.c_str(), data::counted(record.key_rigs, "key rig").c_str());
-    std::printf("sequence   %s (%s)\n", record.input.name.c_str(), record.input.format.c_str());
+    std::printf("sequence   %s (%s)\n", visible(record.input.name).c_str(), record.input.format.c_str());
     std::printf("located    %d of %s\n", record.located(), data::counted(record.frames.size(), "frame").c_str());
     const std::string lost = report::lost_reasons(record.frames);
     if (!lost.empty()) std::printf("lost       %s\n", lost.c_str());

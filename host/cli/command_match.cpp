@@ -37,10 +37,10 @@ class MatchCommand : public Command {
                        false);
     options.positional("RIGHT", right_, "right image file", false);
     options.number("--frame", frame_, "with --left and --right, --video or -: number of the pair, from 0");
-    options.text("--csv", csv_, "write positions and directions in both images, NCC and 3D point of every stereo edge",
-                 "FILE");
-    options.text("--ply", ply_, "write the 3D points as a binary PLY file; needs --calibration", "FILE");
-    options.text("--draw", draw_, "draw the stereo edges to a PNG file", "FILE");
+    options.output("--csv", csv_,
+                   "write positions and directions in both images, NCC and 3D point of every stereo edge");
+    options.output("--ply", ply_, "write the 3D points as a binary PLY file; needs --calibration");
+    options.output("--draw", draw_, "draw the stereo edges to a PNG file");
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide the summary");
     source_.declare(options);

@@ -28,9 +28,9 @@ class ReportCommand : public Command {
     options.repeated("--peer", peers_,
                      "left-camera trajectories of another system, FOLDER/SEQUENCE.txt (TUM); repeatable",
                      "NAME=FOLDER");
-    options.text("-o,--output", output_,
-                 "HTML file; default: OUT/report.html, or OUT with .html instead of .json; the default is overwritten",
-                 "FILE");
+    options.output(
+        "-o,--output", output_,
+        "HTML file; default: OUT/report.html, or OUT with .html instead of .json; the default is overwritten");
     options.text("--csv", csv_, "also write each table as CSV", "DIR");
     options.text("--latex", latex_, "also write each table for LaTeX (booktabs)", "DIR");
     options.text("--figures", figures_, "also write each figure as SVG and PDF", "DIR");

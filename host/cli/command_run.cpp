@@ -25,17 +25,16 @@ class RunCommand : public Command {
     options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
     options.text("--name", name_, "name of the recording in the results; default: that of its files", "NAME");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
-    options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
+    options.output("--trace", run_.trace, "write the stages of every frame in Chrome's trace format");
     options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame");
     options.number("--thumbnails", run_.thumbnails, "number of quad thumbnails, spread evenly over the sequence");
     options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
     options.flag("--loops", run_.loops,
                  "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
-    options.text("--save-map", run_.saved_map,
-                 "write the places of the recording for `quadedge localise`; implies --loops", "FILE");
-    options.text("--offset-file", run_.offset_file,
-                 "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end",
-                 "FILE");
+    options.output("--save-map", run_.saved_map,
+                   "write the places of the recording for `quadedge localise`; implies --loops");
+    options.output("--offset-file", run_.offset_file,
+                   "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.points.declare(options);

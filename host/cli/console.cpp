@@ -10,6 +10,7 @@
 
 #include "cli/terminal.hpp"
 #include "data/text.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -108,8 +109,9 @@ bool StatusLine::due(bool last) const {
   return last || std::chrono::steady_clock::now() - shown_ >= interval;
 }
 
-void StatusLine::show(const std::string& text, bool last) {
+void StatusLine::show(const std::string& sentence, bool last) {
   if (quiet_) return;
+  const std::string text = visible(sentence);
   shown_ = std::chrono::steady_clock::now();
   if (!terminal_) {
     std::fprintf(stderr, "%s\n", text.c_str());
@@ -125,7 +127,7 @@ void StatusLine::show(const std::string& text, bool last) {
 
 void StatusLine::say(const std::string& text) {
   if (quiet_) return;
-  std::fprintf(stderr, line_open_ ? "\r%s\x1b[K\n" : "%s\n", text.c_str());
+  std::fprintf(stderr, line_open_ ? "\r%s\x1b[K\n" : "%s\n", visible(text).c_str());
   line_open_ = false;
 }
 
@@ -178,14 +180,15 @@ void print_error(const std::string& message) {
 
 void note(const std::string& sentence) {
   // Replaces the progress line, which is shown again with the next frame.
-  std::fprintf(stderr, "%squadedge: %s\n", has_escape_codes(STDERR_FILENO) ? "\r\x1b[K" : "", sentence.c_str());
+  std::fprintf(stderr, "%squadedge: %s\n", has_escape_codes(STDERR_FILENO) ? "\r\x1b[K" : "",
+               visible(sentence).c_str());
 }
 
 void print_run(const report::RunRecord& run, const std::string& output) {
   const int frames = static_cast<int>(run.frames.size());
   int key_rigs = 0;
   for (const auto& frame : run.frames) key_rigs += frame.result.new_key_rig ? 1 : 0;
-  std::printf("sequence   %s (%s), %s of %d x %d\n", run.input.name.c_str(), run.input.format.c_str(),
+  std::printf("sequence   %s (%s), %s of %d x %d\n", visible(run.input.name).c_str(), run.input.format.c_str(),
               data::counted(frames, "frame").c_str(), run.input.width, run.input.height);
   std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),
               run.device.type.c_str());

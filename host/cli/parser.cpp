@@ -15,8 +15,10 @@
 #include "cli/terminal.hpp"
 #include "common/nearest_word.hpp"
 #include "data/presets.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/config_toml.hpp"
+#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -58,6 +60,7 @@ class ParserOptions : public Options {
   ParserOptions(CLI::App& app, bool short_help) : app_(app), short_help_(short_help) {}
 
   void positional(const std::string& name, std::string& value, const std::string& help, bool required) override {
+    inputs_.push_back(&value);
     app_.add_option(name, value, help)->required(required)->check(kText)->type_name("");
   }
   void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
@@ -65,12 +68,17 @@ class ParserOptions : public Options {
   }
   void text(const std::string& names, std::string& value, const std::string& help,
             const std::string& placeholder) override {
+    if (placeholder != "NAME") inputs_.push_back(&value);
     add(names, value, help)->check(kText)->type_name(placeholder);
   }
   void files(const std::string& names, std::string& value, const std::string& help,
              const std::string& placeholder) override {
     text(names, value, help + "; may be given twice", placeholder);
     last_->multi_option_policy(CLI::MultiOptionPolicy::Join)->delimiter(',');
+  }
+  void output(const std::string& names, std::string& value, const std::string& help) override {
+    outputs_.push_back(&value);
+    add(names, value, help)->check(kText)->type_name("FILE");
   }
   void number(const std::string& names, double& value, const std::string& help) override {
     add(names, value, help)->check(kNumber);
@@ -135,6 +143,15 @@ class ParserOptions : public Options {
                 ->check(kText)
                 ->group(group_)
                 ->type_name("FILE");
+  }
+
+  /// \throws UsageError where an output would replace another one, or a file that is read.
+  void check_outputs() const {
+    std::vector<std::string> inputs = {config_file_}, outputs;
+    for (const std::string* value : inputs_)
+      for (const auto& file : data::split(*value, ",")) inputs.push_back(file);
+    for (const std::string* value : outputs_) outputs.push_back(*value);
+    report::refuse_shared_files(outputs, inputs);
   }
 
   bool has_full_help() const { return has_full_help_; }
@@ -212,6 +229,8 @@ class ParserOptions : public Options {
   std::string preset_, config_file_;
   CLI::Option* last_ = nullptr;
   std::map<std::string, FileSetting> from_file_;
+  std::vector<const std::string*> inputs_,
+      outputs_;  ///< texts that may name a file to read, and that name one to write
 };
 
 /// The CLI11 application of a command; makes the group's application ("evaluate") on the way.
@@ -327,6 +346,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (!apps[i]->parsed()) continue;
     options[i]->apply_config_file();
+    options[i]->check_outputs();
     return {commands[i].get(), 0};
   }
   return {nullptr, static_cast<int>(ExitCode::usage)};

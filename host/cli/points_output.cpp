@@ -29,7 +29,7 @@ void write_image(const std::string& folder, const char* side, int frame, const I
 
 void PointFiles::declare(Options& options) {
   options.group("Points in space");
-  options.text("--points", ply, "write the 3D edges of all key rigs as a binary PLY file", "FILE");
+  options.output("--points", ply, "write the 3D edges of all key rigs as a binary PLY file");
   options.text("--points-colmap", colmap, "write cameras, images and points as a COLMAP model", "DIR");
   options.number("--points-min-views", min_views, "minimum number of key rigs that see a point");
 }
@@ -45,6 +45,12 @@ void PointFiles::check(bool force) const {
     if (error) throw DataError(colmap + folder + ": cannot create the folder: " + error.message());
   }
   report::check_output_file(colmap + "/sparse/0/points3D.txt", force);
+}
+
+void PointFiles::check_beside(const std::vector<std::string>& outputs) const {
+  for (const auto& output : outputs)
+    if (!colmap.empty() && report::is_below(colmap, output))
+      throw UsageError(output + ": the folder of --points-colmap is for the model alone, expected another one");
 }
 
 PointsOutput::PointsOutput(const PointFiles& files, const Config& config) : files_(files) {

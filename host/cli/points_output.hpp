@@ -27,6 +27,8 @@ struct PointFiles {
   /// Checks the files before long work. \throws UsageError, DataError for files that cannot be written, or that exist
   /// without `force`.
   void check(bool force) const;
+  /// Refuses other outputs in the folder of the COLMAP model. \throws UsageError.
+  void check_beside(const std::vector<std::string>& outputs) const;
 };
 
 /// Collects the edges of a run in space and writes them at the end; does nothing if none are requested.

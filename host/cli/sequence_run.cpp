@@ -233,6 +233,14 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   }
 }
 
+/// A file per segment beside the whole, for programs that take every file for one path; none for a single segment.
+void write_segments(const std::string& folder, const Trajectory& trajectory) {
+  const std::vector<Trajectory> segments = split_segments(trajectory);
+  if (segments.size() < 2) return;
+  for (const Trajectory& segment : segments)
+    write_tum(folder + "/" + report::kSegmentFile + std::to_string(segment.front().segment) + ".txt", segment);
+}
+
 /// Reads a file that write_offset() has written. \throws UsageError for any other file, which would be overwritten
 Config read_offset(const std::string& file, const Config& config) {
   const auto entries = data::read_toml(file);
@@ -256,6 +264,7 @@ void write_offset(const std::string& file, const report::RunRecord& run) {
 
 /// Writes what depends on all frames: accuracy, report.json and the trace.
 void write_results(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
+  write_segments(options.output, tracked_poses(run));
   evaluate(source, options, run);
   data::write_atomically(options.output + "/report.json", report::report_json(run));
   if (!options.offset_file.empty()) write_offset(options.offset_file, run);
@@ -283,6 +292,9 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   std::error_code unreadable;  // reading it says why
   if (std::filesystem::exists(options.offset_file, unreadable) || unreadable)
     run.config = read_offset(options.offset_file, run.config);
+  const std::vector<std::string> files = {options.trace, options.offset_file, options.saved_map, options.points.ply};
+  report::check_beside_results(files, options.output, run.input.path);
+  options.points.check_beside(files);
   const report::FolderLock lock = report::prepare_output_folder(options.output, options.force);
   report::check_output_file(options.trace, options.force);
   report::check_output_file(options.offset_file, true);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include "common/lens_mapping.hpp"
@@ -25,6 +26,15 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+double rotation_error(const Eigen::Matrix3d& matrix) {
+  if (!matrix.allFinite() || matrix.determinant() < 0) return std::numeric_limits<double>::infinity();
+  return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
+
+bool is_affine(const Eigen::Isometry3d& transform) {
+  return transform.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
+}
 
 std::optional<CameraComplaint> complaint_about(const PinholeCamera& camera) {
   const bool is_known = camera.width > 0 && camera.height > 0;

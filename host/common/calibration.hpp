@@ -1,6 +1,6 @@
 #pragma once
-/// \file calibration.hpp  Numbers of calibrations: bounds of those that a camera can have, whoever states them, and
-/// rigid transforms rounded to 1e-9 m and 1e-9 rad, as stored in StereoCalibration.
+/// \file calibration.hpp  Numbers of calibrations and poses: bounds of those that a camera can have, whoever states
+/// them, and rigid transforms rounded to 1e-9 m and 1e-9 rad, as stored in StereoCalibration.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -22,6 +22,15 @@ std::optional<CameraComplaint> complaint_about(const PinholeCamera& camera);
 
 /// Largest absolute value of a distortion coefficient; rational models reach some hundreds.
 constexpr double kLargestCoefficient = 1e5;
+
+/// How far a matrix is from a rotation: the largest absolute entry of R^T R - I, or infinity if the matrix mirrors or
+/// if one of its numbers is not finite. Readers project what they accept onto the rotations, so that only rounding
+/// remains.
+double rotation_error(const Eigen::Matrix3d& matrix);
+/// Whether the last row is (0, 0, 0, 1).
+bool is_affine(const Eigen::Isometry3d& transform);
+/// Largest rotation_error() of what readers and programs hand on.
+constexpr double kRotationTolerance = 1e-6;
 
 /// Rounds to 1e-9 without negative zeros.
 inline Eigen::Vector3d rounded(const Eigen::Vector3d& values) {

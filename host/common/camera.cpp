@@ -1,8 +1,10 @@
 #include "quadedge/camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/calibration.hpp"
 #include "quadedge/error.hpp"
@@ -23,23 +25,36 @@ void check_camera(const PinholeCamera& camera, const std::string& where) {
     throw DataError(where + ": found " + complaint->found + ", expected " + complaint->expected);
 }
 
+/// Whether something of this size for every pixel, such as a table or a mask, fits the camera. None fits any camera.
+template <class T>
+bool fits(int width, int height, const std::vector<T>& values, const PinholeCamera& camera) {
+  if (width == 0 && height == 0 && values.empty()) return true;
+  return width == camera.width && height == camera.height &&
+         values.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what, int width, int height, std::size_t values,
+                         const PinholeCamera& camera) {
+  throw DataError(where + ": found " + what + " of " + std::to_string(width) + " x " + std::to_string(height) +
+                  " with " + std::to_string(values) + " values, expected " + std::to_string(camera.width) + " x " +
+                  std::to_string(camera.height) + " with a value for each pixel");
+}
+
 void check_table(const UndistortionTable& table, const PinholeCamera& camera, const std::string& where) {
-  if (table.empty()) return;
-  const std::size_t expected = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  if (table.width != camera.width || table.height != camera.height || table.source_x.size() != expected ||
-      table.source_y.size() != expected) {
-    throw DataError(where + ": found an undistortion table of " + std::to_string(table.width) + " x " +
-                    std::to_string(table.height) + ", expected " + std::to_string(camera.width) + " x " +
-                    std::to_string(camera.height));
+  for (const std::vector<float>* values : {&table.source_x, &table.source_y}) {
+    if (!fits(table.width, table.height, *values, camera))
+      refuse(where, "an undistortion table", table.width, table.height, values->size(), camera);
+    if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); }))
+      throw DataError(where + ": found an undistortion table with NaN or infinity, expected finite numbers");
   }
+  if (table.recorded_width < 0 || table.recorded_height < 0)
+    throw DataError(where + ": found recorded images of " + std::to_string(table.recorded_width) + " x " +
+                    std::to_string(table.recorded_height) + ", expected positive numbers, or 0 for any size");
 }
 
 void check_mask(const PixelMask& mask, const PinholeCamera& camera, const std::string& where) {
-  const std::size_t expected = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  if (mask.empty() || (mask.width == camera.width && mask.height == camera.height && mask.hidden.size() == expected))
-    return;
-  throw DataError(where + ": found a mask of " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
-                  ", expected " + std::to_string(camera.width) + " x " + std::to_string(camera.height));
+  if (!fits(mask.width, mask.height, mask.hidden, camera))
+    refuse(where, "a mask", mask.width, mask.height, mask.hidden.size(), camera);
 }
 
 }  // namespace
@@ -49,9 +64,6 @@ double StereoRig::disparity_range() const {
 }
 
 void check_rig(const StereoRig& rig, const char* source) {
-  /// Largest permitted entry of R^T R - I. Readers project the stored matrix onto the rotations, so that only rounding
-  /// remains.
-  constexpr double kRotationTolerance = 1e-6;
   const std::string where(source);
   check_camera(rig.left, where + " (left camera)");
   check_camera(rig.right, where + " (right camera)");
@@ -63,8 +75,8 @@ void check_rig(const StereoRig& rig, const char* source) {
                     std::to_string(kLargestScaleRatio));
   }
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();
-  const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation <= kRotationTolerance) || rotation.determinant() < 0) {
+  const double deviation = rotation_error(rotation);
+  if (deviation > kRotationTolerance || !is_affine(rig.right_from_left)) {
     throw DataError(where + ": found a rotation right_from_left that deviates from an orthonormal one by " +
                     std::to_string(deviation) + " (determinant " + std::to_string(rotation.determinant()) +
                     "), expected a right-handed orthonormal matrix");

@@ -14,6 +14,7 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kLargestInt = std::numeric_limits<int>::max();
 constexpr double kLargestSeed = 9007199254740992;  // 2^53: exact as a double and as an integer in TOML and JSON
+constexpr double kLeastMagnitude = 1e-9;
 enum Level : bool { advanced = false, basic = true };
 
 template <class T>
@@ -87,6 +88,10 @@ std::string Constant::allowed() const {
 void Constant::check(const Config& config) const {
   const ConfigField value = read_only(*this, config);
   const auto within = [&](double number) { return std::isfinite(number) && number >= low && number <= high; };
+  const auto* tiny = std::get_if<double*>(&value);  // squares and inverses of smaller numbers are 0 or infinite
+  if (tiny != nullptr && **tiny != 0 && std::abs(**tiny) < kLeastMagnitude)
+    throw UsageError(key() + " is " + text(config) + "; allowed: 0, and magnitudes of at least " +
+                     text_of(kLeastMagnitude));
   bool fine = true;
   if (const auto* real = std::get_if<double*>(&value)) fine = within(**real);
   if (const auto* whole = std::get_if<int*>(&value)) fine = within(**whole);

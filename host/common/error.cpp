@@ -1,6 +1,26 @@
 #include "quadedge/error.hpp"
 
+#include <cstdio>
+
 namespace quadedge {
+
+std::string visible(const std::string& text) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : '\0');
+    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F in UTF-8
+    if ((byte >= 0x20 || byte == '\n') && byte != 0x7F && !is_c1) {
+      shown += text[i];
+      continue;
+    }
+    char code[8];
+    std::snprintf(code, sizeof code, "\\x%02x", is_c1 ? next : byte);
+    shown += code;
+    i += is_c1 ? 1 : 0;
+  }
+  return shown;
+}
 
 const char* to_string(WarningKind kind) {
   switch (kind) {

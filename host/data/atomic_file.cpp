@@ -18,14 +18,6 @@ bool is_replaced(const std::string& path) {
   return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-/// Where a path leads that may be a symbolic link: links stay, and what they point to is replaced.
-std::string target_of(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_symlink(path, error)) return path;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
-  return error || std::filesystem::is_symlink(target, error) ? path : target.string();
-}
-
 std::string unfinished_name(const std::string& path) { return path + ".part" + std::to_string(getpid()); }
 
 [[noreturn]] void refuse(const std::string& path, const char* step, int reason) {
@@ -33,6 +25,17 @@ std::string unfinished_name(const std::string& path) { return path + ".part" + s
 }
 
 constexpr const char* kOpen = "open the file for writing";
+
+/// Where a path leads that may be a symbolic link: links stay, and what they point to is replaced. \throws DataError
+/// for a link to nothing, of which only its owner knows whether a file is wanted there
+std::string target_of(const std::string& path) {
+  if (path.empty()) throw DataError("found an empty name of an output file, expected a path");
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  if (error) refuse(path, "follow the symbolic link", error.value());
+  return target.string();
+}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/calibration.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -11,7 +12,7 @@ namespace quadedge::data {
 
 void Findings::error(const std::string& message) {
   if (!collect_) throw DataError(message);
-  errors_.push_back(message);
+  errors_.push_back(visible(message));
 }
 
 void Findings::error(const std::string& file, const std::string& found, const std::string& expected) {
@@ -135,8 +136,8 @@ std::string unreadable_place(const std::string& path, const fs::filesystem_error
 
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file) {
   constexpr double kTolerance = 1e-3;
-  const double deviation = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation <= kTolerance) || matrix.determinant() < 0) {
+  const double deviation = rotation_error(matrix);
+  if (deviation > kTolerance) {
     fail(file,
          "a 3 x 3 part that deviates from an orthonormal matrix by " + std::to_string(deviation) + " (determinant " +
              std::to_string(matrix.determinant()) + ")",

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "common/calibration.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge {
 namespace {
@@ -13,7 +15,7 @@ constexpr const char* kTumColumns = "timestamp tx ty tz qx qy qz qw";
 constexpr const char* kKittiColumns = "the 3 x 4 matrix world_from_left, row by row";
 /// Rotations in all known files have at least four significant digits; a matrix with a larger deviation is not a
 /// rotation.
-constexpr double kRotationTolerance = 1e-3;
+constexpr double kRotationInFiles = 1e-3;
 
 /// Whether the stamps of a TUM file are nanoseconds, as ORB-SLAM3 writes them for EuRoC: no clock shows so many
 /// seconds.
@@ -22,7 +24,7 @@ bool are_nanoseconds(const std::string& word) { return word.find_first_of(".eE")
 StampedPose tum_pose(const data::Line& line, const std::string& path) {
   const auto values = data::parse_row(line, path, 8, kTumColumns);
   const Eigen::Quaterniond rotation(values[7], values[4], values[5], values[6]);
-  if (std::abs(rotation.norm() - 1) > kRotationTolerance) {
+  if (std::abs(rotation.norm() - 1) > kRotationInFiles) {
     data::fail(path, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
                "a unit quaternion qx qy qz qw");
   }
@@ -49,7 +51,7 @@ Trajectory read_euroc_poses(const std::string& file) {
     double v[kColumns];
     for (std::size_t i = 1; i < kColumns; ++i) v[i] = parse_number(cells[i], file, line.number, expected);
     const Eigen::Quaterniond rotation(v[4], v[5], v[6], v[7]);
-    if (std::abs(rotation.norm() - 1) > kRotationTolerance) {
+    if (std::abs(rotation.norm() - 1) > kRotationInFiles) {
       fail(file, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
            "a unit quaternion q_w q_x q_y q_z");
     }
@@ -63,6 +65,25 @@ Trajectory read_euroc_poses(const std::string& file) {
 }
 
 }  // namespace data
+
+void check_trajectory(const Trajectory& trajectory, const std::string& source) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const Eigen::Isometry3d& pose = trajectory[i].world_from_left;
+    if (rotation_error(pose.linear()) <= kRotationInFiles && pose.translation().allFinite() && is_affine(pose))
+      continue;
+    throw DataError(source + ": found pose " + std::to_string(i) +
+                    " that is not a rigid transform, expected a rotation and a translation of finite numbers");
+  }
+}
+
+std::vector<Trajectory> split_segments(const Trajectory& trajectory) {
+  std::vector<Trajectory> segments;
+  for (const StampedPose& pose : trajectory) {
+    if (segments.empty() || segments.back().back().segment != pose.segment) segments.emplace_back();
+    segments.back().push_back(pose);
+  }
+  return segments;
+}
 
 Trajectory read_tum(const std::string& path) {
   Trajectory trajectory;
@@ -112,9 +133,8 @@ Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& 
     StampedPose pose;
     pose.stamp_ns = stamps_ns.empty() ? static_cast<std::int64_t>(trajectory.size()) : stamps_ns[trajectory.size()];
     for (int i = 0; i < 12; ++i) pose.world_from_left.matrix()(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
-    const Eigen::Matrix3d rotation = pose.world_from_left.linear();
-    const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-    if (deviation > kRotationTolerance || rotation.determinant() < 0) {
+    const double deviation = rotation_error(pose.world_from_left.linear());
+    if (deviation > kRotationInFiles) {
       data::fail(path, line.number, "a 3 x 3 part that is not a rotation (deviation " + std::to_string(deviation) + ")",
                  kKittiColumns);
     }

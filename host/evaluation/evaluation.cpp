@@ -206,6 +206,8 @@ std::vector<TrajectoryEvaluation> evaluate_segments(const std::vector<Match>& ma
 
 TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth, int from_frame,
                                          std::int64_t max_stamp_difference_ns) {
+  check_trajectory(estimate, "estimate");
+  check_trajectory(truth, "truth");
   const std::size_t first = std::min(static_cast<std::size_t>(std::max(0, from_frame)), estimate.size());
   const Trajectory kept(estimate.begin() + static_cast<std::ptrdiff_t>(first), estimate.end());
   const auto matches = match_by_stamp(kept, truth, max_stamp_difference_ns);

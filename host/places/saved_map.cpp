@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "common/calibration.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "places/saved_places.hpp"
 #include "quadedge/error.hpp"
@@ -145,8 +146,8 @@ class Check {
             "1 to " + std::to_string(kLargestPixel));
     require(map.is_undistorted <= 1, "a flag of lens distortion", map.is_undistorted, "0 or 1");
     require(std::abs(map.offset) <= map.rig.left.width, "a disparity offset", map.offset, "at most the image's width");
-    require(map.offset_variance >= 0 && std::isfinite(map.offset_variance), "a variance", map.offset_variance,
-            "a finite number from 0");
+    require(map.offset_variance == 0 || (map.offset_variance >= kLeastVariance && map.offset_variance <= kMostVariance),
+            "a variance", map.offset_variance, "0, or 1e-18 to 1e4 px^2");
     require(map.poses.size() == places.size(), "a number of poses", static_cast<double>(map.poses.size()),
             std::to_string(places.size()) + ", one per key rig");
     for (const Eigen::Isometry3d& pose : map.poses) check_pose(pose);
@@ -155,19 +156,18 @@ class Check {
 
  private:
   static constexpr int kLargestImage = 65536, kLargestPixel = 65535;
-  static constexpr double kRotationTolerance = 1e-6, kFarthest = 1e9;  // [m]
+  static constexpr double kFarthest = 1e9;                                                     // [m]
+  static constexpr double kUnitTolerance = 1e-5, kLeastVariance = 1e-18, kMostVariance = 1e4;  // [px^2]
 
   void require(bool holds, const std::string& what, double found, const std::string& expected) const {
     if (!holds)
       throw DataError(source_ + ": found " + what + " of " + std::to_string(found) + ", expected " + expected);
   }
   void check_pose(const Eigen::Isometry3d& pose) const {
-    const Eigen::Matrix3d rotation = pose.linear();
-    const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-    const bool is_rigid = pose.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) && rotation.determinant() > 0;
-    require(deviation <= kRotationTolerance && is_rigid, "a pose that deviates from a rigid one by", deviation,
+    const double deviation = rotation_error(pose.linear());
+    require(deviation <= kRotationTolerance && is_affine(pose), "a pose that deviates from a rigid one by", deviation,
             "a rotation and a translation");
-    require(pose.translation().cwiseAbs().maxCoeff() <= kFarthest, "a pose at a distance", pose.translation().norm(),
+    require(pose.translation().norm() <= kFarthest, "a pose at a distance", pose.translation().norm(),
             "a finite number of metres");
   }
   void check_place(const places::Place& place, const StereoRig& rig) const {
@@ -178,7 +178,7 @@ class Check {
             "1 to " + std::to_string(frontend::kKeptEdges));
     require(place.rig.edges_spacing >= 0 && place.rig.edges_spacing <= rig.left.height, "a spacing of edges",
             place.rig.edges_spacing, "0 to the image's height");
-    require(std::abs(place.signature.norm() - 1) < kRotationTolerance * 10, "a signature of length",
+    require(std::abs(place.signature.norm() - 1) < kUnitTolerance, "a signature of length",
             static_cast<double>(place.signature.norm()), "1");
     check_column(edges.left_x, 0, rig.left.width);
     check_column(edges.left_y, 0, rig.left.height);

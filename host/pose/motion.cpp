@@ -61,7 +61,10 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
   }
   estimate.inlier_ratio = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
   if (estimate.inliers < config.min_inliers || estimate.inlier_ratio < config.min_inlier_ratio) return;
-  if (!solved || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
+  const Eigen::Isometry3d adopted = estimate.learned ? estimate.learned->current_from_previous : pose;
+  const bool is_finite = pose.matrix().allFinite() && covariance.allFinite() && adopted.matrix().allFinite() &&
+                         (!estimate.learned || estimate.learned->covariance.allFinite());
+  if (!solved || !is_finite || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
     estimate.status = MotionStatus::badly_spread;
     return;
   }

@@ -1,9 +1,11 @@
 #include "report/output_folder.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <iterator>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,6 +22,12 @@ constexpr const char* kResultFiles[] = {
     "trajectory.txt", "trajectory_kitti.txt", "groundtruth.txt",    "errors.csv", "frames.csv",    "poses.csv",
     "report.json",    "config.toml",          "trajectory_map.txt", "loops.csv",  "locations.csv", "localisation.json"};
 
+bool is_result(const fs::path& file) {
+  const std::string name = file.string();
+  return name.rfind(kSegmentFile, 0) == 0 ||
+         std::find(std::begin(kResultFiles), std::end(kResultFiles), name) != std::end(kResultFiles);
+}
+
 bool is_picture(const fs::path& file) {
   const std::string name = file.filename().string();
   if (file.extension() == ".jpg") return name.rfind("thumbnail_", 0) == 0 || name.rfind("pair_", 0) == 0;
@@ -27,7 +35,62 @@ bool is_picture(const fs::path& file) {
          (name == "trajectory.png" || name.rfind("edges_", 0) == 0 || name.rfind("quads_", 0) == 0);
 }
 
+/// Where a path leads, whether or not there is something.
+fs::path place_of(const std::string& path) {
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(path, error);
+  return error ? fs::absolute(path, error).lexically_normal() : place;
+}
+
+/// Whether both paths lead to one file. Only a file can be replaced.
+bool are_one_file(const std::string& one, const std::string& other) {
+  if (one.empty() || other.empty()) return false;
+  std::error_code error;
+  const auto is_no_file = [&](const std::string& path) {
+    return fs::exists(path, error) && !fs::is_regular_file(path, error);
+  };
+  if (is_no_file(one) || is_no_file(other)) return false;
+  return place_of(one) == place_of(other) || fs::equivalent(one, other, error);
+}
+
+/// The part of a path below a folder; empty if it does not lie there.
+fs::path part_below(const std::string& folder, const std::string& path) {
+  const fs::path part = place_of(path).lexically_relative(place_of(folder));
+  return part.empty() || *part.begin() == ".." || *part.begin() == "." ? fs::path() : part;
+}
+
 }  // namespace
+
+bool is_below(const std::string& folder, const std::string& path) {
+  return !path.empty() && !part_below(folder, path).empty();
+}
+
+void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    for (auto other = outputs.begin(); other != output; ++other)
+      if (are_one_file(*output, *other))
+        throw UsageError(*output + ": two outputs would be written to this file, expected a file for each");
+    for (const auto& input : inputs)
+      if (are_one_file(*output, input))
+        throw UsageError(*output + ": an output would replace this file, which is read; expected another name");
+  }
+}
+
+void check_beside_results(const std::vector<std::string>& outputs, const std::string& folder,
+                          const std::string& input) {
+  std::error_code error;
+  if (!input.empty() && fs::equivalent(folder, input, error))
+    throw UsageError(folder +
+                     ": the results would be written among the files of the recording, expected another folder");
+  for (const auto& output : outputs) {
+    if (output.empty()) continue;
+    const fs::path part = part_below(folder, output);
+    if (is_result(part) || part == ".lock" || (!part.empty() && *part.begin() == "pictures"))
+      throw UsageError(output + ": the run writes its own results to this file, expected another name");
+    if (part.empty() && !input.empty() && is_below(input, output) && fs::exists(output, error))
+      throw UsageError(output + ": this file belongs to the recording, expected another name");
+  }
+}
 
 FolderLock::FolderLock(std::string file, bool shared, const std::string& what)
     : name_(std::move(file)), shared_(shared) {
@@ -62,13 +125,16 @@ FolderLock prepare_output_folder(const std::string& path, bool force) {
   fs::create_directories(folder / "pictures", error);
   if (error) throw DataError(path + ": cannot create the output folder: " + error.message());
   FolderLock lock((folder / ".lock").string(), false, path);
-  for (const char* name : kResultFiles) {
-    if (!fs::exists(folder / name, error)) continue;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_result(entry.path().filename())) old.push_back(entry.path());
+  std::sort(old.begin(), old.end());
+  for (const fs::path& file : old) {
     if (!force)
-      throw UsageError(path + ": the folder holds results (" + name +
+      throw UsageError(path + ": the folder holds results (" + file.filename().string() +
                        "); choose another folder with -o, or replace them with --force");
-    fs::remove(folder / name, error);
-    if (error) throw DataError((folder / name).string() + ": cannot remove the old result: " + error.message());
+    fs::remove(file, error);
+    if (error) throw DataError(file.string() + ": cannot remove the old result: " + error.message());
   }
   for (const auto& entry : fs::directory_iterator(folder / "pictures", error)) {
     if (is_picture(entry.path())) fs::remove(entry.path(), error);

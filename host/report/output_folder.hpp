@@ -3,8 +3,12 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace quadedge::report {
+
+/// Beginning of the names of files with the trajectory of one segment, before its number and ".txt".
+constexpr const char* kSegmentFile = "trajectory_segment_";
 
 /// A lock that ends with its object or its process. An exclusive lock removes its file.
 class FolderLock {
@@ -31,6 +35,17 @@ class FolderLock {
 /// \throws UsageError for a refused folder and for one that another run writes to, DataError (naming the path) for one
 /// that cannot be made or written.
 [[nodiscard]] FolderLock prepare_output_folder(const std::string& path, bool force);
+
+/// Refuses outputs that name the same file, and one that names a file of `inputs`; folders, devices and empty names
+/// aside. \throws UsageError.
+void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// Whether a path, which need not exist, lies in a folder or in one below it.
+bool is_below(const std::string& folder, const std::string& path);
+
+/// Refuses output files that a run's own results in `folder` would replace, and those that would replace a file of the
+/// recording in `input`; an empty name counts as none. \throws UsageError.
+void check_beside_results(const std::vector<std::string>& outputs, const std::string& folder, const std::string& input);
 
 /// Before long work: refuses a file that exists, unless `force`, and one that could not be written. Nothing for an
 /// empty path. \throws UsageError, DataError.

@@ -16,10 +16,14 @@ enum class ExitCode : int {
   too_few_tracked = 5,
 };
 
+/// A text for terminals: control characters other than line feeds are written as \xNN, so that words from a file cannot
+/// act on the terminal that shows them.
+std::string visible(const std::string& text);
+
 /// Base class of all exceptions that the library throws deliberately.
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ExitCode code, const std::string& message) : std::runtime_error(visible(message)), code_(code) {}
   ExitCode exit_code() const noexcept { return code_; }
 
  private:

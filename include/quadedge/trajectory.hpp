@@ -18,6 +18,13 @@ struct StampedPose {
 };
 using Trajectory = std::vector<StampedPose>;
 
+/// Checks that every pose is a rotation and a translation of finite numbers. `source`: what the poses are, for the
+/// message. \throws DataError
+void check_trajectory(const Trajectory& trajectory, const std::string& source);
+
+/// The poses of each segment by themselves, in order.
+std::vector<Trajectory> split_segments(const Trajectory& trajectory);
+
 /// TUM format: `timestamp tx ty tz qx qy qz qw`, seconds with 9 decimals; '#' starts a comment. A comment `# segment N`
 /// precedes the poses of each segment after the first; other programs skip it. Stamps increase within a segment.
 /// \throws DataError that names file and line, what was found and what was expected.

@@ -34,7 +34,8 @@ Eigen::Isometry3d transform_from(const nb::object& object, const std::string& na
   constexpr double kTolerance = 1e-6;
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-  if (!(deviation < kTolerance) || !(rotation.determinant() > 0) || matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+  if (!(deviation < kTolerance) || !matrix.allFinite() || !(rotation.determinant() > 0) ||
+      matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
     throw DataError(name +
                     ": found a matrix that is not a rigid transform (its rotation deviates from orthonormality by " +
                     std::to_string(deviation) + "), expected a rotation and a translation above the row 0 0 0 1");

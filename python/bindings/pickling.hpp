@@ -13,9 +13,12 @@
 
 #include "bindings.hpp"
 #include "quadedge/camera.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 
 namespace quadedge::python {
+
+constexpr const char* kOtherVersion = "pickle: found a structure of another version of quadedge, expected this one";
 
 // The members of a structure, in a fixed order. Works for const and mutable ones.
 template <class Self>
@@ -80,11 +83,11 @@ nb::bytes pack_array(const T* values, std::size_t count) {
   return nb::bytes(reinterpret_cast<const char*>(values), count * sizeof(T));
 }
 
-/// \throws ValueError for an array of another length.
+/// \throws DataError for an array of another length.
 template <class T>
 void unpack_array(nb::handle packed, T* values, std::size_t count) {
   const auto bytes = nb::cast<nb::bytes>(packed);
-  if (bytes.size() != count * sizeof(T)) throw nb::value_error("pickled by another version of quadedge");
+  if (bytes.size() != count * sizeof(T)) throw DataError(kOtherVersion);
   const auto* first = static_cast<const T*>(bytes.data());
   std::copy(first, first + count, values);
 }
@@ -103,7 +106,7 @@ struct Packed {  // a structure: a tuple of its packed members
     const auto all = members(value, value);
     const auto state = nb::cast<nb::tuple>(packed);
     constexpr std::size_t kCount = std::tuple_size_v<std::remove_const_t<decltype(all)>>;
-    if (state.size() != kCount) throw nb::value_error("pickled by another version of quadedge");
+    if (state.size() != kCount) throw DataError(kOtherVersion);
     std::size_t next = 0;
     std::apply(
         [&](auto&... member) {
@@ -166,9 +169,13 @@ struct Packed<std::vector<T>, std::enable_if_t<std::is_class_v<T>>> {
 template <class T>
 void add_pickling(nb::class_<T>& bound) {
   bound.def("__getstate__", [](const T& self) { return Packed<T>::pack(self); })
-      .def("__setstate__", [](T& self, const nb::tuple& state) {
+      .def("__setstate__", [](T& self, nb::handle state) {
         T unpacked;
-        Packed<T>::unpack(state, unpacked);
+        try {
+          Packed<T>::unpack(state, unpacked);
+        } catch (const nb::cast_error&) {
+          throw DataError("pickle: found members of other types, expected one by this version of quadedge");
+        }
         new (&self) T(std::move(unpacked));
       });
 }

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/vector.h>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
@@ -39,6 +40,7 @@ Trajectory make_trajectory(const nb::ndarray<const std::int64_t, nb::ndim<1>, nb
       }
     }
   }
+  check_trajectory(trajectory, "poses");
   return trajectory;
 }
 
@@ -55,7 +57,8 @@ void bind_trajectories(nb::module_& module) {
           },
           "stamps_ns"_a, "poses"_a, "segments"_a = nb::none(),
           "stamps_ns: (N,) int64 [ns]. poses: (N, 4, 4) float64, world_from_left [m]. segments: (N,) int32, as in\n"
-          "FrameResult; 0 unless given. Raises DataError for other shapes.")
+          "FrameResult; 0 unless given. Raises DataError for other shapes and for\n"
+          "matrices that are not rigid transforms.")
       .def_static(
           "from_file", [](const std::filesystem::path& path) { return read_trajectory(path.string()); }, "path"_a,
           "Reads a TUM file (8 columns) or a KITTI file (12 columns, where the row number serves as the stamp).\n\n"
@@ -70,6 +73,8 @@ void bind_trajectories(nb::module_& module) {
           "write_kitti",
           [](const Trajectory& self, const std::filesystem::path& path) { write_kitti(path.string(), self); }, "path"_a,
           "Writes a KITTI file: a 3 x 4 matrix per pose, row by row [m].")
+      .def("split", &split_segments,
+           "A list with a Trajectory per segment: no measurement connects the poses of one with those of another.")
       .def("__len__", [](const Trajectory& self) { return self.size(); })
       .def_prop_ro(
           "stamps_ns",

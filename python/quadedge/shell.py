@@ -1,5 +1,6 @@
 """What the package's command-line programs share."""
 
+import re
 import shutil
 import sys
 from collections.abc import Callable
@@ -13,11 +14,16 @@ def exit_code(name: str, work: Callable[[], int | None]) -> int:
     try:
         return work() or 0
     except Error as error:
-        print(f"{name}: {error}", file=sys.stderr)
+        print(visible(f"{name}: {error}"), file=sys.stderr)
         return error.exit_code
     except ImportError as error:  # of an optional dependency; the message says how to install it
-        print(f"{name}: {error}", file=sys.stderr)
+        print(visible(f"{name}: {error}"), file=sys.stderr)
         return UsageError.exit_code
+
+
+def visible(text: str) -> str:
+    """The text with control characters other than line feeds written as \\xNN, as ``quadedge`` prints it."""
+    return re.sub(r"[\x00-\x09\x0b-\x1f\x7f-\x9f]", lambda found: f"\\x{ord(found[0]):02x}", text)
 
 
 def program() -> list[str]:

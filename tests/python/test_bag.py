@@ -298,6 +298,16 @@ def test_odometry_has_the_axes_of_rep_103(tmp_path):
     assert of_later.pose.covariance[0] == 1e6 and of_later.pose.pose.position.x == 3  # unknown in another segment
 
 
+@pytest.mark.parametrize("stamp", [-5, 2**31 * 10**9, 2**63 - 1])
+def test_odometry_with_stamps_that_ros_cannot_hold_is_refused_and_leaves_no_folder(tmp_path, stamp):
+    result = SimpleNamespace(stamp_ns=stamp, is_tracked=True, segment=0, world_from_left=numpy.eye(4), covariance=None)
+    with pytest.raises(quadedge.DataError, match=f"found the stamp {stamp} ns, expected 0 to"):
+        quadedge.bag.write_mcap(tmp_path / "a" / "b" / "odometry", [result])
+    assert list(tmp_path.iterdir()) == []
+    latest = SimpleNamespace(**{**vars(result), "stamp_ns": 2**31 * 10**9 - 1})
+    assert quadedge.bag.write_mcap(tmp_path / "odometry", [latest]).exists()
+
+
 @pytest.fixture
 def room_bag(room, frames, tmp_path):
     with BagWriter(tmp_path / "room", "mcap") as bag:

@@ -51,6 +51,12 @@ def test_without_loops_there_is_no_map_and_the_poses_are_the_same(walk, saved):
                 call()
 
 
+def test_a_map_is_not_saved_without_a_name(walk):
+    with quadedge.Odometry(walk, config=CONFIG, loops=True) as odometry:
+        with pytest.raises(quadedge.DataError, match="empty name"):
+            odometry.save_map("")
+
+
 def test_frames_are_located_in_a_saved_map(walk, saved):
     path, _, _ = saved
     places = quadedge.Map.load(path)

@@ -3,8 +3,10 @@
 import csv
 import json
 import os
+import struct
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -42,6 +44,14 @@ def page_of(path: Path, **options) -> ParsedPage:
 def save_picture(file: Path, width: int, height: int) -> None:
     noise = np.random.default_rng(1).integers(0, 255, (height, width, 3), dtype=np.uint8)
     PIL.fromarray(noise).save(file)
+
+
+def png_header(width: int, height: int) -> bytes:
+    """A grey PNG picture that ends after a size and a first piece of data."""
+    def chunk(kind: bytes, content: bytes) -> bytes:
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes(1000))))
 
 
 def test_numbers_have_four_digits_and_suitable_units():
@@ -95,6 +105,7 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     save_picture(tmp_path / "street/pictures/quads_000005.png", 1280, 960)
     save_picture(tmp_path / "street/pictures/pair_000006.jpg", 960, 300)
     (tmp_path / "street/pictures/thumbnail_000007.jpg").write_text("no picture")
+    (tmp_path / "street/pictures/quads_000009.png").write_bytes(png_header(60000, 60000))
     page = page_of(tmp_path / "street")
     assert page.facts["Program"] == "QuadEdge 1.2.3, commit 0123456789ab"
     assert page.facts["Date"] == "2026-05-04 03:02:01 UTC"
@@ -112,6 +123,7 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     assert promises[0][1] == "position [mm]"
     assert promises[2] == ["5", "7", "20.0", "10.0", "0.100", numbers.DASH, "4.50", "1.20"]
     assert page.pictures == 3 and "left and right image of frame 6" in page.text
+    assert "quads_000009.png: no picture" in page.text
     assert "thumbnail_000007.jpg: no picture" in page.text
     # The estimate drifts sideways by 10 mm per frame and is drawn aligned to the first ground-truth pose.
     estimate = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "QuadEdge")

@@ -10,6 +10,9 @@ from .. import DataError, Trajectory
 from ..ros_messages import BODY_FROM_OPTICAL, message_store, odometry_message, of_base
 
 
+_STAMP_END = 2**31 * 1_000_000_000  # builtin_interfaces/Time has 31 bits for seconds from 0
+
+
 def _tracked(results: Iterable) -> list:
     return [result for result in results if result.is_tracked]
 
@@ -38,7 +41,7 @@ def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odom
 
     The twist is unknown, and so are the covariances of all segments after the first, whose place in ``frame`` is not
     measured: their variances are 1e6. Returns the path of the .mcap file. Raises DataError if the folder exists or
-    cannot be written, ImportError without rosbags.
+    cannot be written and for stamps that ROS's messages cannot hold, ImportError without rosbags.
     """
     store = message_store()
     from rosbags.rosbag2 import StoragePlugin, Writer, WriterError
@@ -46,13 +49,18 @@ def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odom
     folder = Path(folder)
     if folder.exists():
         raise DataError(f"{folder}: the file or folder exists, expected a new folder")
+    tracked = _tracked(results)
+    for result in tracked:
+        if not 0 <= result.stamp_ns < _STAMP_END:
+            raise DataError(f"{folder}: found the stamp {result.stamp_ns} ns, expected 0 to {_STAMP_END - 1} ns, the "
+                            "times of ROS")
     child_frame = child_frame or ("left_camera" if optical_axes else "base_link")
     base_from_camera = numpy.eye(4) if optical_axes else BODY_FROM_OPTICAL
     try:
         with Writer(folder, version=8, storage_plugin=StoragePlugin.MCAP) as writer:
             kind = "nav_msgs/msg/Odometry"
             connection = writer.add_connection(topic, kind, typestore=store)
-            for result in _tracked(results):
+            for result in tracked:
                 # No measurement connects the pose in a later segment with the origin of the frame.
                 known = result.covariance if result.segment == 0 else None
                 message = odometry_message(result.stamp_ns, frame, child_frame,

@@ -124,7 +124,7 @@ def reduced(file: Path, width: int, quality: int) -> bytes | None:
     try:
         with PIL.Image.open(file) as opened:
             picture = opened.convert("RGB")
-    except (OSError, SyntaxError, ValueError):
+    except (OSError, SyntaxError, ValueError, PIL.Image.DecompressionBombError):
         return None
     if picture.width > width:
         picture = picture.resize((width, max(1, round(picture.height * width / picture.width))),
