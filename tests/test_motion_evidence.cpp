@@ -181,7 +181,7 @@ TEST_CASE("motion evidence: what one motion explains beside another is where the
   CHECK(beside(thing.motion).explained_area() <= area);
   CHECK(seen.step.cells.count(true) > seen.step.cells.count(false));
   // The scene is all around the object, which covers a third of the image.
-  const double all = seen.step.cells.spread(false);
+  const double all = seen.step.cells.spread();
   CHECK(beside(thing.motion).spread(true) > 0.8 * all);
   seen.area_of(thing.motion);
   CHECK(beside(scene.motion).spread(true) < 0.6 * all);

@@ -33,6 +33,12 @@ Verdict at_rest(Verdict verdict, double ratio) {
   return verdict;
 }
 
+Verdict still(Verdict verdict, double still_ratio, double around_ratio) {
+  verdict.still_ratio = still_ratio;
+  verdict.around_ratio = around_ratio;
+  return verdict;
+}
+
 const Verdict kFailure;
 const Expectation kPredicted{0, false, 0.35}, kDoubtful{0, true, 0.35}, kUnpredicted{std::nullopt, false, 0.35};
 
@@ -116,6 +122,11 @@ TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry
   const Ambiguity static_scene = ambiguity({at_rest(found(0.5), 0.07)});
   CHECK(static_scene.kind == AmbiguityKind::static_scene);
   CHECK(static_scene.ratio == 0.07);
+  const Ambiguity sides = ambiguity({still(found(0.5), 0.9, 0.1)});
+  CHECK(sides.kind == AmbiguityKind::moving_sides);
+  CHECK(sides.ratio == 0.1);
+  CHECK_FALSE(ambiguity({still(found(0.5), 0.9, 0.04)}).exists());
+  CHECK_FALSE(ambiguity({still(found(0.5), 0.7, 0.1)}).exists());
   const Ambiguity competing = ambiguity({found(0.5), found(0.1), found(0.3), found(0.25), kFailure});
   CHECK(competing.kind == AmbiguityKind::competing_motion);
   CHECK(competing.ratio == Approx(0.6));
@@ -126,8 +137,9 @@ TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry
   CHECK(other_part.kind == AmbiguityKind::other_part);
   CHECK(other_part.ratio == 0.2);
   std::set<std::string> texts;
-  for (const Ambiguity& each : {moving_image, static_scene, competing, other_part}) texts.insert(to_string(each));
-  CHECK(texts.size() == 4);
+  for (const Ambiguity& each : {moving_image, static_scene, sides, competing, other_part})
+    texts.insert(to_string(each));
+  CHECK(texts.size() == 5);
   for (const auto& text : texts) CHECK(text.find(" %") != std::string::npos);
 }
 

@@ -58,8 +58,9 @@ Image rearranged(const Image& image, const From& from) {
 TEST_CASE("rig monitor: nothing contradicts the right calibration", "[rig]") {
   for (const char* name : {"room", "cables", "facade"}) {
     const RenderedScene scene(name, 320, 200, 1);
-    const auto [evidence, fit, findings] =
-        RigMonitor::examine(scene.rig, scene.frame(0), scene.config.stereo.max_disparity);
+    const RigReport report = RigMonitor::examine(scene.rig, scene.frame(0), scene.config.stereo.max_disparity);
+    const auto& findings = report.findings;
+    const RigEvidence& evidence = report.evidence;
     INFO(name << ", " << (findings.empty() ? "" : rig::warning(findings.front()).text));
     CHECK(findings.empty());
     CHECK(evidence.found_ratio > 0.5);

@@ -100,7 +100,7 @@ TEST_CASE("saved map: contents that promise more than there is or hold impossibl
   const std::size_t rig = bytes_of_settings(bytes), poses = rig + 2 * 40 + 128 + 4 + 1 + 16;
   const std::size_t places = poses + 4 + saved_maps::room_map().key_rigs() * 128;
   const std::size_t count = places + 4 + 4 + 8 + 1024, column = count + 4;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
   const auto refused = [&](std::size_t place, auto value, const std::string& words) {
     check_refused_map(framed(replaced(bytes, place, value)), words);
   };
@@ -111,14 +111,22 @@ TEST_CASE("saved map: contents that promise more than there is or hold impossibl
   refused(rig + 32, std::int32_t{-5}, "image width");
   refused(rig + 80, 2.0, "rotation");
   refused(rig + 80 + 96, kNan, "baseline");
+  refused(rig + 80 + 104, kNan, "baseline");
+  refused(rig + 80 + 112, kInfinity, "baseline");
+  refused(rig + 80 + 40, kNan, "rotation");
   refused(rig + 208, std::int32_t{0}, "pixel value");
   refused(rig + 212, std::uint8_t{2}, "lens distortion");
   refused(rig + 213, kNan, "disparity offset");
   refused(rig + 221, -1.0, "variance");
+  refused(rig + 221, 1e-320, "variance");
+  refused(rig + 221, kNan, "variance");
   refused(poses, std::uint32_t{0xFFFFFFFF}, "more bytes");
   refused(poses, std::uint32_t{1}, "");  // what follows is no list of key rigs
   refused(poses + 4, 3.0, "pose");
   refused(poses + 4 + 96, 1e300, "pose");
+  for (const std::size_t element : {96, 104, 112}) refused(poses + 4 + element, kNan, "pose");
+  for (const std::size_t element : {8, 40, 80}) refused(poses + 4 + element, kNan, "pose");
+  refused(poses + 4 + 104, kInfinity, "pose");
   refused(places, std::uint32_t{0xFFFFFFFF}, "more bytes");
   refused(places + 4, std::int32_t{-1}, "frame number");
   refused(places + 8, kNan, "spacing");
@@ -129,6 +137,23 @@ TEST_CASE("saved map: contents that promise more than there is or hold impossibl
   refused(column, -1.0F, "edge");
   check_refused_map(framed(bytes + "x"), "after the map");
   check_refused_map(framed(bytes.substr(0, bytes.size() - 1)), "more bytes");
+}
+
+TEST_CASE("saved map: the settings it was made with are required, and shown without control characters", "[device]") {
+  const std::string bytes = saved_maps::room_map().bytes();
+  Device device("0", kept_programs());
+  const auto locate_in = [&](const std::string& changed) {
+    const SavedMap map = SavedMap::from_bytes(changed, "changed.map");
+    Localiser(map, map.rig(), device, Config());
+  };
+  REQUIRE_NOTHROW(locate_in(bytes));
+  const std::string without = std::string(4, '\0') + bytes.substr(bytes_of_settings(bytes));
+  REQUIRE_THROWS_WITH(locate_in(without), Contains("does not state its edges.sigma"));
+  std::size_t value = 4 + 4;
+  while (bytes.compare(value, 11, "edges.sigma") != 0) ++value;
+  const std::size_t digit = value + 11 + 4;
+  REQUIRE(bytes[digit] == '2');
+  REQUIRE_THROWS_WITH(locate_in(replaced(bytes, digit, '\x1b')), Contains("edges.sigma = \\x1b: expected the same"));
 }
 
 TEST_CASE("saved map: one that cannot be written is an error and leaves nothing behind", "[device]") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -22,10 +23,21 @@ std::uint8_t texture(int x, int y, int moved) {
   return static_cast<std::uint8_t>(40 + random() % 160);
 }
 
-/// How far the upper two thirds and the lower third of the image move per frame [px], and how near they are [1/m].
+/// How far the upper two thirds and the lower third of the image move per frame [px], and how near they are [1/m]. With
+/// a board, the lower part is the middle of the image instead. From frame `lower_start` on, the lower part moves.
 struct Scene {
   int upper_motion, lower_motion;
   double upper_inverse_depth, lower_inverse_depth;
+  bool has_board = false;
+  int lower_start = 1 << 20;
+
+  bool is_lower(int x, int y) const {
+    if (!has_board) return y >= kFirstStaticRow;
+    return x >= 32 && x < kWidth - 32 && y >= 32 && y < kHeight - 32;
+  }
+  int moved(int frame, bool is_lower) const {
+    return is_lower ? frame * lower_motion + 3 * std::max(0, frame - lower_start) : frame * upper_motion;
+  }
 };
 
 /// The regions found in so many frames with camera noise.
@@ -42,11 +54,11 @@ std::vector<StaticRegion> regions(const Scene& scene, int frames) {
   for (int frame = 0; frame < frames; ++frame) {
     std::vector<CornerMatch> matches;
     for (int y = 0; y < kHeight; ++y) {
-      const bool is_lower = y >= kFirstStaticRow;
       for (int x = 0; x < kWidth; ++x) {
-        const int level = texture(x, y, frame * (is_lower ? scene.lower_motion : scene.upper_motion));
+        const bool is_lower = scene.is_lower(x, y);
+        const int level = texture(x, y, scene.moved(frame, is_lower));
         pixels[static_cast<std::size_t>(y * kWidth + x)] = static_cast<std::uint8_t>(level + noise(random));
-        if (x % 40 != 20 || y % 40 != 20) continue;
+        if (x % 32 != 16 || y % 32 != 16) continue;
         CornerMatch match;
         match.left = {x, y};
         match.inverse_depth = is_lower ? scene.lower_inverse_depth : scene.upper_inverse_depth;
@@ -62,8 +74,18 @@ std::vector<StaticRegion> regions(const Scene& scene, int frames) {
 }  // namespace
 
 TEST_CASE("static region: a bonnet below a moving scene is found in every window of frames", "[rig]") {
-  const auto found = regions({3, 0, 0.1, 1}, 2 * kStaticWindow + 3);
-  REQUIRE(found.size() == 2);
+  auto found = regions({3, 0, 0.1, 1}, 2 * kStaticWindow + 3);
+  REQUIRE(found.size() == 4);
+  for (const std::size_t certain : {0, 2}) {
+    const PixelMask& mask = found[certain].mask;
+    REQUIRE(mask.hidden.size() == static_cast<std::size_t>(kWidth * kHeight));
+    const int first = kFirstStaticRow - kStaticCell;  // cells beside the static ones are masked, too
+    for (int y = 0; y < kHeight; y += 5)
+      for (int x = 0; x < kWidth; x += 5) CHECK(mask.hidden[static_cast<std::size_t>(y * kWidth + x)] == (y >= first));
+    CHECK_FALSE(found[certain].is_released);
+  }
+  CHECK(found[1].mask.empty());
+  CHECK(found[3].mask.empty());
   for (const StaticRegion& region : found) {
     CHECK(region.ratio == Approx(1.0 / 3).margin(0.01));
     CHECK(region.bounds.min() == Eigen::Vector2d(0, kFirstStaticRow));
@@ -73,7 +95,28 @@ TEST_CASE("static region: a bonnet below a moving scene is found in every window
   finding.region = found[0];
   const Warning told = warning(finding);
   CHECK(told.kind == WarningKind::static_region);
-  CHECK_THAT(told.text, Contains("33 %") && Contains("rows 128 and 192") && Contains("mask"));
+  CHECK_THAT(told.text, Contains("33 %") && Contains("rows 128 and 192") && Contains("Use a mask"));
+  finding.kind = RigFindingKind::masked_region;
+  CHECK_THAT(warning(finding).text, Contains("33 %") && Contains("is masked from here on"));
+}
+
+TEST_CASE("static region: a board that fills most of the image is certain, whatever its depth", "[rig]") {
+  for (const double depth : {1.0, 0.1}) {
+    const auto found = regions({5, 0, 0.2, depth, true}, kCertainAfter + 2);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].ratio == Approx(0.533).margin(0.05));
+    CHECK_FALSE(found[0].mask.empty());
+  }
+  CHECK(regions({5, 0, 0.2, 0.05, true}, 2 * kStaticWindow).empty());  // distant scenery
+  CHECK(regions({0, 5, 0.1, 0.2, true}, 2 * kStaticWindow).empty());   // what moves is in the middle only
+}
+
+TEST_CASE("static region: a mask is released once what it covers moves", "[rig]") {
+  const auto found = regions({5, 0, 0.2, 1, true, 21}, 2 * kStaticWindow);
+  REQUIRE(found.size() >= 2);
+  CHECK_FALSE(found.front().mask.empty());
+  CHECK(found.back().is_released);
+  CHECK(found.back().mask.empty());
 }
 
 TEST_CASE("static region: scenery, a camera at rest and moving images are none", "[rig]") {

@@ -14,8 +14,9 @@ void check_numbers(const StereoRig& rig, DatasetCheck& check) {
 }
 
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
-  const auto [evidence, fit, findings] = rig::RigMonitor::examine(
+  const rig::RigReport report = rig::RigMonitor::examine(
       dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(dataset.rig));
+  const RigEvidence& evidence = report.evidence;
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
   char text[160];
   if (evidence.is_searched() && std::isfinite(evidence.searched_residual)) {
@@ -26,7 +27,7 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
   } else {
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
-  for (const auto& finding : findings) check.warnings.push_back(frame + rig::warning(finding).text);
+  for (const auto& finding : report.findings) check.warnings.push_back(frame + rig::warning(finding).text);
   if (pair.number > 0) return;
   if (const std::string proposal = rectified_proposal(dataset, pair); !proposal.empty())
     check.warnings.push_back(frame + proposal);

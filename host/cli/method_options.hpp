@@ -14,7 +14,7 @@ namespace quadedge::cli {
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:
-  /// --device, --trust, --config, --variant, --kernels, --max-disparity, and --KEY for every constant.
+  /// --device, --trust, --config, --variant, --kernels, --max-disparity, --no-auto-mask, and --KEY for every constant.
   void declare(Options& options);
   /// To be called before declare(): rendered sequences have a rig without errors, unless options state one.
   void assume_exact_rig();
@@ -38,7 +38,7 @@ class MethodOptions {
 
   Config config_;
   std::string device_ = "auto";
-  bool trusts_ = false;
+  bool trusts_ = false, keeps_static_ = false;
   std::string kernels_;
   std::vector<std::string> variants_;
 };

@@ -45,6 +45,9 @@ class DeviceFrontend : public StagedFrontend {
            const PixelMask& hidden, int max_value, const Config& config);
   };
 
+  void take_left_mask() override {
+    left_.mask.set(calibration_.left_mask, config_.edges.margin, left_.detection.maxima());
+  }
   FrameEdges& start(const StereoFrame& frame) override;
   void detect(FrameEdges& current) override;
   void describe(const FrameEdges& current, bool by_sift) override;

@@ -57,6 +57,10 @@ class Frontend {
     return matches;
   }
 
+  /// Hides these pixels of the left image, besides those that the rig masks, from the next frame on. An empty mask
+  /// hides none.
+  void hide(const PixelMask& left);
+
   /// Takes over the rectification error measured in the current frame, which the search of the next ones corrects.
   void take(const rig::EpipolarFit& fit) { rectification_.take(fit); }
 
@@ -76,13 +80,18 @@ class Frontend {
 
  protected:
   Frontend(const StereoRig& rig, const StereoConfig& config)
-      : calibration_(rig), rectification_(calibration_, config) {}
+      : calibration_(rig), rectification_(calibration_, config), left_mask_of_rig_(rig.left_mask) {}
+  /// Called when calibration_.left_mask has changed.
+  virtual void take_left_mask() {}
 
   StereoRig calibration_;
   RectificationFollower rectification_;
   FrontendCounts counts_;
   int searches_ = 0;  ///< calls of match() for the current frame; they number TemporalMatches::search
   Tap* tap_ = nullptr;
+
+ private:
+  PixelMask left_mask_of_rig_;
 };
 
 /// Creates the OpenCL front end on `device`, or the reference if `device` is the reference.

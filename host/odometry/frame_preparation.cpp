@@ -17,7 +17,7 @@ FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& r
     : recorded_(recorded),
       min_edges_(config.pose.min_inliers),
       frontend_(frontend::make_frontend(rig, device, config, &warnings_)),
-      rig_monitor_(rig) {}
+      rig_monitor_(rig, config.odometry.auto_mask) {}
 
 /// The previous rig is recycled unless somebody holds it.
 frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame) {

@@ -45,6 +45,8 @@ class FramePreparation {
   std::optional<FrameFault> fault(const rig::RigReport& report);
   /// Takes over the rectification error of a frame that was located.
   void adopt(const rig::RigReport& report) { frontend_->take(report.fit); }
+  /// Hides pixels of the left image, besides those that the rig masks, from the next frame on.
+  void hide(const PixelMask& mask) { frontend_->hide(mask); }
 
   void warn(const Warning& warning) { warnings_.push_back(warning); }
   /// Warnings since the last call, of kinds that no earlier call has returned.

@@ -17,7 +17,7 @@ void MotionEvidence::judge(const EdgePositions& predicted, MotionStep& step) {
   step.refusal = refusal_of(step.motion.status);
   if (step.ok() && step.explained.support < config_.temporal.min_support) step.refusal = Refusal::little_support;
   if (!step.ok()) return;
-  step.explained.static_ratio = static_ratio(step);
+  compare_with_standstill(step);
   select(step, step.motion.current_from_previous, kCloseAgreement * config_.pose.inlier_distance,
          pose::kInlierOrientation, step.agrees);
   measure_area(predicted, step);
@@ -43,17 +43,22 @@ void MotionEvidence::measure_area(const EdgePositions& predicted, MotionStep& st
   }
   step.explained.area = step.cells.explained_area();
   step.explained.moving_ratio = step.cells.moving_ratio();
+  const double others = step.cells.count(false), all = others + step.cells.count(true);
+  if (step.cells.spread(false) > kSurroundingSpread * step.cells.spread()) step.explained.around_ratio = others / all;
 }
 
-/// Edges are not static by chance, and distant edges agree with the motion as well. Hence, either the camera did not
-/// move, or something moves along with it.
-double MotionEvidence::static_ratio(const MotionStep& step) {
+/// Sets the ratios of quads that are static. Edges are not static by chance, and distant edges agree with the motion as
+/// well. Hence, either the camera did not move, or something moves along with it.
+void MotionEvidence::compare_with_standstill(MotionStep& step) {
   const double close = kCloseAgreement * config_.pose.inlier_distance, turn = pose::kInlierOrientation;
   select(step, step.motion.current_from_previous, 2 * close, turn, follows_);
   select(step, Eigen::Isometry3d::Identity(), close, turn, is_still_);
-  std::size_t still = 0;
-  for (std::size_t q = 0; q < step.quads.size(); ++q) still += is_still_[q] != 0 && follows_[q] == 0 ? 1 : 0;
-  return static_cast<double>(still) / std::max(1.0, static_cast<double>(step.quads.size()));
+  double still = 0, following = 0;
+  for (std::size_t q = 0; q < step.quads.size(); ++q)
+    if (is_still_[q] != 0) (follows_[q] != 0 ? following : still) += 1;
+  const double quads = std::max(1.0, static_cast<double>(step.quads.size()));
+  step.explained.static_ratio = still / quads;
+  step.explained.still_ratio = following / quads;
 }
 
 ExplainedCells MotionEvidence::explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen,

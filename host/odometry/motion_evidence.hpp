@@ -39,7 +39,7 @@ class MotionEvidence {
   void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion, Verdict& verdict) const;
 
  private:
-  double static_ratio(const MotionStep& step);
+  void compare_with_standstill(MotionStep& step);
   void measure_area(const EdgePositions& predicted, MotionStep& step) const;
   /// Marks the quads within `distance` [px] of where a motion since the step's base brings them.
   int select(const MotionStep& step, const Eigen::Isometry3d& motion, double distance, double angle,

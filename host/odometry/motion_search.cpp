@@ -20,6 +20,18 @@ void hide_explained(const ExplainedCells& other, TemporalSearch& search) {
   }
 }
 
+/// Leaves out the edges that are predicted in masked pixels.
+void hide_masked(const PixelMask& hidden, TemporalSearch& search) {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  if (hidden.empty()) return;
+  for (std::size_t i = 0; i < search.left.size(); ++i) {
+    const float x = search.left.x[i], y = search.left.y[i];
+    if (!(x >= 0 && x < static_cast<float>(hidden.width) && y >= 0 && y < static_cast<float>(hidden.height))) continue;
+    if (hidden.hidden[static_cast<std::size_t>(static_cast<int>(y) * hidden.width + static_cast<int>(x))] != 0)
+      search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+  }
+}
+
 /// Whether a motion explains so little beside a confirmed one that further rounds would not make them ambiguous.
 bool cannot_compete(const MotionStep& step, const MotionStep* known) {
   return known != nullptr && step.explained.area < kHopelessAreaRatio * known->explained.area;
@@ -148,6 +160,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
   const auto predict = [&](const Eigen::Isometry3d& motion, int every, TemporalSearch& search) {
     frontend::predict_positions(fits_.calibration(), base->edges, fits_.measured(*base), motion,
                                 config_.temporal.radius, every, search);
+    hide_masked(hidden_, search);
   };
   const auto predict_all = [&] {
     predict(current_from_base, 1, search_);
@@ -240,7 +253,7 @@ Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const Motion
   OtherPart part;
   part.area = count / std::max(1, searched + chosen.cells.count(true));
   part.ratio = count / std::max(1, searched);
-  part.spread = cells.spread(true) / std::max(1e-9, chosen.cells.spread(false));
+  part.spread = cells.spread(true) / std::max(1e-9, chosen.cells.spread());
   return ambiguity_of(part, record_.was_ambiguous());
 }
 

@@ -27,6 +27,9 @@ class MotionSearch {
   /// Takes note of the motion that was chosen for a frame: what is expected of the next frame depends on it.
   void remember(const MotionStep& found) { record_.remember(found); }
 
+  /// Edges that a motion brings into these pixels of the left image are out of view, as none are detected there.
+  void hide(const PixelMask& left) { hidden_ = left; }
+
   /// Time spent on motions since the last call, without the searches for matches [ms].
   double take_pose_ms() { return fits_.take_pose_ms(); }
 
@@ -76,6 +79,7 @@ class MotionSearch {
   MotionProposals proposals_;
   MotionEvidence evidence_;
   TrackRecord record_;
+  PixelMask hidden_;
   TemporalSearch search_, next_search_, known_search_;  ///< kept between calls
 };
 

@@ -52,6 +52,8 @@ Ambiguity ambiguity_of(std::size_t chosen, const std::vector<Verdict>& verdicts,
   const Verdict& verdict = verdicts[chosen];
   if (verdict.moving_ratio > kMinorityMotionRatio && verdict.global_ratio < kConfirmedGlobalRatio)
     return {AmbiguityKind::moving_image, verdict.moving_ratio};
+  if (verdict.still_ratio > kStillQuadRatio && verdict.around_ratio > kMovingSidesRatio)
+    return {AmbiguityKind::moving_sides, verdict.around_ratio};
   if (verdict.static_ratio > kStaticQuadRatio) return {AmbiguityKind::static_scene, verdict.static_ratio};
   const double area = competing_area(chosen, verdicts, comparison);
   return area > 0 ? Ambiguity{AmbiguityKind::competing_motion, area} : Ambiguity{};
@@ -85,6 +87,8 @@ std::string to_string(const Ambiguity& ambiguity) {
   switch (ambiguity.kind) {
     case AmbiguityKind::none: return "";
     case AmbiguityKind::moving_image: return percent(ambiguity.ratio) + " of the image move differently";
+    case AmbiguityKind::moving_sides:
+      return percent(ambiguity.ratio) + " of the image, on all sides, move while the rest stands still";
     case AmbiguityKind::static_scene:
       return percent(ambiguity.ratio) + " of the edges are where they were, although the motion would have moved them";
     case AmbiguityKind::competing_motion:

@@ -32,6 +32,8 @@ struct Explained {
   double area = 0;          ///< mean over the image cells of the fraction of edges that agree closely
   double moving_ratio = 0;  ///< fraction of the edges in view in cells that hardly follow the motion
   double static_ratio = 0;  ///< fraction of the quads that are static although the motion would have moved them
+  double still_ratio = 0;   ///< fraction of the quads that are static as the motion would have them
+  double around_ratio = 0;  ///< fraction of the image cells that do not follow, if they lie on all sides; else 0
 };
 
 /// What is known of a motion that was tried.
@@ -62,6 +64,7 @@ struct Expectation {
 enum class AmbiguityKind {
   none,
   moving_image,      ///< most of the image moves differently
+  moving_sides,      ///< the camera seems to stand still, while a part of the image on all sides moves
   static_scene,      ///< a part of the image is static that the motion would have moved
   competing_motion,  ///< another motion explains nearly as much
   other_part         ///< another motion explains parts of the image of which the motion explains nothing

@@ -37,11 +37,11 @@ double ExplainedCells::explained_area() const {
   return sum / std::max(1, count(true) + count(false));
 }
 
-double ExplainedCells::spread(bool only_following) const {
+double ExplainedCells::spread(std::optional<bool> following) const {
   double count = 0, squares = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (!(cells_[i].edges > 0) || (only_following && !cells_[i].follows())) continue;
+    if (!(cells_[i].edges > 0) || cells_[i].follows() != following.value_or(cells_[i].follows())) continue;
     const Eigen::Vector2d position(static_cast<int>(i) % columns_, static_cast<int>(i) / columns_);
     count += 1;
     sum += position;

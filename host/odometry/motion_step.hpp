@@ -55,8 +55,8 @@ class ExplainedCells {
 
   /// Mean over the cells with edges of the fraction of edges that the motion explains; 0 without edges.
   double explained_area() const;
-  /// Standard deviation of the positions of the cells that hold edges, or only of those that follow [cells].
-  double spread(bool only_following) const;
+  /// Standard deviation of the positions of the cells that hold edges, or only of those that follow or do not [cells].
+  double spread(std::optional<bool> following = {}) const;
   /// Number of cells that hold edges and follow, or do not.
   int count(bool following) const;
   /// Fraction of the edges that lie in cells that do not follow the motion; 0 without edges.

@@ -70,6 +70,11 @@ constexpr double kHopelessAreaRatio = 0.75 * kCompetingAreaRatio;
 /// stationary.
 constexpr double kStaticQuadRatio = 0.05;
 
+/// The camera seems to stand still if more than the first fraction of the quads is static. If more than the second
+/// fraction of the image cells do not follow, spread over the image as a surrounding part is, they may be all that
+/// shows the scene.
+constexpr double kStillQuadRatio = 0.8, kMovingSidesRatio = 0.05;
+
 /// Two motions that share more than this fraction of the inliers are the same motion.
 constexpr double kSharedInlierRatio = 0.7;
 

@@ -91,6 +91,7 @@ class StereoOdometry::Implementation {
 
  private:
   void process(const StereoFrame& frame, FrameResult& result);
+  void hide(const PixelMask& left);
   void start(FrameResult& result);
   odometry::StepHandle search();
   void adopt(odometry::StepHandle found, FrameResult& result);
@@ -155,6 +156,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
   }
   if (result.world_from_left) preparation_.adopt(rig_report);
+  if (rig_report.new_mask) hide(*rig_report.new_mask);
   result.segment = state_.segment;
   state_.world_from_last = result.pose_or_prediction();
   result.warnings = preparation_.new_warnings();
@@ -189,6 +191,13 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   if (counts.dropped_edges == 0) return;
   result.diagnostics.overflow = true;
   result.message = std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped";
+}
+
+/// Hides a part of the image from the next frame on. The last motion may have been that of this part.
+void StereoOdometry::Implementation::hide(const PixelMask& left) {
+  preparation_.hide(left);
+  motion_search_.hide(left);
+  velocity_.forget();
 }
 
 /// Starts the trajectory, or after restart() a segment, at the first frame with edges.

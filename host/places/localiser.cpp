@@ -75,9 +75,19 @@ Config checked(const places::SavedPlaces& map, const StereoRig& rig, const Confi
   odometry::check_usable(rig, config);
   places::check_map_config(config);
   const auto settings = places::descriptor_settings(config);
-  for (const auto& [key, value] : map.settings)
-    if (std::find(settings.begin(), settings.end(), std::pair(key, value)) == settings.end())
-      throw UsageError("the map was made with " + key + " = " + value + ": expected the same");
+  const auto& its = map.settings;
+  for (const auto& [key, value] : settings) {
+    const auto same = std::find_if(its.begin(), its.end(), [&](const auto& setting) { return setting.first == key; });
+    if (same == its.end()) throw UsageError("the map does not state its " + key + ": expected " + value);
+    if (same->second != value)
+      throw UsageError("the map was made with " + key + " = " + same->second + ": expected the same");
+  }
+  return config;
+}
+
+/// Key rigs of the map were not masked.
+Config without_auto_mask(Config config) {
+  config.odometry.auto_mask = false;
   return config;
 }
 
@@ -116,7 +126,7 @@ class Localiser::Implementation {
         follow_(follow),
         config_(checked(map.places(), rig, config)),
         rig_(with_scale_of(map.rig().left, with_equal_scales(rig))),
-        preparation_(rig, rig_, device, config),
+        preparation_(rig, rig_, device, without_auto_mask(config)),
         offset_(rig_, with_offset_of(map.places(), rig_, config.pose)),
         search_(config_, frontend(), offset_) {
     for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(rig::warning(finding));

@@ -81,6 +81,13 @@ constexpr double kStaticCorrelation = 0.9, kChangedCorrelation = 0.5;
 /// Static part of the textured cells, and the part that has to change.
 constexpr double kMinStaticRatio = 0.05, kMinMovingRatio = 0.3;
 constexpr int kMinStaticMatches = 20;
+/// Frames after which a region may be certain.
+constexpr int kCertainAfter = 12;
+/// A region with more of the textured cells than the first is certain if more of them than the second change on all
+/// sides, with a variance of the places, in x and in y, of at least this part of that of all; unless its inverse depths
+/// are below this part of those of what changes: it may then be distant scenery.
+constexpr double kMinSurroundedRatio = 0.3, kMinSurroundingRatio = 0.05, kSurroundingVariance = 0.8;
+constexpr double kSurroundedNearness = 1.0 / 3;
 
 // Odd and even rows of different times (interlacing.cpp).
 

@@ -88,6 +88,20 @@ std::string interlaced(double ratio) {
          "deinterlaces it";
 }
 
+/// Where nothing moves, and what follows from it.
+std::string static_text(const RigFinding& finding) {
+  const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
+  const bool is_masked = finding.kind == RigFindingKind::masked_region;
+  return percent(finding.region.ratio) + " of the left image's texture, between columns " + number(from.x(), 0) +
+         " and " + number(to.x(), 0) + " and rows " + number(from.y(), 0) + " and " + number(to.y(), 0) +
+         ", does not move " +
+         (is_masked
+              ? "while the rest does: it is masked from here on, as a part of the vehicle or dirt; "
+                "--no-auto-mask keeps it"
+              : "although it is nearer than most of what moves: is it part of the vehicle, or dirt? Use a mask to "
+                "exclude it");
+}
+
 }  // namespace
 
 Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
@@ -122,14 +136,8 @@ Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
               " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
               "wrong?"};
     case RigFindingKind::interlaced: return {WarningKind::unsynchronised_cameras, interlaced(finding.combed_ratio)};
-    case RigFindingKind::static_region: {
-      const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
-      return {WarningKind::static_region,
-              percent(finding.region.ratio) + " of the left image's texture, between columns " + number(from.x(), 0) +
-                  " and " + number(to.x(), 0) + " and rows " + number(from.y(), 0) + " and " + number(to.y(), 0) +
-                  ", does not move although it is nearer than most of what moves: is it part of the vehicle, or dirt? "
-                  "Use a mask to exclude it"};
-    }
+    case RigFindingKind::static_region:
+    case RigFindingKind::masked_region: return {WarningKind::static_region, static_text(finding)};
     case RigFindingKind::long_baseline:
       return {WarningKind::implausible_calibration,
               "the baseline is " + number(finding.number, 3) + " m: is it given in millimetres?"};

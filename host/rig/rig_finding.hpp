@@ -2,6 +2,7 @@
 /// \file rig_finding.hpp  What can be wrong with a rig: kinds of findings, with their figures, and in words.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "quadedge/camera.hpp"
@@ -29,6 +30,7 @@ enum class RigFindingKind {
   large_disparity_offset,     ///< the offset that the odometry learns exceeds what rectification leaves
   interlaced,                 ///< odd and even rows show different times
   static_region,              ///< a part of the image does not move while the rest does
+  masked_region,              ///< the same, certain enough to be masked
   // Numbers of the calibration:
   long_baseline,
   short_baseline,
@@ -52,7 +54,7 @@ struct RigFinding {
   double time_offset = 0;            ///< of late_camera [frame intervals]
   double disparity_offset = 0;       ///< of large_disparity_offset [px]
   double combed_ratio = 0;           ///< of interlaced
-  StaticRegion region = {};          ///< of static_region
+  StaticRegion region = {};          ///< of static_region and masked_region
   Side camera = Side::left;          ///< the camera that is frozen or has an implausible number
   /// The implausible number: baseline [m], focal length [image widths], fx / fy.
   double number = 0;
@@ -64,6 +66,8 @@ struct RigReport {
   RigEvidence evidence;
   EpipolarFit fit;                   ///< of the patches around stereo edges
   std::vector<RigFinding> findings;  ///< a mismatch is the only one
+  /// What to hide of the left image from the next frame on; empty: nothing more, as what was hidden moves.
+  std::optional<PixelMask> new_mask;
 
   /// The reason why the frame cannot be used, or null.
   const RigFinding* mismatch() const {

@@ -181,7 +181,7 @@ double Synchronisation::time_offset_frames() const {
   return offset > kMinTimeOffset && offset < kMaxTimeOffset && offset > kMinTimeSigmas * sigma ? terms[6] : 0;
 }
 
-RigMonitor::RigMonitor(const StereoRig& rig) : rig_(rig), corner_matcher_(rig) {}
+RigMonitor::RigMonitor(const StereoRig& rig, bool auto_mask) : rig_(rig), auto_mask_(auto_mask), corner_matcher_(rig) {}
 
 std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
@@ -226,11 +226,13 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   }
   if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
   if (!is_interlaced_ && frames_++ % kCombPeriod == 0) is_interlaced_ = judge_rows(frame.left, report);
-  if (const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
-      region && report.mismatch() == nullptr) {
-    report.findings.push_back({RigFindingKind::static_region});
-    report.findings.back().region = *region;
-  }
+  const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
+  if (!region || report.mismatch() != nullptr) return report;
+  const bool is_masked = !region->mask.empty();
+  if (auto_mask_ && (is_masked || region->is_released)) report.new_mask = region->mask;
+  if (region->is_released || (is_masked && !auto_mask_)) return report;
+  report.findings.push_back({is_masked ? RigFindingKind::masked_region : RigFindingKind::static_region});
+  report.findings.back().region = *region;
   return report;
 }
 

@@ -49,7 +49,8 @@ class Synchronisation {
 /// match or their distance from the lines has grown, while the images do not match the calibration, and periodically.
 class RigMonitor {
  public:
-  explicit RigMonitor(const StereoRig& rig);
+  /// \param auto_mask whether reports hold masks
+  explicit RigMonitor(const StereoRig& rig, bool auto_mask = false);
 
   /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
   /// \param edges its stereo edges \param left_edges number of edges in its left image
@@ -70,6 +71,7 @@ class RigMonitor {
   bool needs_search(const RigEvidence& evidence) const;
 
   StereoRig rig_;
+  bool auto_mask_;
   CornerMatcher corner_matcher_;
   Synchronisation synchronisation_;
   StaticRegionDetector static_region_;

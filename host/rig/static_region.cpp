@@ -44,6 +44,35 @@ double correlation(const std::vector<float>& one, const std::vector<float>& othe
   return static_cast<double>(sum);
 }
 
+/// Some of the textured cells.
+struct Part {
+  double cells = 0;
+  int matches = 0;
+  std::vector<double> inverse_depths = {};  ///< means of the cells that have matches
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();  ///< of their places [cells]
+
+  void add(const Eigen::Vector2d& place, double inverse_depth_sum, int number) {
+    ++cells;
+    matches += number;
+    if (number > 0) inverse_depths.push_back(inverse_depth_sum / number);
+    sum += place;
+    squares += place.cwiseProduct(place);
+  }
+  double median_inverse_depth() const {
+    std::vector<double> values = inverse_depths;
+    return upper_median(values);
+  }
+  bool is_nearer_than(const Part& other, double factor) const {
+    return median_inverse_depth() > factor * other.median_inverse_depth();
+  }
+  /// Variances of the places in x and y.
+  Eigen::Vector2d variance() const { return squares / cells - (sum / cells).cwiseProduct(sum / cells); }
+  /// Whether it lies on all sides of the whole.
+  bool surrounds(const Part& whole) const {
+    return (variance().array() > kSurroundingVariance * whole.variance().array()).all();
+  }
+};
+
 }  // namespace
 
 std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& left,
@@ -62,9 +91,17 @@ std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& lef
   }
   if (++frames_ % kStaticPeriod != 0) return std::nullopt;
   compare(left);
-  if (frames_ < kStaticWindow) return std::nullopt;
-  const auto region = judge();
-  start(left);
+  if (frames_ != kCertainAfter && frames_ < kStaticWindow) return std::nullopt;
+  auto region = judge();
+  if (frames_ >= kStaticWindow) {
+    start(left);
+  } else if (region) {
+    for (std::size_t i = 0; i < mask_.hidden.size(); ++i) region->mask.hidden[i] |= mask_.hidden[i];
+    mask_ = region->mask;
+  } else if (masked_cells_move()) {
+    mask_ = {};
+    region.emplace().is_released = true;
+  }
   return region;
 }
 
@@ -72,6 +109,8 @@ std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& lef
 void StaticRegionDetector::start(const PinholeView& left) {
   columns_ = left.width() / kStaticCell;
   rows_ = left.height() / kStaticCell;
+  width_ = left.width();
+  height_ = left.height();
   frames_ = 0;
   cells_.assign(static_cast<std::size_t>(columns_ * rows_), {});
   for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -90,31 +129,58 @@ void StaticRegionDetector::compare(const PinholeView& left) {
 }
 
 std::optional<StaticRegion> StaticRegionDetector::judge() const {
-  struct Part {
-    double cells = 0;
-    int matches = 0;
-    std::vector<double> inverse_depths;  // means of the cells that have matches
-  };
-  Part still, moving;
+  Part textured, still, moving;
   StaticRegion region;
-  double textured = 0;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.texture.empty()) continue;
-    ++textured;
+    const Eigen::Vector2d place = bounds(i).min() / kStaticCell;
+    textured.add(place, cell.inverse_depths, cell.matches);
     if (cell.is_static) region.bounds.extend(bounds(i));
-    if (!cell.is_static && 2 * cell.changes <= kStaticWindow / kStaticPeriod) continue;
-    Part& part = cell.is_static ? still : moving;
-    ++part.cells;
-    part.matches += cell.matches;
-    if (cell.matches > 0) part.inverse_depths.push_back(cell.inverse_depths / cell.matches);
+    if (!cell.is_static && 2 * cell.changes <= frames_ / kStaticPeriod) continue;
+    (cell.is_static ? still : moving).add(place, cell.inverse_depths, cell.matches);
   }
-  region.ratio = still.cells / std::max(textured, 1.0);
-  const bool is_part = region.ratio > kMinStaticRatio && moving.cells > kMinMovingRatio * textured;
-  if (!is_part || std::min(still.matches, moving.matches) < kMinStaticMatches ||
-      upper_median(still.inverse_depths) <= upper_median(moving.inverse_depths))
-    return std::nullopt;
+  if (std::min(still.matches, moving.matches) < kMinStaticMatches) return std::nullopt;
+  const double changing = moving.cells / textured.cells;
+  region.ratio = still.cells / textured.cells;
+  const bool is_nearer =
+      region.ratio > kMinStaticRatio && changing > kMinMovingRatio && still.is_nearer_than(moving, 1);
+  if (frames_ >= kStaticWindow) return is_nearer ? std::optional(region) : std::nullopt;
+  const bool is_surrounded = region.ratio > kMinSurroundedRatio && changing > kMinSurroundingRatio &&
+                             moving.surrounds(textured) && still.is_nearer_than(moving, kSurroundedNearness);
+  if (!is_nearer && !is_surrounded) return std::nullopt;
+  region.mask = static_mask();
   return region;
+}
+
+/// The static cells and their neighbours, since the border of the region runs through these.
+PixelMask StaticRegionDetector::static_mask() const {
+  PixelMask mask;
+  mask.width = width_;
+  mask.height = height_;
+  mask.hidden.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].texture.empty() || !cells_[i].is_static) continue;
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kStaticCell);
+    const Eigen::Vector2i from = (bounds(i).min() - reach).cast<int>().cwiseMax(0),
+                          to = (bounds(i).max() + reach).cast<int>().cwiseMin(Eigen::Vector2i(width_, height_));
+    for (int y = from.y(); y < to.y(); ++y)
+      std::fill_n(mask.hidden.begin() + static_cast<std::ptrdiff_t>(y) * width_ + from.x(), to.x() - from.x(), 1);
+  }
+  return mask;
+}
+
+/// Whether most of what the mask covers changes in most comparisons.
+bool StaticRegionDetector::masked_cells_move() const {
+  int covered = 0, moving = 0;
+  for (std::size_t i = 0; i < cells_.size() && !mask_.empty(); ++i) {
+    const Eigen::Vector2i centre = bounds(i).center().cast<int>();
+    if (cells_[i].texture.empty() || mask_.hidden[static_cast<std::size_t>(centre.y() * width_ + centre.x())] == 0)
+      continue;
+    ++covered;
+    moving += 2 * cells_[i].changes > frames_ / kStaticPeriod ? 1 : 0;
+  }
+  return 2 * moving > covered;
 }
 
 Eigen::AlignedBox2d StaticRegionDetector::bounds(std::size_t cell) const {

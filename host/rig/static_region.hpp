@@ -14,15 +14,19 @@ namespace quadedge::rig {
 struct StaticRegion {
   double ratio = 0;            ///< of the textured cells of the image
   Eigen::AlignedBox2d bounds;  ///< of the static cells [px]
+  /// These cells and their neighbours, if they certainly do not belong to the scene; else empty.
+  PixelMask mask;
+  bool is_released = false;  ///< what an earlier mask covers moves after all
 };
 
 /// Compares cells of the left image with the same cells some frames before. What is static although it is nearer than
 /// what moves does not belong to the scene. A camera at rest and distant scenery do not count as such a
-/// region.
+/// region. It is certain sooner if it is large and what changes lies on all sides, even if that is nearer.
 class StaticRegionDetector {
  public:
   /// Adds the next image. \param matches of this frame, whose depths are used
-  /// \returns the region, at the end of each window of frames that has one
+  /// \returns the region, at the end of each window of frames that has one; earlier in the window a certain one, with
+  /// its mask, or that a mask is to be released
   std::optional<StaticRegion> observe(const PinholeView& left, const std::vector<CornerMatch>& matches);
 
  private:
@@ -38,11 +42,14 @@ class StaticRegionDetector {
   void start(const PinholeView& left);
   void compare(const PinholeView& left);
   std::optional<StaticRegion> judge() const;
+  PixelMask static_mask() const;
+  bool masked_cells_move() const;
   Eigen::AlignedBox2d bounds(std::size_t cell) const;
 
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0, width_ = 0, height_ = 0;
   std::vector<Cell> cells_;  ///< row-major
   int frames_ = 0;           ///< since the start of the window
+  PixelMask mask_;           ///< of the last certain region
 };
 
 }  // namespace quadedge::rig

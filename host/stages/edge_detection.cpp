@@ -1,6 +1,7 @@
 #include "stages/edge_detection.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/images.hpp"
 #include "common/numeric.hpp"
@@ -149,14 +150,21 @@ void EdgeDetection::find_maxima_in_tiles(const PaddedPlane& plane, const opencl:
 }
 
 EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima)
-    : context_(context), width_(mask.width), height_(mask.height), local_size_(context.is_cpu() ? 1 : 64) {
+    : context_(context), local_size_(context.is_cpu() ? 1 : 64) {
+  set(mask, margin, maxima);
+}
+
+void EdgeMask::set(const PixelMask& mask, int margin, const EdgeMaxima& maxima) {
+  width_ = mask.width;
+  height_ = mask.height;
   if (mask.empty()) return;
-  hidden_.write(context, with_border(mask, margin).hidden);
-  const cl::Program program = context.program({"edge_mask.cl"}, maxima.defines());
+  hidden_.write(context_, with_border(mask, margin).hidden);
+  if (std::exchange(is_built_, true)) return;
+  const cl::Program program = context_.program({"edge_mask.cl"}, maxima.defines());
   if (maxima.at_pixels) {
-    pixels_ = {context, program, "edge_mask_pixels"};
+    pixels_ = {context_, program, "edge_mask_pixels"};
   } else {
-    rows_ = {context, program, "edge_mask_rows"};
+    rows_ = {context_, program, "edge_mask_rows"};
   }
 }
 

@@ -110,13 +110,16 @@ class EdgeMask {
   /// \param maxima the argument of later calls of run()
   EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima);
 
+  /// Replaces the mask, between frames.
+  void set(const PixelMask& mask, int margin, const EdgeMaxima& maxima);
   /// Enqueues only.
   void run(EdgeMaxima& maxima);
 
  private:
   opencl::Context& context_;
-  int width_, height_;
+  int width_ = 0, height_ = 0;
   std::size_t local_size_;
+  bool is_built_ = false;
   opencl::Buffer<cl_uchar> hidden_;  ///< empty: no mask
   opencl::Kernel<void(cl_int width, cl_int height, const cl_uchar* mask, cl_float* winners, cl_int* counts)> rows_;
   opencl::Kernel<void(cl_int pixels, const cl_uchar* mask, cl_uchar* flags)> pixels_;
