@@ -1,7 +1,7 @@
-# Writes presets.cpp, which holds the texts of config/fast.toml, default.toml and dense.toml. Sets preset_source.
+# Writes presets.cpp, which holds the texts of the presets in config/. Sets preset_source.
 set(preset_source ${CMAKE_CURRENT_BINARY_DIR}/presets.cpp)
 set(preset_texts "")
-foreach(name fast default dense)
+foreach(name fast default dense paper)
   set(file ${CMAKE_CURRENT_SOURCE_DIR}/config/${name}.toml)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} text)

@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import disturbances
+from paper_comparison import measure_paper
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 RECORDED = {
@@ -39,7 +40,7 @@ JUDGED = (
 # Steps are a few cm: a limit of 5 cm would hide any error.
 STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
 PRESETS = ("fast", "default", "dense")
-SYSTEMS = ("default", "fast", "dense", "paper", "opencv")
+SYSTEMS = ("default", "fast", "dense", "opencv")
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 MATCHED = {
     "ETH3D terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),
@@ -117,8 +118,7 @@ def track(system, run, programs):
         command = [options.baseline, scene, *path, "-o", output,
                    *(["--frames", options.frames] if options.frames else [])]
     else:
-        method = {"default": [], "paper": ["--config", REPOSITORY / "config" / "paper.toml"]}.get(
-            system, ["--preset", system])
+        method = [] if system == "default" else ["--preset", system]
         command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
     if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
         print(f"{system}: {run}", file=sys.stderr, flush=True)
@@ -277,4 +277,5 @@ def measure_drift(programs):
 
 
 PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed,
-         "disturbances": measure_disturbances, "light": measure_light, "drift": measure_drift}
+         "disturbances": measure_disturbances, "light": measure_light, "drift": measure_drift,
+         "paper": measure_paper}

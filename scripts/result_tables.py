@@ -20,7 +20,8 @@ from tables import TABLES, command_list
 REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
-PART_OF = {"quads": "matching", "pace": "speed"} | dict.fromkeys(
+PART_OF = {"quads": "matching", "pace": "speed"} | {
+    name: "paper" for name in TABLES if name.startswith("paper-")} | dict.fromkeys(
     ("beside", "compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
 # Part -> (title, introduction, tables)
 PAGES = {

@@ -6,9 +6,10 @@
 import statistics
 
 import disturbances as sweeps
+import paper_comparison
 
 PRESETS = ("fast", "default", "dense")
-SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense", "paper": "QuadEdge, paper.toml",
+SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense",
            "opencv": "OpenCV SIFT + PnP"}
 STEPS = "keyframes"  # evaluated step by step only, because frames are lost
 
@@ -201,7 +202,7 @@ def speed(results):
                ("p90", "p90_ms", "{:.0f} ms"), ("p99", "p99_ms", "{:.0f} ms"),
                ("processor time", "processor_ms", "{:.0f} ms"), ("frames/s", "frames_per_second", "{:.1f}"),
                ("frame / S", "frame_over_sift", "{:.2f}"),
-               ("edges of one image", "edges_ms", "{:.1f} ms"), ("/ N", "edges_over_filters", "{:.2f}"),
+               ("edges of one image", "edges_ms", "{:.1f} ms"),
                ("host memory", "host_peak_mb", "{:.0f} MB"))
     rows = [{"preset": "default", "frames_per_second": 1000 / row["median_ms"]} | row
             for row in results["speed"]["rows"]]
@@ -328,4 +329,9 @@ def ros2(results):
 TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": beside, "pace": pace,
           "paths": paths, "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed,
           "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
-          "drift": drift_over_scenes, "ros2": ros2}
+          "drift": drift_over_scenes, "ros2": ros2,
+          "paper-stereo": lambda results: paper_comparison.stereo(results, table),
+          "paper-temporal": lambda results: paper_comparison.temporal(results, table),
+          "paper-constraints": lambda results: paper_comparison.constraints(results, table),
+          "paper-trajectories": lambda results: paper_comparison.trajectories(results, table, stamp),
+          "paper-commands": lambda results: paper_comparison.commands(results, command_list)}

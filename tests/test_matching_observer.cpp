@@ -228,7 +228,7 @@ class Searches : public Tap {
   }
   void temporal_search(const ObservedSearch& search) override { observed.push_back(search); }
   void temporal_filter(TemporalFilter filter, Side side, const CandidateLists& lists) override {
-    if (next(filter) != TemporalFilter::agreement) return;
+    if (filter != TemporalFilter::nearly_best_sift) return;
     int rows = 0;
     for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) rows += lists.first[row] < lists.first[row + 1];
     alive[index_of(side)].push_back(rows);

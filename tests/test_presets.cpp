@@ -1,4 +1,4 @@
-/// \file test_presets.cpp  config/fast.toml, default.toml and dense.toml.
+/// \file test_presets.cpp  The files of config/ as presets.
 #include <catch2/catch.hpp>
 
 #include "data/presets.hpp"
@@ -26,7 +26,7 @@ Config effective(const std::vector<std::string>& options) {
 TEST_CASE("presets: the default preset equals the program's defaults", "[cli]") {
   const Config none, said = read_config(QUADEDGE_KERNELS "/../config/default.toml");
   for (const auto& constant : constants()) CHECK(constant.text(said) == constant.text(none));
-  CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "dense"});
+  CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "dense", "paper"});
 }
 
 TEST_CASE("presets: --preset applies its file; --config and the command line override it", "[cli][device]") {

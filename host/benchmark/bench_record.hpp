@@ -11,13 +11,13 @@
 namespace quadedge::bench {
 
 /// Version of the JSON; grows when a key changes its meaning.
-constexpr int kBenchSchema = 2;
+constexpr int kBenchSchema = 3;
 
 /// Two OpenCV computations of fixed size, measured in the same run: on shared machines, ratios to these drift less than
 /// absolute times.
 struct Yardsticks {
   std::vector<double> sift_both_ms;       ///< SIFT detectAndCompute on both images of a frame
-  std::vector<double> sepfilter_nine_ms;  ///< nine sepFilter2D of 35 taps (CV_32F) on one image of doubled size
+  std::vector<double> sepfilter_nine_ms;  ///< nine sepFilter2D (CV_32F) on the grid of the edge detector
   int threads = 0;                        ///< that OpenCV used
 };
 

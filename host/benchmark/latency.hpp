@@ -38,7 +38,8 @@ void measure_kernels(const Subject& subject, BenchRecord& record);
 
 /// Measures two OpenCV computations with `threads` threads on the recorded images of `frame`, alternating,
 /// `repetitions` times each after one warm-up. `progress` is called after each. Restores OpenCV's number of threads.
-Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int threads, int repetitions,
+/// \param samples of the edge detector's grid, per pixel and axis
+Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int samples, int threads, int repetitions,
                               const std::function<void(int done, int total)>& progress);
 
 /// The value of edges.threshold for which the two images of the frame have about `wanted` edges each, by bisection

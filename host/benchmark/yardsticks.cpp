@@ -2,13 +2,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "benchmark/latency.hpp"
+#include "common/numeric.hpp"
 #include "common/timing.hpp"
 
 namespace quadedge::bench {
 namespace {
 
-constexpr int kTaps = 35;
-constexpr int kFilters = 9;
+constexpr double kSigma = 2;  // of the edges [px]
+constexpr int kFilters = 9;   // as many as third-order edges have derivatives
 
 cv::Mat grey_matrix(const Image& image) {
   Image grey = to_8_bits(image.view());
@@ -24,22 +25,23 @@ double milliseconds(const Function& work) {
 
 }  // namespace
 
-Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int threads, int repetitions,
+Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int samples, int threads, int repetitions,
                               const std::function<void(int done, int total)>& progress) {
   const int threads_before = cv::getNumThreads();
   cv::setNumThreads(threads);
   const auto sift = cv::SIFT::create();
-  cv::Mat doubled, filtered, descriptors;
-  cv::resize(grey_matrix(frame.left), doubled, {}, 2, 2, cv::INTER_LINEAR);
-  doubled.convertTo(doubled, CV_32F);
-  const cv::Mat taps = cv::getGaussianKernel(kTaps, 4.0, CV_32F);
+  cv::Mat grid, filtered, descriptors;
+  cv::resize(grey_matrix(frame.left), grid, {}, samples, samples, cv::INTER_LINEAR);
+  grid.convertTo(grid, CV_32F);
+  const double sigma = kSigma * samples;
+  const cv::Mat taps = cv::getGaussianKernel(2 * kernel_radius(sigma) + 1, sigma, CV_32F);
   std::vector<cv::KeyPoint> points;
   const auto both_sifts = [&] {
     for (const auto* image : {&frame.left, &frame.right})
       sift->detectAndCompute(grey_matrix(*image), cv::noArray(), points, descriptors);
   };
   const auto nine_filters = [&] {
-    for (int i = 0; i < kFilters; ++i) cv::sepFilter2D(doubled, filtered, CV_32F, taps, taps);
+    for (int i = 0; i < kFilters; ++i) cv::sepFilter2D(grid, filtered, CV_32F, taps, taps);
   };
   both_sifts();
   nine_filters();

@@ -145,9 +145,9 @@ class BenchCommand : public Command {
     bench::measure_latency(subject, record);
     bench::measure_edge_detection(subject, std::max(frames_, 10), record);
     if (baseline_) {
-      record.yardsticks =
-          bench::measure_yardsticks(frames.front(), record.threads, kYardstickRepetitions,
-                                    [&](int done, int total) { progress.update("yardsticks", done, total); });
+      record.yardsticks = bench::measure_yardsticks(
+          frames.front(), run.config.is_paper() ? 2 : 1, record.threads, kYardstickRepetitions,
+          [&](int done, int total) { progress.update("yardsticks", done, total); });
     }
     bench::measure_kernels(subject, record);
     return record;

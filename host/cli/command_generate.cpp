@@ -28,8 +28,8 @@ wrong types and values out of range are errors that name the file, the line and 
 configuration to `config.toml`; `quadedge::read_config()` and `write_config()` do the same in your own programs.
 
 Basic constants, shown by `--help`, are in **bold**; `--help-all` shows all. Angles are in degrees. In parentheses: the
-section of the [paper](method.md#the-paper), and its value or that of the authors' program ("code") if it differs, as
-[config/paper.toml](../config/paper.toml) sets it.
+section of the [paper](method.md#the-paper), and its value if that differs; "code": the paper gives none, and the value
+is that of its authors' program. `--preset paper` sets them ([paper.md](paper.md)).
 
 | constant | default | allowed | meaning |
 |---|---|---|---|

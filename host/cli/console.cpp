@@ -190,6 +190,10 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   for (const auto& frame : run.frames) key_rigs += frame.result.new_key_rig ? 1 : 0;
   std::printf("sequence   %s (%s), %s of %d x %d\n", visible(run.input.name).c_str(), run.input.format.c_str(),
               data::counted(frames, "frame").c_str(), run.input.width, run.input.height);
+  if (run.config.is_paper()) {
+    std::printf("method     the paper's own (doc/paper.md)%s, in C++ on the host\n",
+                run.config.pose.refine ? " with least squares added" : "");
+  }
   std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),
               run.device.type.c_str());
   std::printf("tracked    %d of %s, %s\n", run.tracked(), data::counted(frames, "frame").c_str(),

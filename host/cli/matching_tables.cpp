@@ -23,18 +23,21 @@ std::string percent(double share, int decimals = 2) { return decimal(100 * share
 std::string fine_percent(double share) { return percent(share, share < 0.0005 ? 4 : 2); }
 
 void print_counts(const FilterCounts& counts, const evaluation::FilterSpread& spread) {
-  std::printf(" | %7s +-%5s %7s +-%5s %9s %6s", percent(counts.recall()).c_str(), percent(spread.recall, 1).c_str(),
-              fine_percent(counts.precision()).c_str(), percent(spread.precision, 1).c_str(),
-              decimal(counts.ambiguity_mean(), 3).c_str(), decimal(counts.ambiguity_max(), 0).c_str());
+  std::printf(" | %7s +-%5s %7s +-%5s %8s %9s %9s %6s", percent(counts.recall()).c_str(),
+              percent(spread.recall, 1).c_str(), fine_percent(counts.precision()).c_str(),
+              percent(spread.precision, 1).c_str(), fine_percent(counts.precision_per_edge()).c_str(),
+              decimal(counts.ambiguity_mean(), 3).c_str(), decimal(counts.ambiguity_of_pool(), 3).c_str(),
+              decimal(counts.ambiguity_max(), 0).c_str());
 }
 
 void print_filters(const char* title, const std::vector<PooledRow>& rows) {
   if (rows.empty()) return;
   std::printf("\n%s\n%-29s | paired: %" PRId64 " edges%-*s | all: %" PRId64 " edges\n", title, "",
-              rows[0].row.paired.pool, 25, "", rows[0].row.all.pool);
+              rows[0].row.paired.pool, 44, "", rows[0].row.all.pool);
   std::printf("%-29s", "order filter");
   for (int pool = 0; pool < 2; ++pool)
-    std::printf(" | %-15s %-15s %9s %6s", " recall %", "precision %", "ambiguity", "max");
+    std::printf(" | %-15s %-15s %8s %9s %9s %6s", " recall %", "precision %", "per edge", "ambiguity", "of pool",
+                "max");
   std::printf("\n");
   for (const auto& pooled : rows) {
     std::printf("%2d %-26s", pooled.row.order, pooled.row.filter.c_str());

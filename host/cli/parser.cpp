@@ -133,8 +133,10 @@ class ParserOptions : public Options {
     has_full_help_ = has_full_help_ || only_in_full_help;
   }
   void config_file() override {
-    app_.add_option("--preset", preset_,
-                    "number of edges: fast uses half as many as default, dense all of them, for maps")
+    app_.add_option(
+            "--preset", preset_,
+            "number of edges: fast uses half as many as default, dense all of them, for maps; paper: the paper's own "
+            "method, for comparison")
         ->check(CLI::IsMember(data::preset_names()).description(""))
         ->type_name(joined(data::preset_names()) + "=default")
         ->group(group_);

@@ -47,6 +47,10 @@ std::vector<Constant> list_constants() {
   list.push_back({"", #name, low, high, {}, unit, level, help, paper, [](Config& config) -> ConfigField { \
                     return &config.name;                                                                  \
                   }});
+#define QUADEDGE_WORDS(...) __VA_ARGS__
+#define QUADEDGE_TOP_CHOICE(name, value, choices, level, help, paper)              \
+  list.push_back({"", #name, 0, 0, QUADEDGE_WORDS choices, "", level, help, paper, \
+                  [](Config& config) -> ConfigField { return &config.name; }});
 #define QUADEDGE_SECTION(Type, name, title, page)      \
   {                                                    \
     constexpr Type Config::*in_config = &Config::name; \
@@ -59,7 +63,6 @@ std::vector<Constant> list_constants() {
   QUADEDGE_CONSTANT(double, name, value, low, high, "deg", level, help, paper)
 #define QUADEDGE_SWITCH(name, value, level, help, paper) \
   QUADEDGE_CONSTANT(bool, name, value, 0, 1, "", level, help, paper)
-#define QUADEDGE_WORDS(...) __VA_ARGS__
 #define QUADEDGE_CHOICE(name, value, choices, level, help, paper)                       \
   list.push_back({section, #name, 0, 0, QUADEDGE_WORDS choices, "", level, help, paper, \
                   [](Config& config) -> ConfigField { return &(config.*in_config).name; }});

@@ -31,6 +31,7 @@ void FilterCounts::add_edge(std::int64_t candidates_of_edge, std::int64_t veridi
   candidates += candidates_of_edge;
   veridical += veridical_of_edge;
   most_candidates = std::max(most_candidates, candidates_of_edge);
+  if (candidates_of_edge > 0) precisions += ratio(veridical_of_edge, candidates_of_edge);
 }
 
 void FilterCounts::add(const FilterCounts& other) {
@@ -40,11 +41,14 @@ void FilterCounts::add(const FilterCounts& other) {
   candidates += other.candidates;
   veridical += other.veridical;
   most_candidates = std::max(most_candidates, other.most_candidates);
+  precisions += other.precisions;
 }
 
 double FilterCounts::recall() const { return ratio(found, pool); }
 double FilterCounts::precision() const { return ratio(veridical, candidates); }
+double FilterCounts::precision_per_edge() const { return alive > 0 ? precisions / static_cast<double>(alive) : kNan; }
 double FilterCounts::ambiguity_mean() const { return ratio(candidates, alive) - 1; }
+double FilterCounts::ambiguity_of_pool() const { return ratio(candidates, pool) - 1; }
 double FilterCounts::ambiguity_max() const {
   return most_candidates > 0 ? static_cast<double>(most_candidates - 1) : std::numeric_limits<double>::quiet_NaN();
 }

@@ -41,12 +41,16 @@ struct FilterCounts {
   std::int64_t candidates = 0;
   std::int64_t veridical = 0;        ///< candidates
   std::int64_t most_candidates = 0;  ///< largest number of one edge
+  double precisions = 0;             ///< sum over the edges with candidates
 
   void add_edge(std::int64_t candidates_of_edge, std::int64_t veridical_of_edge);
   void add(const FilterCounts& other);
-  double recall() const;          ///< found / pool; NaN for an empty pool
-  double precision() const;       ///< veridical / candidates; NaN without candidates
+  double recall() const;     ///< found / pool; NaN for an empty pool
+  double precision() const;  ///< veridical / candidates; NaN without candidates
+  /// Mean over the edges with candidates, as in the program of the paper's authors; NaN without candidates.
+  double precision_per_edge() const;
   double ambiguity_mean() const;  ///< mean number of candidates of edges that have any, minus 1; NaN without candidates
+  double ambiguity_of_pool() const;  ///< candidates / pool - 1, as the paper defines it
   double ambiguity_max() const;
 };
 

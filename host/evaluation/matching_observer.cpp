@@ -294,7 +294,7 @@ void MatchingObserver::collect_temporal(TemporalFilter filter, Side side, const 
 
 MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config,
                                  const MatchingOptions& options) {
-  if (device.is_reference())
+  if (device.is_reference() && !config.is_paper())
     throw UsageError("evaluate matching needs an OpenCL device, because the reference has no taps");
   config.odometry.key_rig = false;  // the tables refer to consecutive frames
   MatchingObserver observer(source.rig(), with_disparity_range(config, source.rig()), options.tolerance,

@@ -1,4 +1,5 @@
 #include "common/images.hpp"
+#include "paper/grid_edges.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
@@ -13,9 +14,10 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
   check_pixels(image, "the image");
   EdgeSet edges;
   std::size_t found = 0;
-  if (device.is_reference()) {
+  if (device.is_reference() || config.is_paper()) {
     reference::EdgeThreshold threshold(config.edges);
-    const auto all = reference::detect_edges(image, config.edges, threshold.next({image}));
+    const auto detect = config.is_paper() ? paper::grid_edges : reference::detect_edges;
+    const auto all = detect(image, config.edges, threshold.next({image}));
     edges = reference::to_edge_set(reference::outside_mask(all, mask, config.edges.margin));
     found = edges.size();
   } else {

@@ -85,7 +85,7 @@ void DeviceFrontend::tap_temporal(const TemporalSearch& search) {
     tap_->temporal_filter(TemporalFilter::displacement, side, lists.read());
   }
   const auto left = temporal_left_.read_judged(), right = temporal_right_.read_judged();
-  for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::agreement; filter = next(filter)) {
+  for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter)) {
     tap_->temporal_filter(filter, Side::left, passing(left, filter));
     tap_->temporal_filter(filter, Side::right, passing(right, filter));
   }

@@ -4,6 +4,7 @@
 
 #include "frontend/device_frontend.hpp"
 #include "frontend/memory_fit.hpp"
+#include "frontend/paper_frontend.hpp"
 #include "frontend/reference_frontend.hpp"
 #include "opencl/variants.hpp"
 
@@ -23,6 +24,7 @@ void Frontend::hide(const PixelMask& left) {
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,
                                         std::vector<Warning>* warnings) {
   opencl::check_variants(config.variants);
+  if (config.is_paper()) return std::make_unique<PaperFrontend>(rig, config);
   if (device.is_reference()) return std::make_unique<ReferenceFrontend>(rig, config);
   const MemoryFit fit = fit_memory(rig, config, device.context()->limits().memory_bytes);
   if (warnings != nullptr && !fit.message.empty()) warnings->push_back({WarningKind::device_memory, fit.message});

@@ -20,29 +20,6 @@
 namespace quadedge::frontend {
 namespace {
 
-Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
-  if (!table.empty()) return reference::undistort(recorded, table);
-  Image image(recorded.width, recorded.height, recorded.max_value);
-  const std::ptrdiff_t row = image.view().stride;
-  for (int y = 0; y < recorded.height; ++y) {
-    std::copy_n(recorded.pixels + y * recorded.stride, row, image.pixels.begin() + y * row);
-  }
-  return image;
-}
-
-/// The first edges.max_edges edges in scan order.
-EdgeSet limited(const reference::ReferenceEdges& all, const EdgesConfig& config, int& dropped) {
-  EdgeSet edges = reference::to_edge_set(all);
-  const auto limit = static_cast<std::size_t>(config.max_edges);
-  if (edges.size() > limit) {
-    dropped += static_cast<int>(edges.size() - limit);
-    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift})
-      values->resize(limit);
-    for (auto& first : edges.row_first) first = std::min(first, static_cast<std::int32_t>(limit));
-  }
-  return edges;
-}
-
 template <class T>
 std::vector<T> rows_of(const std::vector<T>& values, const std::vector<std::int32_t>& indices, std::size_t width) {
   std::vector<T> result;
@@ -65,8 +42,8 @@ ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
 
 FrameEdges& ReferenceFrontend::start(const StereoFrame& frame) {
   ReferenceFrameEdges& now = rigs_.next();
-  now.left = pinhole_image(frame.left, calibration_.left_undistortion);
-  now.right = pinhole_image(frame.right, calibration_.right_undistortion);
+  now.left = reference::pinhole_image(frame.left, calibration_.left_undistortion);
+  now.right = reference::pinhole_image(frame.right, calibration_.right_undistortion);
   counts_.edge_threshold = threshold_.next({now.left.view(), now.right.view()});
   return now;
 }
@@ -90,8 +67,8 @@ void ReferenceFrontend::detect(FrameEdges& current) {
   }
   current.edges_spacing = static_cast<double>(std::max(spacing, kClosestSelection));
   counts_.dropped_edges = 0;
-  left_edges_ = limited(left, config_.edges, counts_.dropped_edges);
-  right_edges_ = limited(right, config_.edges, counts_.dropped_edges);
+  left_edges_ = reference::first_edges(left, config_.edges.max_edges, counts_.dropped_edges);
+  right_edges_ = reference::first_edges(right, config_.edges.max_edges, counts_.dropped_edges);
   counts_.edges_left = static_cast<int>(left_edges_.size());
   counts_.edges_right = static_cast<int>(right_edges_.size());
 }

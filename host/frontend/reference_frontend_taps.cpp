@@ -9,32 +9,11 @@ namespace {
 
 constexpr float kAnyDirection = 4.0f;  // rad, larger than any angle
 
-/// Candidates that no filter up to `filter` has rejected, with the scores that the next filter compares.
-template <class Filter>
-CandidateLists alive_after(Filter filter, const reference::Candidates& candidates,
-                           const reference::CandidateScores& scores) {
-  const Filter judge = next(filter);
-  const bool by_sift = judge == Filter::sift || judge == Filter::nearly_best_sift,
-             by_ncc = judge == Filter::ncc || judge == Filter::nearly_best_ncc;
-  CandidateLists lists;
-  lists.first.assign(1, 0);
-  for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
-    for (auto c = static_cast<std::size_t>(candidates.first[row]);
-         c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
-      if (scores.state[c] != kCandidateAlive && scores.state[c] <= order_of(filter)) continue;
-      lists.target.push_back(candidates.target[c]);
-      if (by_sift || by_ncc) lists.cue.push_back(by_sift ? scores.sift[c] : scores.ncc[c]);
-    }
-    lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
-  }
-  return lists;
-}
-
 }  // namespace
 
 void ReferenceFrontend::tap_stereo() {
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
-    tap_->stereo_filter(filter, alive_after(filter, candidates_, scores_));
+    tap_->stereo_filter(filter, reference::alive_after(filter, candidates_, scores_));
   const auto lists_that = [&](const auto& pass) {
     CandidateLists lists;
     lists.first.assign(1, 0);
@@ -71,10 +50,11 @@ void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const referen
                                                           search.radius, kAnyDirection, search.step);
     tap_->temporal_filter(TemporalFilter::displacement, side, {displaced.first, displaced.target, {}, {}, {}});
     const reference::TemporalMatchLists& lists = is_left ? result.left : result.right;
-    for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::agreement; filter = next(filter))
-      tap_->temporal_filter(filter, side, alive_after(filter, lists.candidates, lists.scores));
-    tap_->temporal_filter(TemporalFilter::agreement, side,
-                          alive_after(TemporalFilter::agreement, result.left.candidates, result.left.scores));
+    for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter))
+      tap_->temporal_filter(filter, side, reference::alive_after(filter, lists.candidates, lists.scores));
+    tap_->temporal_filter(
+        TemporalFilter::agreement, side,
+        reference::alive_after(TemporalFilter::agreement, result.left.candidates, result.left.scores));
   }
 }
 

@@ -16,6 +16,7 @@ FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& r
                                    const Config& config)
     : recorded_(recorded),
       min_edges_(config.pose.min_inliers),
+      checks_rig_(!config.is_paper()),
       frontend_(frontend::make_frontend(rig, device, config, &warnings_)),
       rig_monitor_(rig, config.odometry.auto_mask) {}
 
@@ -27,6 +28,7 @@ frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame) {
 }
 
 rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
+  if (!checks_rig_) return {};
   const frontend::FrontendCounts& counts = frontend_->counts();
   return rig_monitor_.judge(frame, current_->edges, counts.edges_left, counts.disparity_range,
                             counts.epipolar_correction);

@@ -58,6 +58,7 @@ class FramePreparation {
  private:
   RecordedImages recorded_;
   int min_edges_;
+  bool checks_rig_;  ///< whether images are compared with the calibration; not in the method of the paper
   std::vector<Warning> warnings_;
   std::set<WarningKind> reported_;
   std::unique_ptr<frontend::Frontend> frontend_;

@@ -15,23 +15,15 @@ namespace quadedge::odometry {
 
 /// Tries hypotheses about the motion with growing effort. Each proposal, made from a subset of the edges, is confirmed
 /// with all edges; select() chooses among the verdicts and says whether more has to be tried.
-class MotionSearch {
+class MotionSearch : public MotionFinder {
  public:
   /// Refers to the front end and the offset, which must outlive the object.
   MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
 
-  /// Returns the motion of the query's current rig, accepted or refused with the reason. The search must outlive the
-  /// handle. The same query gives the same result until remember() is called.
-  StepHandle find(const MotionQuery& query);
-
-  /// Takes note of the motion that was chosen for a frame: what is expected of the next frame depends on it.
-  void remember(const MotionStep& found) { record_.remember(found); }
-
-  /// Edges that a motion brings into these pixels of the left image are out of view, as none are detected there.
-  void hide(const PixelMask& left) { hidden_ = left; }
-
-  /// Time spent on motions since the last call, without the searches for matches [ms].
-  double take_pose_ms() { return fits_.take_pose_ms(); }
+  StepHandle find(const MotionQuery& query) override;
+  void remember(const MotionStep& found) override { record_.remember(found); }
+  double take_pose_ms() override { return fits_.take_pose_ms(); }
+  void hide(const PixelMask& left) override { hidden_ = left; }
 
  private:
   enum class Hypothesis {

@@ -100,4 +100,19 @@ Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& rig, const Moti
 /// A step from a pool.
 using StepHandle = Pool<MotionStep>::Handle;
 
+/// Finds the motion of the current stereo edges since an earlier rig.
+class MotionFinder {
+ public:
+  virtual ~MotionFinder() = default;
+  /// Returns the motion of the query's current rig, accepted or refused with the reason. The finder must outlive the
+  /// handle. The same query gives the same result until remember() is called.
+  virtual StepHandle find(const MotionQuery& query) = 0;
+  /// Takes note of the motion that was chosen for a frame.
+  virtual void remember(const MotionStep& found) = 0;
+  /// No edges are detected in these pixels of the left image from the next frame on.
+  virtual void hide(const PixelMask&) {}
+  /// Time spent on motions since the last call, without the searches for matches [ms].
+  virtual double take_pose_ms() = 0;
+};
+
 }  // namespace quadedge::odometry

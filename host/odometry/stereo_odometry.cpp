@@ -12,6 +12,7 @@
 #include "odometry/frame_preparation.hpp"
 #include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
+#include "odometry/paper_search.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
@@ -41,6 +42,12 @@ FrameStatus lost_status(odometry::Refusal refusal) {
 
 void add_message(const std::string& message, FrameResult& result) {
   result.message += (result.message.empty() ? "" : "; ") + message;
+}
+
+std::unique_ptr<odometry::MotionFinder> make_search(const Config& config, frontend::Frontend& frontend,
+                                                    const odometry::DisparityOffset& offset) {
+  if (config.is_paper()) return std::make_unique<odometry::PaperSearch>(config, frontend, offset);
+  return std::make_unique<odometry::MotionSearch>(config, frontend, offset);
 }
 
 /// The configuration, if it and the rig are valid. \throws DataError, UsageError.
@@ -73,7 +80,7 @@ class StereoOdometry::Implementation {
         config_(config),
         preparation_(rig, rig_, device, config),
         offset_(rig_, config.pose),
-        motion_search_(config, preparation_.frontend(), offset_) {}
+        motion_search_(make_search(config, preparation_.frontend(), offset_)) {}
 
   FrameResult track(const StereoFrame& frame);
   void restart();
@@ -105,7 +112,7 @@ class StereoOdometry::Implementation {
   Config config_;
   odometry::FramePreparation preparation_;
   odometry::DisparityOffset offset_;
-  odometry::MotionSearch motion_search_;
+  std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
@@ -135,7 +142,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   beside.run([&] { rig_report = preparation_.judge(frame); });
   double stereo_ms = clock.lap();
   odometry::StepHandle found = preparation_.has_enough_edges() && state_.has_started() ? search() : nullptr;
-  const double search_ms = clock.lap(), pose_ms = motion_search_.take_pose_ms();
+  const double search_ms = clock.lap(), pose_ms = motion_search_->take_pose_ms();
   beside.wait();
   stereo_ms += clock.lap();
   result.timing.stages.push_back({kStereoStage, stereo_ms});
@@ -196,7 +203,7 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
 /// Hides a part of the image from the next frame on. The last motion may have been that of this part.
 void StereoOdometry::Implementation::hide(const PixelMask& left) {
   preparation_.hide(left);
-  motion_search_.hide(left);
+  motion_search_->hide(left);
   velocity_.forget();
 }
 
@@ -231,19 +238,19 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
     query.key = state_.key.rig();
     query.base_from_key = state_.base.from_key.transform;
   }
-  odometry::StepHandle found = motion_search_.find(query);
+  odometry::StepHandle found = motion_search_->find(query);
   if (found->ok() || !state_.lost) return found;
   query.base = state_.lost->rig;
   query.prediction = std::nullopt;
   query.accepts_ambiguous = true;
-  odometry::StepHandle relocalised = motion_search_.find(query);
+  odometry::StepHandle relocalised = motion_search_->find(query);
   return relocalised->ok() ? std::move(relocalised) : std::move(found);
 }
 
 /// Takes over the result of the search. If the motion was found from a lost frame, a segment starts.
 void StereoOdometry::Implementation::adopt(odometry::StepHandle found, FrameResult& result) {
   step_ = std::move(found);
-  motion_search_.remember(*step_);
+  motion_search_->remember(*step_);
   if (state_.lost && step_->base == state_.lost->rig) start_segment(result);
   result.counts.temporal_left = step_->matches.alive_left;
   result.counts.temporal_right = step_->matches.alive_right;

@@ -17,6 +17,7 @@
 #include "places/view_change.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge {
 namespace {
@@ -428,7 +429,18 @@ SavedMap Map::Implementation::saved() const {
   return {std::move(saved), std::move(places)};
 }
 
-Map::Map(StereoOdometry& odometry) : implementation_(std::make_unique<Implementation>(odometry)) {}
+namespace {
+
+/// \throws UsageError for the paper's method, which keeps no rigs.
+StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
+  if (odometry.config().is_paper())
+    throw UsageError("the paper's method has no map: choose another preset for --loops");
+  return odometry;
+}
+
+}  // namespace
+
+Map::Map(StereoOdometry& odometry) : implementation_(std::make_unique<Implementation>(with_kept_rigs(odometry))) {}
 Map::~Map() = default;
 bool Map::add(const FrameResult& result) { return implementation_->add(result); }
 const Eigen::Isometry3d& Map::map_from_odometry() const { return implementation_->map_from_odometry(); }

@@ -8,29 +8,14 @@
 
 namespace quadedge::reference {
 
-CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescriptions& a, const EdgeDescriptions& b,
-                                  const FilterLimits& limits, int row_step) {
-  CandidateScores scores;
-  const std::size_t total = candidates.target.size();
-  scores.ncc.resize(total);
-  scores.sift.resize(total);
-  scores.state.assign(total, kCandidateAlive);
-  const auto patch = [](const EdgeDescriptions& set, std::size_t i) {
-    return set.patches.data() + i * kEdgePatchBytes;
-  };
-  const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
-  const bool by_sift = !a.sift.empty() && !b.sift.empty();
+void decide(const Candidates& candidates, const FilterLimits& limits, CandidateScores& scores) {
+  scores.state.assign(candidates.target.size(), kCandidateAlive);
   const int nearly_best_order = std::max(limits.ncc_order, limits.sift_order) + 1;
-
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
     const auto begin = static_cast<std::size_t>(candidates.first[row]),
                end = static_cast<std::size_t>(candidates.first[row + 1]);
-    const std::size_t i = row * static_cast<std::size_t>(row_step);
     float best_ncc = 0;
     for (std::size_t c = begin; c < end; ++c) {
-      const auto j = static_cast<std::size_t>(candidates.target[c]);
-      scores.ncc[c] = patch_ncc(patch(a, i), patch(b, j));
-      if (by_sift) scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
       int rejected = 0;
       if (scores.ncc[c] < limits.ncc_min) rejected = limits.ncc_order;
       if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max)
@@ -54,6 +39,29 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
       }
     }
   }
+}
+
+CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescriptions& a, const EdgeDescriptions& b,
+                                  const FilterLimits& limits, int row_step) {
+  CandidateScores scores;
+  const std::size_t total = candidates.target.size();
+  scores.ncc.resize(total);
+  scores.sift.resize(total);
+  const auto patch = [](const EdgeDescriptions& set, std::size_t i) {
+    return set.patches.data() + i * kEdgePatchBytes;
+  };
+  const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
+  const bool by_sift = !a.sift.empty() && !b.sift.empty();
+  for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
+    const std::size_t i = row * static_cast<std::size_t>(row_step);
+    for (auto c = static_cast<std::size_t>(candidates.first[row]);
+         c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
+      const auto j = static_cast<std::size_t>(candidates.target[c]);
+      scores.ncc[c] = patch_ncc(patch(a, i), patch(b, j));
+      if (by_sift) scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
+    }
+  }
+  decide(candidates, limits, scores);
   return scores;
 }
 

@@ -24,8 +24,31 @@ struct CandidateScores {
   std::vector<std::uint8_t> state;  ///< alive, rejected by or represented: kernels/layouts.cl
 };
 
+/// Sets the state of every candidate from its scores.
+void decide(const Candidates& candidates, const FilterLimits& limits, CandidateScores& scores);
+
 /// Row r of `candidates` belongs to edge r * row_step of `a`; targets are edges of `b`.
 CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescriptions& a, const EdgeDescriptions& b,
                                   const FilterLimits& limits, int row_step = 1);
+
+/// Candidates that no filter up to `filter` has rejected, with the scores that the next filter compares.
+template <class Filter>
+CandidateLists alive_after(Filter filter, const Candidates& candidates, const CandidateScores& scores) {
+  const Filter judge = next(filter);
+  const bool by_sift = judge == Filter::sift || judge == Filter::nearly_best_sift,
+             by_ncc = judge == Filter::ncc || judge == Filter::nearly_best_ncc;
+  CandidateLists lists;
+  lists.first.assign(1, 0);
+  for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
+    for (auto c = static_cast<std::size_t>(candidates.first[row]);
+         c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
+      if (scores.state[c] != kCandidateAlive && scores.state[c] <= order_of(filter)) continue;
+      lists.target.push_back(candidates.target[c]);
+      if (by_sift || by_ncc) lists.cue.push_back(by_sift ? scores.sift[c] : scores.ncc[c]);
+    }
+    lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
+  }
+  return lists;
+}
 
 }  // namespace quadedge::reference

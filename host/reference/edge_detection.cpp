@@ -119,10 +119,6 @@ Derivatives derivatives_at(ImageView image, double x, double y, double sigma) {
   return d;
 }
 
-namespace {
-
-/// Gradient of F = grad(I)^T Hess(I) grad(I), which is normal to the edge and points to its dark side (doc/method.md
-/// section 1).
 std::array<double, 2> gradient_of_f(const Derivatives& d) {
   const double shared = 2.0 * d.ixy * (d.ixx + d.iyy);
   return {2.0 * d.ix * (d.ixx * d.ixx + d.ixy * d.ixy) + d.iy * shared + d.ix * d.ix * d.ixxx +
@@ -130,6 +126,8 @@ std::array<double, 2> gradient_of_f(const Derivatives& d) {
           2.0 * d.iy * (d.iyy * d.iyy + d.ixy * d.ixy) + d.ix * shared + d.ix * d.ix * d.ixxy +
               2.0 * d.ix * d.iy * d.ixyy + d.iy * d.iy * d.iyyy};
 }
+
+namespace {
 
 /// Signed step along the gradient onto F = 0 [px], clamped. F falls across an edge towards the bright side; where it
 /// does not, there is no edge to step to.
@@ -161,7 +159,7 @@ double scale_drift(const Derivatives& d, const std::array<double, 2>& gradient_f
 
 }  // namespace
 
-ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold) {
+ReferenceEdges detect_edges(const ImageView& image, const EdgesConfig& config, double threshold) {
   const GradientField field = gradient_field(image, config);
   ReferenceEdges edges;
   for (int row = 0; row < image.height; ++row) {
@@ -208,6 +206,18 @@ EdgeSet to_edge_set(const ReferenceEdges& edges) {
   };
   return {to_float(edges.x),        to_float(edges.y),           to_float(edges.direction),
           to_float(edges.strength), to_float(edges.scale_drift), edges.row_first};
+}
+
+EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped) {
+  EdgeSet edges = to_edge_set(all);
+  const auto limit = static_cast<std::size_t>(most);
+  if (edges.size() > limit) {
+    dropped += static_cast<int>(edges.size() - limit);
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift})
+      values->resize(limit);
+    for (auto& first : edges.row_first) first = std::min(first, static_cast<std::int32_t>(limit));
+  }
+  return edges;
 }
 
 }  // namespace quadedge::reference

@@ -63,10 +63,17 @@ Probe probe_maximum(const GradientField& field, int column, int row);
 /// absolute level.
 Derivatives derivatives_at(ImageView image, double x, double y, double sigma);
 
+/// Gradient of F = grad(I)^T Hess(I) grad(I), which is normal to the edge and points to its dark side (doc/method.md
+/// section 1).
+std::array<double, 2> gradient_of_f(const Derivatives& d);
+
 /// Third-order edges of an image of any size (too small for the margin: none) whose gradient exceeds `threshold` [grey
 /// levels per px]. max_edges is ignored.
-ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold);
+ReferenceEdges detect_edges(const ImageView& image, const EdgesConfig& config, double threshold);
 
 EdgeSet to_edge_set(const ReferenceEdges& edges);
+
+/// The first `most` of them; the number of others is added to `dropped`.
+EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped);
 
 }  // namespace quadedge::reference

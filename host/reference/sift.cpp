@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/matching_constants.hpp"
+#include "common/parallel.hpp"
 #include "quadedge/camera.hpp"
 
 namespace quadedge::reference {
@@ -118,15 +119,17 @@ std::vector<std::uint8_t> sift_descriptors(const ImageView& image, const std::ve
                                            const std::vector<float>& ys, const std::vector<float>& directions) {
   const GradientMap map = sift_gradients(image);
   std::vector<std::uint8_t> descriptors(xs.size() * kEdgeSiftBytes);
-  for (std::size_t e = 0; e < xs.size(); ++e) {
-    // Rounded like on the device, because the nearest pixel is a discrete choice.
-    const float offset = static_cast<float>(kSiftOffset);
-    const float to_dark_x = offset * static_cast<float>(std::sin(static_cast<double>(directions[e])));
-    const float to_dark_y = -offset * static_cast<float>(std::cos(static_cast<double>(directions[e])));
-    std::uint8_t* edge = descriptors.data() + e * kEdgeSiftBytes;
-    sift_descriptor(map, xs[e] + to_dark_x, ys[e] + to_dark_y, directions[e], edge);
-    sift_descriptor(map, xs[e] - to_dark_x, ys[e] - to_dark_y, directions[e], edge + kSiftBytes);
-  }
+  for_row_blocks(xs.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      // Rounded like on the device, because the nearest pixel is a discrete choice.
+      const float offset = static_cast<float>(kSiftOffset);
+      const float to_dark_x = offset * static_cast<float>(std::sin(static_cast<double>(directions[e])));
+      const float to_dark_y = -offset * static_cast<float>(std::cos(static_cast<double>(directions[e])));
+      std::uint8_t* edge = descriptors.data() + e * kEdgeSiftBytes;
+      sift_descriptor(map, xs[e] + to_dark_x, ys[e] + to_dark_y, directions[e], edge);
+      sift_descriptor(map, xs[e] - to_dark_x, ys[e] - to_dark_y, directions[e], edge + kSiftBytes);
+    }
+  });
   return descriptors;
 }
 

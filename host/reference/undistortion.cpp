@@ -24,4 +24,14 @@ Image undistort(const ImageView& recorded, const UndistortionTable& table) {
   return image;
 }
 
+Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
+  if (!table.empty()) return undistort(recorded, table);
+  Image image(recorded.width, recorded.height, recorded.max_value);
+  const std::ptrdiff_t row = image.view().stride;
+  for (int y = 0; y < recorded.height; ++y) {
+    std::copy_n(recorded.pixels + y * recorded.stride, row, image.pixels.begin() + y * row);
+  }
+  return image;
+}
+
 }  // namespace quadedge::reference

@@ -77,7 +77,9 @@ struct TemporalMatches {
   std::vector<std::int32_t> current;    ///< index into the current rig's stereo edges
   std::vector<float> left_x, left_y;    ///< detected position in the current left image [px]
   std::vector<float> right_x, right_y;  ///< refined position in the current right image [px]
-  std::vector<float> ncc;               ///< mean of the left and the right NCC
+  /// Directions there [rad], of the clusters that the paper's method forms in time; empty: those of the current edge.
+  std::vector<float> left_direction, right_direction;
+  std::vector<float> ncc;  ///< mean of the left and the right NCC
   std::vector<std::int32_t>
       competing_clusters;  ///< further clusters of the previous edge's candidates (0: unambiguous)
   int search = -1;         ///< number of the temporal search that found them, see Tap; -1: none
@@ -88,7 +90,8 @@ struct TemporalMatches {
   /// Removes all matches and keeps the memory.
   void clear() {
     for (auto* values : {&previous, &current, &competing_clusters}) values->clear();
-    for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
+    for (auto* values : {&left_x, &left_y, &right_x, &right_y, &left_direction, &right_direction, &ncc})
+      values->clear();
     search = -1;
     alive_left = alive_right = 0;
   }

@@ -36,7 +36,8 @@ enum class TemporalFilter : std::uint8_t {
   sift,
   nearly_best_ncc,
   nearly_best_sift,
-  agreement,  ///< of the left and right images
+  refinement,  ///< free refinement and clustering; only in the paper's method
+  agreement,   ///< of the left and right images
   best
 };
 
@@ -78,6 +79,7 @@ constexpr const char* to_string(TemporalFilter filter) {
     case TemporalFilter::sift: return "SIFT";
     case TemporalFilter::nearly_best_ncc: return "nearly best NCC";
     case TemporalFilter::nearly_best_sift: return "nearly best SIFT";
+    case TemporalFilter::refinement: return "refinement and clustering";
     case TemporalFilter::agreement: return "quad agreement";
     case TemporalFilter::best: return "best";
   }

@@ -336,7 +336,7 @@ constexpr const char* kOdometryHelp =
     "rig: a Rig, or a Dataset or Synthetic, which also provides its disparity range.\n"
     "device: \"auto\" (first GPU, else first CPU), \"cpu\", \"gpu\", \"reference\" (plain C++, slow, without OpenCL),\n"
     "an index of ``devices()``, or a part of a device's name.\n"
-    "preset: \"fast\", \"default\" or \"dense\".\n"
+    "preset: \"fast\", \"default\", \"dense\" or \"paper\", the paper's own method.\n"
     "config: values that differ from the preset, as a dictionary such as ``{\"stereo.max_disparity\": 100}``\n"
     "(doc/configuration.md), or the path of a TOML file.\n"
     "loops: keep a map beside the odometry, as ``quadedge run --loops`` does. It recognises places, closes loops and\n"

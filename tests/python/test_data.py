@@ -121,7 +121,7 @@ def test_matching_evaluation_agrees_with_the_command(command, room_folder, tmp_p
 def test_configuration():
     with pytest.raises(quadedge.UsageError, match="there is no preset 'fastest'; did you mean 'fast'"):
         quadedge.configuration("fastest")
-    assert quadedge.presets() == ["fast", "default", "dense"]
+    assert quadedge.presets() == ["fast", "default", "dense", "paper"]
     constants = quadedge.configuration("fast", {"stereo.max_disparity": 100, "pose.refine": False})
     assert constants["edges.budget"] == 7000 and constants["stereo.max_disparity"] == 100
     assert constants["pose.refine"] is False and constants["seed"] == quadedge.configuration()["seed"]

@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
                         help="write odometry of the left camera with optical axes (x right, y down, z forward) instead "
                              "of base_link with those of REP 103 (x forward, y left, z up)")
     parser.add_argument("--device", help="auto, cpu, gpu, reference, an index, or a part of a name")
-    parser.add_argument("--preset", help="fast, default or dense")
+    parser.add_argument("--preset", help="fast, default, dense or paper")
     parser.add_argument("--config", metavar="FILE", help="a configuration file (TOML)")
     return parser
 

@@ -64,7 +64,9 @@ def _facts(content: dict) -> Facts:
                                 "not detected"),
                   ("Recall", "share of the pool's edges that still have a veridical candidate"),
                   ("Precision", "veridical candidates / all candidates"),
+                  ("Per edge", "mean of that ratio over edges that have candidates, as the paper's authors take it"),
                   ("Ambiguity", "candidates beyond the first, per edge that has any"),
+                  ("Of pool", "the paper's ambiguity: candidates / edges of the pool - 1"),
                   ("\u00b1", "standard deviation over frames; each pair counts as one")])
 
 

@@ -58,18 +58,20 @@ def overview_table(pairs: list[dict], pooled: dict) -> Table:
 def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
     """Tables 1 and 2: recall, precision and ambiguity after every filter; disabled filters are marked."""
     both = [summary[f"{key}{suffix}"] for _, suffix in POOLS]
-    table = Table(name, title, ["", "filter", *["recall [%]", "precision [%]", "ambiguity", "max"] * 2], text_columns=2)
+    columns = ["recall [%]", "precision [%]", "per edge [%]", "ambiguity", "of pool", "max"]
+    table = Table(name, title, ["", "filter", *columns * 2], text_columns=2)
     table.groups = [("", 2)]
     for (pool, _), rows in zip(POOLS, both):
-        table.groups.append((f"{pool}: {count(rows[0]['edges']) if rows else 0} edges", 4))
+        table.groups.append((f"{pool}: {count(rows[0]['edges']) if rows else 0} edges", 6))
     for paired, everything in zip(*both):
         cells = [paired["order"], paired["filter"]]
         for row in (paired, everything):
             if row.get("off"):
-                cells += [Cell(OFF)] * 4
+                cells += [Cell(OFF)] * 6
             else:
                 cells += [_share(row["recall"], row["recall_std"]), _share(row["precision"], row["precision_std"]),
-                          _number(row["ambiguity_mean"], 3), _number(row["ambiguity_max"], 0)]
+                          _share(row.get("precision_per_edge")), _number(row["ambiguity_mean"], 3),
+                          _number(row.get("ambiguity_of_pool"), 3), _number(row["ambiguity_max"], 0)]
         table.add(*cells)
     table.result_rows = 1
     return table

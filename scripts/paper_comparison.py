@@ -1,0 +1,151 @@
+"""What doc/paper.md compares: tables of the matching and errors of trajectories, measured with the paper's method, with
+least squares added to it, and with the defaults (scripts/measure.py --only paper), and the tables made from them.
+"""
+
+import json
+import statistics
+import sys
+from pathlib import Path
+
+METHODS = {"paper": ["--preset", "paper"], "fitted": ["--preset", "paper", "--pose.refine", "true"], "default": []}
+HEADS = {"paper": "`--preset paper`", "fitted": "with least squares", "default": "default"}
+MATCHED = {
+    "terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),
+    "Motorcycle": ("middlebury_2014/Motorcycle-perfect-quarter",),
+    "rendered room": ("room", "--frames", 2),
+}
+# Title -> source, first and last frame, first frame judged. KITTI 06 starts with frames whose ground truth jumps.
+TRACKED = {
+    "KITTI 06, from frame 10": ("kitti_odometry/sequences/06", "10:30"),
+    "KITTI 05": ("kitti_odometry/sequences/05", "0:20"),
+    "EuRoC MH_01": ("euroc_mh_01_easy", "0:20"),
+    "rendered room": ("room", 20),
+    "rendered cables": ("cables", 20),
+}
+SEEDS = (1, 2, 3)
+ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
+SHOWN = ("recall", "precision", "precision_per_edge", "ambiguity_of_pool")
+# Tables 1 to 3 of the paper: row of the program (by filter) -> recall, precision [%], ambiguity
+STATED = {
+    "stereo": {"epipolar proximity": (100, 3.6, 111.7), "limited disparity": (100, 52.4, 7.2),
+               "orientation": (100, 67.5, 4.9), "SIFT": (100, 70.8, 4.5), "NCC": (99.7, 74.3, 4.3),
+               "nearly best NCC": (99.6, 81.5, 3.5), "nearly best SIFT": (99.5, 86.6, 2.7),
+               "refinement and clustering": (98.4, 96.3, 0.1), "similarity of representatives": (98.3, 96.4, 0.093),
+               "best": (98, 98, 0)},
+    "temporal_left": {"displacement": (100, 1.28, 463.53), "orientation": (96.07, 5.95, 174.74),
+                      "NCC": (93.53, 24.53, 71.07), "SIFT": (82.66, 48.38, 26.13),
+                      "nearly best NCC": (82.52, 51.38, 21.78), "nearly best SIFT": (72.25, 67.40, 2.12),
+                      "refinement and clustering": (78.00, 83.56, 0.26), "quad agreement": (50.62, 90.79, 0.05)},
+    "constraints": [(100, 87.04), (80.73, 89.77), (42.39, 91.60), (22.16, 93.49), (19.40, 94.67)],
+}
+
+
+def source(place, options):
+    """A recording below the data, or a built-in scene."""
+    return place if "/" not in place and not place.startswith("euroc") else options.data / place
+
+
+def matching_row(title, method, programs):
+    options = programs.options
+    place, *frames = MATCHED[title]
+    command = [options.quadedge, "evaluate", "matching", source(place, options), *frames, *METHODS[method]]
+    file = options.work / f"paper_{title.replace(' ', '_')}_{method}.json"
+    if not (options.keep and file.exists()):
+        print(f"paper: {title}, {method}", file=sys.stderr, flush=True)
+        programs.call([*command, "--quiet", "--force", "--json", file])
+    pooled = json.loads(file.read_text(encoding="utf-8"))["pooled"]
+    row = {"title": title, "method": method, "commands": [programs.text(command)], "quads": pooled.get("quads")}
+    for table in ("stereo", "temporal_left"):
+        row[table] = [{"filter": line["filter"], **{name: line[name] for name in SHOWN}}
+                      for line in pooled.get(table, [])]
+    row["constraints"] = [{name: line[name] for name in ("recall", "precision")}
+                          for line in pooled.get("constraints", [])]
+    return row
+
+
+def trajectory_row(title, method, programs):
+    """The four errors of Table 4, as mean and standard deviation over seeds of the means over frames."""
+    options = programs.options
+    place, frames = TRACKED[title]
+    is_scene = isinstance(frames, int)
+    command = [options.quadedge, *(["demo", "--scene", place] if is_scene else ["run", options.data / place]),
+               "--frames", frames, *METHODS[method]]
+    errors, tracked, total = {name: [] for name in ERRORS}, 0, 0
+    for seed in SEEDS:
+        output = options.work / f"paper_{place.replace('/', '_')}_{method}_{seed}"
+        if not (options.keep and (output / "report.json").exists()):
+            print(f"paper: {title}, {method}, seed {seed}", file=sys.stderr, flush=True)
+            programs.call([*command, "--seed", seed, "-o", output, "--quiet", "--force"], allowed=(0, 5))
+        report = json.loads((output / "report.json").read_text(encoding="utf-8"))
+        tracked, total = tracked + report["frames_tracked"], total + report["frames_tracked"] + report["frames_lost"]
+        for name in ERRORS:
+            errors[name].append(report["accuracy"]["origin_aligned"][name]["mean"])
+    return {"title": title, "method": method, "commands": [programs.text(command)], "seeds": len(SEEDS),
+            "tracked": tracked, "frames": total,
+            **{name: {"mean": statistics.mean(values), "std": statistics.pstdev(values)}
+               for name, values in errors.items()}}
+
+
+def measure_paper(programs):
+    data = programs.options.data
+    return [{"kind": "matching", **matching_row(title, method, programs)} for title in MATCHED
+            for method in ("paper", "default") if data or "/" not in MATCHED[title][0]] + \
+        [{"kind": "trajectory", **trajectory_row(title, method, programs)} for title in TRACKED
+         for method in METHODS if data or isinstance(TRACKED[title][1], int)]
+
+
+def cell(line):
+    """Recall, precision as a mean over edges, and ambiguity over all edges of the pool."""
+    if not line:
+        return "-"
+    shares = [f"{100 * line[name]:.1f}" for name in ("recall", "precision_per_edge")]
+    return " / ".join([*shares, f"{line['ambiguity_of_pool']:.2f}"])
+
+
+def filters(rows, table_name, table):
+    """One of Tables 1 and 2: what the paper states beside what was measured."""
+    rows = [row for row in rows if row["kind"] == "matching" and row[table_name]]
+    by_column = {(row["title"], row["method"]): {line["filter"]: line for line in row[table_name]} for row in rows}
+    lines = []
+    for name, stated in STATED[table_name].items():
+        lines.append([name, " / ".join(f"{value:g}" for value in stated),
+                      *(cell(found.get(name)) for found in by_column.values())])
+    heads = [f"{title}, {HEADS[method]}" for title, method in by_column]
+    return table(["after", "paper", *heads], lines)
+
+
+def stereo(results, table):
+    return filters(results["paper"]["rows"], "stereo", table)
+
+
+def temporal(results, table):
+    return filters(results["paper"]["rows"], "temporal_left", table)
+
+
+def constraints(results, table):
+    rows = [row for row in results["paper"]["rows"] if row["kind"] == "matching" and row["constraints"]]
+    names = ("baseline", "|D|", "D . T1", "D . T2", "T1 . T2")
+    lines = [[name, f"{recall:g} / {precision:g}",
+              *(" / ".join(f"{100 * row['constraints'][order][key]:.1f}" for key in ("recall", "precision"))
+                for row in rows)]
+             for order, (name, (recall, precision)) in enumerate(zip(names, STATED["constraints"]))]
+    return table(["after", "paper", *(f"{row['title']}, {HEADS[row['method']]}" for row in rows)], lines)
+
+
+def trajectories(results, table, stamp):
+    rows = [row for row in results["paper"]["rows"] if row["kind"] == "trajectory"]
+
+    def error(row, name, factor, digits):
+        found = row[name]
+        return f"{factor * found['mean']:.{digits}f} +- {factor * found['std']:.{digits}f}"
+
+    lines = [[row["title"], HEADS[row["method"]], f"{row['tracked']} of {row['frames']}",
+              error(row, "ape_rotation_deg", 1, 3), error(row, "ape_translation_m", 1000, 1),
+              error(row, "rpe_rotation_deg", 1, 4), error(row, "rpe_translation_m", 1000, 2)] for row in rows]
+    return table(["sequence", "method", "tracked", "APE [deg]", "APE [mm]", "RPE [deg]", "RPE [mm]"], lines,
+                 f"Mean and standard deviation over {rows[0]['seeds']} seeds. " + stamp(results["paper"]))
+
+
+def commands(results, command_list):
+    return command_list([{**row, "title": f"{row['title']}, {HEADS[row['method']]}"}
+                         for row in results["paper"]["rows"]])

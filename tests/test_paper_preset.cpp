@@ -1,0 +1,85 @@
+/// \file test_paper_preset.cpp  --preset paper: the whole method on rendered sequences.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "data/presets.hpp"
+#include "program.hpp"
+#include "quadedge/config.hpp"
+
+using namespace quadedge;
+
+TEST_CASE("paper preset: each of its lines changes a default, and none has another effect", "[paper][cli]") {
+  const Config paper = read_preset("paper"), defaults;
+  CHECK(paper.is_paper());
+  const auto lines = data::read_preset("paper");
+  REQUIRE(lines.size() > 12);
+  for (const auto& constant : constants()) {
+    INFO(constant.key());
+    const bool is_line =
+        std::any_of(lines.begin(), lines.end(), [&](const auto& line) { return line.key == constant.key(); });
+    CHECK((constant.text(paper) != constant.text(defaults)) == is_line);
+  }
+}
+
+TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, and refuses loops", "[paper][cli]") {
+  const TemporaryFolder folder;
+  const auto track = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> call = {"run",      small_sequence(), "-o",      folder / "out",
+                                     "--preset", "paper",          "--quiet", "--force"};
+    call.insert(call.end(), options.begin(), options.end());
+    return run_program(call);
+  };
+  const auto errors_of = [&] {
+    const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
+    CHECK(report["frames_tracked"] == 4);
+    return report["accuracy"]["origin_aligned"];
+  };
+  const auto plain = track({});
+  INFO(plain.err);
+  REQUIRE(plain.code == 0);
+  CHECK_THAT(plain.out, Catch::Contains("method     the paper's own") && !Catch::Contains("least squares"));
+  const auto of_samples = errors_of();
+  // A sample's error is the depth error of its two points, 9 m^2 x 0.1 px / (184 px x 0.06 m) = 8 cm at 3 m.
+  CHECK(of_samples["rpe_translation_m"]["mean"].get<double>() < 0.08);
+  CHECK(of_samples["rpe_rotation_deg"]["mean"].get<double>() < 1);
+  const std::string poses = read_text(folder / "out/trajectory.txt");
+  REQUIRE(track({}).code == 0);
+  CHECK(read_text(folder / "out/trajectory.txt") == poses);
+
+  const auto fitted = track({"--pose.refine", "true"});
+  CHECK_THAT(fitted.out, Catch::Contains("with least squares added"));
+  CHECK(errors_of()["rpe_translation_m"]["mean"].get<double>() <
+        0.3 * of_samples["rpe_translation_m"]["mean"].get<double>());
+
+  const auto loops = track({"--loops"});
+  CHECK(loops.code == 2);
+  CHECK_THAT(loops.err, Catch::Contains("the paper's method has no map"));
+}
+
+TEST_CASE("paper preset: Tables 1 and 2 have the paper's rows, and few matches of the room are wrong",
+          "[paper][matching][cli]") {
+  const TemporaryFolder folder;
+  const auto run = run_program({"evaluate", "matching", small_sequence(), "--frames", "2", "--preset", "paper",
+                                "--json", folder / "room.json", "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto pooled = nlohmann::json::parse(read_text(folder / "room.json"))["pooled"];
+  std::vector<std::string> stereo, temporal;
+  for (const auto& row : pooled["stereo"]) stereo.push_back(row["filter"]);
+  for (const auto& row : pooled["temporal_left"]) temporal.push_back(row["filter"]);
+  CHECK(stereo == std::vector<std::string>{"baseline", "epipolar proximity", "limited disparity", "orientation", "SIFT",
+                                           "NCC", "nearly best NCC", "nearly best SIFT", "refinement and clustering",
+                                           "similarity of representatives", "best"});
+  CHECK(temporal == std::vector<std::string>{"baseline", "displacement", "orientation", "NCC", "SIFT",
+                                             "nearly best NCC", "nearly best SIFT", "refinement and clustering",
+                                             "quad agreement", "best"});
+  const auto& last = pooled["stereo"].back();
+  CHECK(last["recall"] > 0.95);
+  CHECK(last["precision_per_edge"] > 0.95);
+  CHECK(last["ambiguity_of_pool"] < 0);  // edges without a match count, too
+  const auto &refined = pooled["temporal_left"][7], &agreed = pooled["temporal_left"][8];
+  CHECK(refined["recall"] > 0.5);
+  CHECK(agreed["precision_per_edge"] > refined["precision_per_edge"]);
+  CHECK(agreed["precision_per_edge"] > 0.8);
+}
