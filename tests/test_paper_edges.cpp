@@ -12,16 +12,15 @@
 #include "quadedge/error.hpp"
 
 using namespace quadedge;
-using reference::ReferenceEdges;
 
 namespace {
 
-constexpr double kThreshold = 2;
+constexpr double kGridThreshold = 2;
 
-double angle_error(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
+double edge_turn(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
 
 /// Normal noise of two grey levels.
-void disturb(Image& image, unsigned seed) {
+void add_grey_noise(Image& image, unsigned seed) {
   std::mt19937 random(seed);
   for (auto& pixel : image.pixels) {
     double noise = 0;
@@ -39,14 +38,14 @@ TEST_CASE("paper edges: a step of any direction is located to 0.02 px with noise
   for (int k = 0; k < 12; ++k) {
     const double angle = (30.0 * k + 3.7) * kDegree, px = 40.5 + 0.37 * std::sin(3.0 * k), py = 40.1;
     Image image = render_half_plane(80, 80, px, py, angle);
-    disturb(image, static_cast<unsigned>(k));
-    const ReferenceEdges edges = paper::grid_edges(image.view(), {}, kThreshold);
+    add_grey_noise(image, static_cast<unsigned>(k));
+    const reference::ReferenceEdges edges = paper::grid_edges(image.view(), {}, kGridThreshold);
     std::set<std::pair<int, int>> occupied;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const double distance = (edges.x[i] - px) * std::cos(angle) + (edges.y[i] - py) * std::sin(angle);
       if (std::abs(distance) > 2) continue;  // noise
       squares += distance * distance;
-      turns += std::pow(angle_error(edges.direction[i], angle - kPi / 2), 2);
+      turns += std::pow(edge_turn(edges.direction[i], angle - kPi / 2), 2);
       occupied.emplace(edges.column[i], edges.row[i]);
       ++count;
     }
@@ -63,12 +62,12 @@ TEST_CASE("paper edges: pixel centres are integers, and the bright side gives th
           "[paper][edges]") {
   for (const double side : {0.0, 90.0, 180.0, 270.0}) {
     const Image image = render_half_plane(48, 49, 23.5, 24.5, side * kDegree);
-    const ReferenceEdges edges = paper::grid_edges(image.view(), {}, kThreshold);
+    const reference::ReferenceEdges edges = paper::grid_edges(image.view(), {}, kGridThreshold);
     REQUIRE(edges.size() > 40);
     const bool upright = side == 0 || side == 180;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       REQUIRE(std::abs(upright ? edges.x[i] - 23.5 : edges.y[i] - 24.5) < 0.01);
-      REQUIRE(angle_error(edges.direction[i], (side - 90) * kDegree) < 0.2 * kDegree);
+      REQUIRE(edge_turn(edges.direction[i], (side - 90) * kDegree) < 0.2 * kDegree);
     }
   }
 }
@@ -78,15 +77,15 @@ TEST_CASE("paper edges: they hold what the detector of every pixel finds, in the
   const Image image = textured_image(143, 97);
   EdgesConfig config;
   config.newton_max = 0;
-  const ReferenceEdges coarse = reference::detect_edges(image.view(), config, kThreshold),
-                       fine = paper::grid_edges(image.view(), config, kThreshold);
+  const reference::ReferenceEdges coarse = reference::detect_edges(image.view(), config, kGridThreshold),
+                                  fine = paper::grid_edges(image.view(), config, kGridThreshold);
   CHECK(static_cast<double>(fine.size()) > 1.6 * static_cast<double>(coarse.size()));
   CHECK(static_cast<double>(fine.size()) < 2.4 * static_cast<double>(coarse.size()));
   std::size_t found = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     for (std::size_t j = 0; j < fine.size(); ++j) {
       const bool near = std::hypot(coarse.x[i] - fine.x[j], coarse.y[i] - fine.y[j]) < 0.5 &&
-                        angle_error(coarse.direction[i], fine.direction[j]) < 10 * kDegree;
+                        edge_turn(coarse.direction[i], fine.direction[j]) < 10 * kDegree;
       if (!near) continue;
       ++found;
       break;
@@ -109,6 +108,6 @@ TEST_CASE("paper edges: they hold what the detector of every pixel finds, in the
 
 TEST_CASE("paper edges: images smaller than the margin have none, and an empty one is refused", "[paper][edges]") {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(7, 60), std::pair(60, 5), std::pair(21, 21)})
-    CHECK(paper::grid_edges(textured_image(width, height).view(), {}, kThreshold).size() == 0);
-  CHECK_THROWS_AS(paper::grid_edges({}, {}, kThreshold), UsageError);
+    CHECK(paper::grid_edges(textured_image(width, height).view(), {}, kGridThreshold).size() == 0);
+  CHECK_THROWS_AS(paper::grid_edges({}, {}, kGridThreshold), UsageError);
 }

@@ -8,14 +8,13 @@
 #include "quadedge/camera.hpp"
 
 using namespace quadedge;
-using namespace quadedge::paper;
 
 namespace {
 
-constexpr double kOffset = 5;
+constexpr double kSideOffset = 5;
 
 /// A smooth pattern, moved by (dx, dy) px.
-Image waves(int width, int height, double dx, double dy, bool inverted = false) {
+Image wavy_image(int width, int height, double dx, double dy, bool inverted = false) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -27,45 +26,46 @@ Image waves(int width, int height, double dx, double dy, bool inverted = false) 
   return image;
 }
 
-Hypothesis at(double x, double y, double direction_deg, std::int32_t target) {
+paper::Hypothesis hypothesis_at(double x, double y, double direction_deg, std::int32_t target) {
   return {{x, y}, static_cast<float>(direction_deg * kDegree), target};
 }
 
 }  // namespace
 
 TEST_CASE("paper matching: the NCC of a pattern with itself is 1, and -1 where a patch is flat", "[paper][matching]") {
-  const Image image = waves(61, 53, 0, 0);
-  const Picture picture(image.view());
-  const SidePatches patches = cut_sides(picture, {30.3F, 25.7F, 0.6F}, kOffset);
-  const Pairing same = best_pairing(patches, patches);
+  const Image image = wavy_image(61, 53, 0, 0);
+  const paper::Picture picture(image.view());
+  const paper::SidePatches patches = paper::cut_sides(picture, {30.3F, 25.7F, 0.6F}, kSideOffset);
+  const paper::Pairing same = paper::best_pairing(patches, patches);
   CHECK(same.ncc == Approx(1).epsilon(1e-5));
   CHECK(same.first == same.second);
   // The same place seen as an edge of the opposite direction: the sides are exchanged, and each is turned.
-  const SidePatches opposite = cut_sides(picture, {30.3F, 25.7F, 0.6F - static_cast<float>(kPi)}, kOffset);
+  const paper::SidePatches opposite =
+      paper::cut_sides(picture, {30.3F, 25.7F, 0.6F - static_cast<float>(kPi)}, kSideOffset);
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t i = 0; i < 7; ++i)
       for (std::size_t j = 0; j < 7; ++j)
         CHECK(opposite.sides[side][8 * i + j] == Approx(patches.sides[1 - side][8 * (6 - i) + 6 - j]).margin(0.02));
-  const SidePatches flat = cut_sides(Picture(Image(40, 40).view()), {20, 20, 0}, kOffset);
-  CHECK(best_pairing(flat, patches).ncc == -1);
+  const paper::SidePatches flat = paper::cut_sides(paper::Picture(Image(40, 40).view()), {20, 20, 0}, kSideOffset);
+  CHECK(paper::best_pairing(flat, patches).ncc == -1);
 }
 
 TEST_CASE("paper matching: the refinement finds a move along a line and a free one", "[paper][matching]") {
-  const Picture before(waves(80, 70, 0, 0).view());
-  const RefinementSettings settings{20, 1e-3, false};
+  const paper::Picture before(wavy_image(80, 70, 0, 0).view());
+  const paper::RefinementSettings settings{20, 1e-3, false};
   for (const double direction : {0.3, 1.4, -2.2}) {
-    const Place edge{40.2F, 35.4F, static_cast<float>(direction)};
-    const SidePatches fixed = cut_sides(before, edge, kRefinementOffset);
-    for (const std::vector<Pairing>& sides :
-         {std::vector<Pairing>{{0, 0, 1}}, std::vector<Pairing>{{1, 1, 1}}, kBothSides}) {
-      const Picture right(waves(80, 70, 1.3, 0).view());
+    const paper::Place edge{40.2F, 35.4F, static_cast<float>(direction)};
+    const paper::SidePatches fixed = paper::cut_sides(before, edge, paper::kRefinementOffset);
+    for (const std::vector<paper::Pairing>& sides :
+         {std::vector<paper::Pairing>{{0, 0, 1}}, std::vector<paper::Pairing>{{1, 1, 1}}, paper::kBothSides}) {
+      const paper::Picture right(wavy_image(80, 70, 1.3, 0).view());
       const Eigen::Vector2d line(1, 0);
-      const Refined along = refine(fixed, sides, right, edge, line, settings);
+      const paper::Refined along = paper::refine(fixed, sides, right, edge, line, settings);
       CHECK(along.position.x() == Approx(41.5).margin(0.03));
       CHECK(along.position.y() == Approx(35.4).margin(1e-4));
       CHECK(along.rms < 1);
-      const Picture later(waves(80, 70, -0.8, 0.7).view());
-      const Refined free = refine(fixed, sides, later, edge, Eigen::Matrix2d::Identity(), settings);
+      const paper::Picture later(wavy_image(80, 70, -0.8, 0.7).view());
+      const paper::Refined free = paper::refine(fixed, sides, later, edge, Eigen::Matrix2d::Identity(), settings);
       CHECK(free.position.x() == Approx(39.4).margin(0.03));
       CHECK(free.position.y() == Approx(36.1).margin(0.03));
     }
@@ -73,10 +73,12 @@ TEST_CASE("paper matching: the refinement finds a move along a line and a free o
 }
 
 TEST_CASE("paper matching: a flat image moves nothing, and the border is no obstacle", "[paper][matching]") {
-  const SidePatches fixed = cut_sides(Picture(waves(60, 60, 0, 0).view()), {30, 30, 0}, kOffset);
-  const Picture flat(Image(31, 33).view());
-  for (const Place& start : {Place{15, 15, 0}, Place{0, 0, 1}, Place{30, 32, 2}}) {
-    const Refined found = refine(fixed, kBothSides, flat, start, Eigen::Matrix2d::Identity(), {20, 1e-3, true});
+  const paper::SidePatches fixed =
+      paper::cut_sides(paper::Picture(wavy_image(60, 60, 0, 0).view()), {30, 30, 0}, kSideOffset);
+  const paper::Picture flat(Image(31, 33).view());
+  for (const paper::Place& start : {paper::Place{15, 15, 0}, paper::Place{0, 0, 1}, paper::Place{30, 32, 2}}) {
+    const paper::Refined found =
+        paper::refine(fixed, paper::kBothSides, flat, start, Eigen::Matrix2d::Identity(), {20, 1e-3, true});
     CHECK(found.position.x() == static_cast<double>(start.x));
     CHECK(found.position.y() == static_cast<double>(start.y));
   }
@@ -84,9 +86,10 @@ TEST_CASE("paper matching: a flat image moves nothing, and the border is no obst
 
 TEST_CASE("paper matching: members within a pixel and 20 degrees form a cluster with their centroid",
           "[paper][matching]") {
-  CHECK(clusters_of({}).empty());
-  const auto found = clusters_of(
-      {at(10, 5, 175, 7), at(10.6, 5, -179, 8), at(11.2, 5, 179, 9), at(13, 5, 178, 10), at(10.3, 5, 120, 11)});
+  CHECK(paper::clusters_of({}).empty());
+  const auto found =
+      paper::clusters_of({hypothesis_at(10, 5, 175, 7), hypothesis_at(10.6, 5, -179, 8), hypothesis_at(11.2, 5, 179, 9),
+                          hypothesis_at(13, 5, 178, 10), hypothesis_at(10.3, 5, 120, 11)});
   REQUIRE(found.size() == 3);
   CHECK(found[0].members.front() == 8);
   CHECK(std::is_permutation(found[0].members.begin(), found[0].members.end(), std::begin({7, 8, 9})));
@@ -98,10 +101,10 @@ TEST_CASE("paper matching: members within a pixel and 20 degrees form a cluster 
 }
 
 TEST_CASE("paper matching: a cluster has at most ten members", "[paper][matching]") {
-  std::vector<Hypothesis> row;
-  for (int k = 0; k < 23; ++k) row.push_back(at(0.3 * k, 0, 0, k));
+  std::vector<paper::Hypothesis> row;
+  for (int k = 0; k < 23; ++k) row.push_back(hypothesis_at(0.3 * k, 0, 0, k));
   std::size_t members = 0;
-  for (const Cluster& cluster : clusters_of(row)) {
+  for (const paper::Cluster& cluster : paper::clusters_of(row)) {
     CHECK(cluster.members.size() <= 10);
     members += cluster.members.size();
   }
@@ -110,18 +113,18 @@ TEST_CASE("paper matching: a cluster has at most ten members", "[paper][matching
 
 TEST_CASE("paper matching: directions are compared modulo half a turn", "[paper][matching]") {
   const auto deg = [](double angle) { return static_cast<float>(angle * kDegree); };
-  CHECK(line_angle_between(deg(170), deg(-175)) == Approx(deg(15)).margin(1e-5));
-  CHECK(line_angle_between(deg(-5), deg(172)) == Approx(deg(3)).margin(1e-5));
-  CHECK(line_angle_between(deg(0), deg(90)) == Approx(deg(90)).margin(1e-5));
+  CHECK(paper::line_angle_between(deg(170), deg(-175)) == Approx(deg(15)).margin(1e-5));
+  CHECK(paper::line_angle_between(deg(-5), deg(172)) == Approx(deg(3)).margin(1e-5));
+  CHECK(paper::line_angle_between(deg(0), deg(90)) == Approx(deg(90)).margin(1e-5));
 }
 
 TEST_CASE("paper matching: a loop closes where both images hold the same edge", "[paper][matching]") {
-  const auto cluster = [](std::vector<std::int32_t> members) { return Cluster{{}, std::move(members)}; };
-  const std::vector<Cluster> left = {cluster({4, 5}), cluster({9})},
-                             right = {cluster({9, 2}), cluster({5}), cluster({7})};
-  const auto quads = close_loop(left, right);
+  const auto cluster = [](std::vector<std::int32_t> members) { return paper::Cluster{{}, std::move(members)}; };
+  const std::vector<paper::Cluster> left = {cluster({4, 5}), cluster({9})},
+                                    right = {cluster({9, 2}), cluster({5}), cluster({7})};
+  const auto quads = paper::close_loop(left, right);
   REQUIRE(quads.size() == 2);
   CHECK((quads[0].left == 0 && quads[0].right == 1 && quads[0].edge == 5));
   CHECK((quads[1].left == 1 && quads[1].right == 0 && quads[1].edge == 9));
-  CHECK(close_loop({}, right).empty());
+  CHECK(paper::close_loop({}, right).empty());
 }

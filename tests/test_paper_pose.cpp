@@ -8,25 +8,23 @@
 #include "pose/two_quads.hpp"
 
 using namespace quadedge;
-using namespace quadedge::paper;
-using pose::OrientedPoint;
 
 namespace {
 
-generated::Problem drive() {
+generated::Problem paper_drive() {
   generated::Problem problem;
   problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
   problem.motion.translation() << 0.05, 0.02, -1.2;
   return problem;
 }
 
-PoseConfig paper_config() {
+PoseConfig paper_pose_config() {
   PoseConfig config;
   config.min_hypotheses = 1000;
   return config;
 }
 
-TemporalMatches matches_of(const std::vector<std::pair<int, int>>& pairs) {
+TemporalMatches linked_matches(const std::vector<std::pair<int, int>>& pairs) {
   TemporalMatches matches;
   for (const auto& [previous, current] : pairs) {
     matches.previous.push_back(previous);
@@ -45,10 +43,10 @@ TemporalMatches matches_of(const std::vector<std::pair<int, int>>& pairs) {
 TEST_CASE("paper pose: every member of a quad's family maps point to point and tangent to tangent", "[paper][pose]") {
   generated::Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
-    const OrientedPoint p{random.uniform(1, 20) * random.unit(), random.unit()},
+    const pose::OrientedPoint p{random.uniform(1, 20) * random.unit(), random.unit()},
         q{random.uniform(1, 20) * random.unit(), random.unit()};
     for (const double theta : {-2.5, 0.0, 0.4, 3.1}) {
-      const Eigen::Isometry3d motion = motion_of_one_quad(p, q, theta);
+      const Eigen::Isometry3d motion = paper::motion_of_one_quad(p, q, theta);
       CHECK((motion * p.point - q.point).norm() < 1e-12);
       CHECK((motion.linear() * p.tangent - q.tangent).norm() < 1e-12);
       CHECK((motion.linear() * motion.linear().transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
@@ -58,21 +56,23 @@ TEST_CASE("paper pose: every member of a quad's family maps point to point and t
 }
 
 TEST_CASE("paper pose: the motion of two quads is a member of the family of each", "[paper][pose]") {
-  const generated::Problem problem = drive();
+  const generated::Problem problem = paper_drive();
   const auto g = generated::generate(problem, 4);
   int checked = 0;
   for (std::size_t b = 1; b < 60; ++b) {
-    const auto motion = motion_of_two_quads(g.quads, 0, b);
+    const auto motion = paper::motion_of_two_quads(g.quads, 0, b);
     if (!motion) continue;
     ++checked;
     CHECK(generated::rotation_error(*motion, problem.motion) < 1e-3);
     for (const std::size_t q : {std::size_t{0}, b}) {
-      const OrientedPoint before = g.quads.previous[q].oriented_point(), after = g.quads.current[q].oriented_point();
+      const pose::OrientedPoint before = g.quads.previous[q].oriented_point(),
+                                after = g.quads.current[q].oriented_point();
       // R = Rot(T_bar, theta) align, so the angle is that of R align^T about T_bar.
-      const Eigen::Matrix3d rest = motion->linear() * motion_of_one_quad(before, after, 0.0).linear().transpose();
+      const Eigen::Matrix3d rest =
+          motion->linear() * paper::motion_of_one_quad(before, after, 0.0).linear().transpose();
       const Eigen::Vector3d axis(rest(2, 1) - rest(1, 2), rest(0, 2) - rest(2, 0), rest(1, 0) - rest(0, 1));
       const double theta = std::atan2(0.5 * axis.dot(after.tangent), 0.5 * (rest.trace() - 1));
-      CHECK(generated::rotation_error(motion_of_one_quad(before, after, theta), *motion) < 2e-3);
+      CHECK(generated::rotation_error(paper::motion_of_one_quad(before, after, theta), *motion) < 2e-3);
     }
   }
   CHECK(checked > 10);
@@ -84,25 +84,25 @@ TEST_CASE("paper pose: alignment follows Equation 6 and stays exact up to opposi
   for (const double angle : {0.0, 1e-9, 0.5, 1.5, 2.5, 3.0}) {
     const Eigen::Vector3d to = std::cos(angle) * from + std::sin(angle) * orthogonal;
     const Eigen::Matrix3d expected = Eigen::AngleAxisd(angle, from.cross(orthogonal).normalized()).toRotationMatrix();
-    CHECK((align(from, to) - expected).norm() < 1e-9);
+    CHECK((paper::align(from, to) - expected).norm() < 1e-9);
   }
   for (const double rest : {1e-3, 1e-6, 1e-9, 1e-12, 0.0}) {
     const Eigen::Vector3d to = (-from + rest * orthogonal).normalized();
-    const Eigen::Matrix3d rotation = align(from, to);
+    const Eigen::Matrix3d rotation = paper::align(from, to);
     CHECK((rotation * from - to).norm() < 1e-12);
     CHECK((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
     CHECK(rotation.determinant() == Approx(1.0));
   }
-  CHECK(align(from, -from).trace() == Approx(-1.0));  // a half turn about an axis orthogonal to the tangent
+  CHECK(paper::align(from, -from).trace() == Approx(-1.0));  // a half turn about an axis orthogonal to the tangent
 }
 
 TEST_CASE("paper pose: the translation is that of the first point", "[paper][pose]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = paper_drive();
   problem.noise = {0.2, 0.4, 0.01};
   const auto g = generated::generate(problem, 6);
   int checked = 0;
   for (std::size_t b = 1; b < 200; ++b) {
-    const auto motion = motion_of_two_quads(g.quads, 0, b);
+    const auto motion = paper::motion_of_two_quads(g.quads, 0, b);
     if (!motion) continue;
     const auto error = [&](std::size_t q) {
       return (*motion * g.quads.previous[q].oriented_point().point - g.quads.current[q].oriented_point().point).norm();
@@ -115,10 +115,10 @@ TEST_CASE("paper pose: the translation is that of the first point", "[paper][pos
 
 TEST_CASE("paper pose: inliers are points within 1.5 px and tangents within 10 degrees, in the left image",
           "[paper][pose]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = paper_drive();
   auto g = generated::generate(problem, 7);
   std::vector<std::uint8_t> inlier;
-  const auto count = [&] { return find_inliers(g.quads, problem.rig.left, problem.motion, 1.5, inlier); };
+  const auto count = [&] { return paper::find_inliers(g.quads, problem.rig.left, problem.motion, 1.5, inlier); };
   REQUIRE(count() == problem.quads);
   g.quads.scoring.left_x[0] += 1.6F;
   g.quads.scoring.left_y[1] += 1.4F;
@@ -134,32 +134,35 @@ TEST_CASE("paper pose: inliers are points within 1.5 px and tangents within 10 d
 }
 
 TEST_CASE("paper pose: the best of at least 1000 samples explains the quads among 50 % outliers", "[paper][pose]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = paper_drive();
   problem.outliers = 0.5;
   problem.quads = 800;
   problem.noise = {0.12, 0.2, 0.01};
   const auto g = generated::generate(problem, 40);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const PaperConsensus found = find_paper_consensus(g.quads, problem.rig.left, paper_config(), seed);
+    const paper::PaperConsensus found =
+        paper::find_paper_consensus(g.quads, problem.rig.left, paper_pose_config(), seed);
     REQUIRE(found.current_from_previous);
     CHECK(found.hypotheses >= 1000);
     CHECK(found.hypotheses <= 5000);
     CHECK(found.inliers > 250);
     CHECK(generated::rotation_error(*found.current_from_previous, problem.motion) < 0.5 * kDegree);
-    const PaperConsensus again = find_paper_consensus(g.quads, problem.rig.left, paper_config(), seed);
+    const paper::PaperConsensus again =
+        paper::find_paper_consensus(g.quads, problem.rig.left, paper_pose_config(), seed);
     CHECK(again.current_from_previous->matrix() == found.current_from_previous->matrix());
     CHECK(again.inlier == found.inlier);
   }
-  CHECK_FALSE(find_paper_consensus({}, problem.rig.left, paper_config(), 1).current_from_previous);
-  generated::Problem few = drive();
+  CHECK_FALSE(paper::find_paper_consensus({}, problem.rig.left, paper_pose_config(), 1).current_from_previous);
+  generated::Problem few = paper_drive();
   few.quads = 2;  // the pool of 70 % has one quad: the authors' program would draw for ever
-  CHECK(find_paper_consensus(generated::generate(few, 1).quads, few.rig.left, paper_config(), 1).draws == 0);
+  CHECK(paper::find_paper_consensus(generated::generate(few, 1).quads, few.rig.left, paper_pose_config(), 1).draws ==
+        0);
 }
 
 TEST_CASE("paper pose: quads are handed on from edge to edge, and pairs reached twice count once", "[paper][pose]") {
   // Key edge 0 ends at edges 5 and 6 of the earlier rig, key edge 2 at edge 6, key edge 3 at edge 9.
-  const TemporalMatches from_key = matches_of({{0, 5}, {0, 6}, {2, 6}, {3, 9}});
-  const TemporalMatches onwards = matches_of({{5, 1}, {6, 1}, {6, 2}, {8, 4}});
+  const TemporalMatches from_key = linked_matches({{0, 5}, {0, 6}, {2, 6}, {3, 9}});
+  const TemporalMatches onwards = linked_matches({{5, 1}, {6, 1}, {6, 2}, {8, 4}});
   const TemporalMatches found = odometry::propagate(from_key, onwards);
   CHECK(found.previous == std::vector<std::int32_t>{0, 0, 2, 2});
   CHECK(found.current == std::vector<std::int32_t>{1, 2, 1, 2});

@@ -39,7 +39,7 @@ class Row {
         offset_(offset),
         line_(epipolar_line(geometry, left.edges.x[i], left.edges.y[i])) {}
 
-  /// The candidate moved along its tangent onto the line, then refined along the line by its most similar sides.
+  /// The candidate moved along its tangent onto the line, then refined along the line.
   Hypothesis refined(std::int32_t target) const {
     const auto j = static_cast<std::size_t>(target);
     const EdgeSet& edges = right_.edges;
