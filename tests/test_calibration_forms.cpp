@@ -506,6 +506,7 @@ TEST_CASE("calibration forms: settings of other cameras are not taken for rectif
   std::string inverse = realsense(Rig());
   inverse.replace(inverse.find("Brown Conrady"), 13, "Inverse Brown Conrady");
   CHECK_THAT(complaint(inverse), Contains("inverse distortion"));
-  std::string skewed = opencv_matrix("Tlr", 3, 4, "1, 0.1, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0");
+  const std::string skewed = "Camera2.fx: 517\nCamera2.fy: 516\nCamera2.cx: 318\nCamera2.cy: 255\n" +
+                             opencv_matrix("Tlr", 3, 4, "1, 0.1, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0");
   CHECK_THAT(complaint("%YAML:1.0\n" + camera + skewed), Contains("Tlr") && Contains("orthonormal"));
 }

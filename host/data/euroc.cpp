@@ -50,7 +50,7 @@ void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
   for (const auto& [l, r] : found.pairs) add_frame(dataset, left[l].first, left[l].second, right[r].second, findings);
   const std::size_t pairs = found.pairs.size();
   if (2 * pairs < left.size()) {
-    findings.error((folder / "cam1").string(), counted(pairs, "timestamp") + " in common with cam0",
+    findings.error((folder / "cam1" / "data.csv").string(), counted(pairs, "timestamp") + " in common with cam0",
                    "the " + std::to_string(left.size()) + " of the left camera");
   } else if (pairs < left.size() || pairs < right.size()) {  // the published recordings lack a few images
     const std::string note = std::to_string(left.size() - pairs) + " left and " + std::to_string(right.size() - pairs) +
