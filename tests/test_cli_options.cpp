@@ -74,8 +74,8 @@ TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
 }
 
 TEST_CASE("command line: an option's former name works and is told", "[cli]") {
-  const auto former = run_program({"run", "/no/such/recording", "--points-min-views", "0"});
-  CHECK_THAT(former.err, Contains("warning: --points-min-views is called --points-min-views now"));
+  const auto former = run_program({"run", "/no/such/recording", "--map-min-views", "0"});
+  CHECK_THAT(former.err, Contains("warning: --map-min-views is called --points-min-views now"));
   CHECK_THAT(former.err, Contains("/no/such/recording") || Contains("--points-min-views 0"));
   CHECK_THAT(run_program({"run", "x", "--points-min-views", "2"}).err, !Contains("warning"));
   const TemporaryFolder folder;

@@ -92,6 +92,6 @@ TEST_CASE("constants: the short help lists the basic ones, the full help all of 
 TEST_CASE("constants: doc/configuration.md equals the program's output", "[cli]") {
   const auto printed = run_program({"generate", "configuration"});
   CHECK(printed.code == 0);
-  CHECK_THAT(printed.out, Contains("| `stereo.epipolar_distance` | 0.5 | px | 0 to 20 |"));
+  CHECK_THAT(printed.out, Contains("| `stereo.epipolar_distance` | 0.5 px | 0 to 20 |"));
   CHECK(read_text(QUADEDGE_KERNELS "/../doc/configuration.md") == printed.out);
 }

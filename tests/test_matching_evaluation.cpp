@@ -163,8 +163,8 @@ TEST_CASE("evaluate matching draws, refuses to overwrite files, and reports over
   INFO(result.err);
   REQUIRE(result.code == 0);
   for (const char* title : {"=== room4:", "=== room:", "=== all:"}) CHECK(result.out.find(title) != std::string::npos);
-  CHECK(std::filesystem::exists(folder / "drawn/room4.png"));
-  CHECK(std::filesystem::exists(folder / "drawn/room.png"));
+  CHECK(std::filesystem::exists(folder / "drawn/room4_correct.png"));
+  CHECK(std::filesystem::exists(folder / "drawn/room_wrong.png"));
   CHECK(nlohmann::json::parse(read_text(folder / "m.json"))["config_changed"]["stereo.ncc_min"] == "0.55");
 
   const auto cut = run_program({"evaluate", "matching", "room", "--size", "320x200", "--frames", "1",

@@ -66,8 +66,9 @@ TEST_CASE("paper matching: the refinement finds a move along a line and a free o
       CHECK(along.rms < 1);
       const paper::Picture later(wavy_image(80, 70, -0.8, 0.7).view());
       const paper::Refined free = paper::refine(fixed, sides, later, edge, Eigen::Matrix2d::Identity(), settings);
-      CHECK(free.position.x() == Approx(39.4).margin(0.03));
-      CHECK(free.position.y() == Approx(36.1).margin(0.03));
+      // Bilinear interpolation errs by up to an eighth of the second derivative, 0.7 of 11 grey levels per pixel.
+      CHECK(free.position.x() == Approx(39.4).margin(0.065));
+      CHECK(free.position.y() == Approx(36.1).margin(0.065));
     }
   }
 }

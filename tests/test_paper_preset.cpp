@@ -38,7 +38,7 @@ TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, an
   const auto plain = track({});
   INFO(plain.err);
   REQUIRE(plain.code == 0);
-  CHECK_THAT(plain.out, Catch::Contains("method     the paper's own") && !Catch::Contains("least squares"));
+  CHECK_THAT(plain.out, Catch::Contains("method     the paper's own") && !Catch::Contains("least squares added"));
   const auto of_samples = errors_of();
   // A sample's error is the depth error of its two points, 9 m^2 x 0.1 px / (184 px x 0.06 m) = 8 cm at 3 m.
   CHECK(of_samples["rpe_translation_m"]["mean"].get<double>() < 0.08);
