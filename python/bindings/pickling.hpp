@@ -169,15 +169,18 @@ struct Packed<std::vector<T>, std::enable_if_t<std::is_class_v<T>>> {
 template <class T>
 void add_pickling(nb::class_<T>& bound) {
   bound.def("__getstate__", [](const T& self) { return Packed<T>::pack(self); })
-      .def("__setstate__", [](T& self, nb::handle state) {
-        T unpacked;
-        try {
-          Packed<T>::unpack(state, unpacked);
-        } catch (const nb::cast_error&) {
-          throw DataError("pickle: found members of other types, expected one by this version of quadedge");
-        }
-        new (&self) T(std::move(unpacked));
-      });
+      .def(
+          "__setstate__",
+          [](T& self, nb::handle state) {
+            T unpacked;
+            try {
+              Packed<T>::unpack(state, unpacked);
+            } catch (const nb::cast_error&) {
+              throw DataError("pickle: found members of other types, expected one by this version of quadedge");
+            }
+            new (&self) T(std::move(unpacked));
+          },
+          nb::arg("state").none());
 }
 
 }  // namespace quadedge::python

@@ -129,7 +129,7 @@ def test_a_stamp_that_goes_back_starts_a_segment(room, frames, tmp_path):
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     rows = (tmp_path / "out" / "trajectory.txt").read_text().splitlines()
-    assert rows[4] == "# segment 1"
+    assert rows[4].startswith("# segment 1")
     assert [row.split()[0] for row in rows if row[0] != "#"] == [f"{ns / 1e9:.9f}" for ns in stamps]
 
 
