@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "rig", "odometry", "points", "places",
-           "synthetic", "data", "data/calibrations", "evaluation", "report", "benchmark", "cli")
+           "synthetic", "paper", "data", "data/calibrations", "evaluation", "report", "benchmark", "cli")
 
 
 def own_names(text: str) -> set[str]:

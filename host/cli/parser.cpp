@@ -46,7 +46,7 @@ const std::map<std::string, std::string> kRenamed = {
     {"map", "points"}, {"map-colmap", "points-colmap"}, {"map-min-views", "points-min-views"}};
 
 /// The name now of an option called `name`; a warning about an old one.
-const std::string& name_now(const std::string& name) {
+std::string name_now(const std::string& name) {
   const auto renamed = kRenamed.find(name);
   if (renamed == kRenamed.end()) return name;
   note("warning: --" + name + " is called --" + renamed->second + " now; the old name goes with the next release");
