@@ -19,7 +19,6 @@ MATCHED = {
 TRACKED = {
     "KITTI 06, from frame 10": ("kitti_odometry/sequences/06", "10:14", 1),
     "EuRoC MH_01": ("euroc_mh_01_easy", "0:6", 1),
-    "rendered room": ("room", 10, 1),
 }
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 SHOWN = ("recall", "precision", "precision_per_edge", "ambiguity_of_pool")
