@@ -121,7 +121,7 @@ def temporal(results, table):
 
 def constraints(results, table):
     rows = [row for row in results["paper"]["rows"] if row["kind"] == "matching" and row["constraints"]]
-    names = ("baseline", "|D|", "D . T1", "D . T2", "T1 . T2")
+    names = ("baseline", "\\|D\\|", "D . T1", "D . T2", "T1 . T2")
     lines = [[name, f"{recall:g} / {precision:g}",
               *(" / ".join(f"{100 * row['constraints'][order][key]:.1f}" for key in ("recall", "precision"))
                 for row in rows)]
