@@ -377,7 +377,7 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
     table = page.tables["Table 1: stereo"]
     assert table[0][1:] == ["paired: 1\u202f000 edges", "all: 1\u202f300 edges"]
-    assert table[4][1:] == ["SIFT", *["off"] * 8]
+    assert table[4][1:] == ["SIFT", *["off"] * 12]
     assert table[2][2] == f"100.00{THIN}\u00b1{THIN}1.00" and table[2][3] == "0.0070"
     assert page.row("What is left at the end", "pooled")[2] == "48\u202f299"
     assert page.row("What is left at the end", "room")[7:9] == ["96.00", "70.00"]
