@@ -13,7 +13,7 @@
 
 namespace quadedge::frontend {
 
-/// The stereo rig of one frame. Each front end derives a class with the data it needs to match the rig's edges later.
+/// What a frame has seen. Each front end derives a class with the data it needs to match these edges later.
 class FrameEdges {
  public:
   virtual ~FrameEdges() = default;
@@ -56,12 +56,11 @@ class FrameEdges {
   mutable Arguments measured_with_ = never();
 };
 
-/// Keeps a rig; its memory is reused when the last handle is released. Must not outlive the device.
+/// Keeps a frame's edges; their memory is reused when the last handle is released. Must not outlive the device.
 using FrameEdgesHandle = std::shared_ptr<const FrameEdges>;
 
-/// The rigs of a front end. Their number is the maximum ever held at once, so that nothing is allocated in steady
-/// state.
-/// \tparam T the rig type of the front end
+/// The frames' edges of a front end. Their number is the maximum ever held at once, so that nothing is allocated in
+/// steady state. \tparam T the front end's own class
 template <class T>
 class FrameEdgesPool {
  public:

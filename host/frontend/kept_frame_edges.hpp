@@ -1,5 +1,5 @@
 #pragma once
-/// \file kept_frame_edges.hpp  A stereo rig in a compact form on the host, from which a front end can restore it.
+/// \file kept_frame_edges.hpp  A frame's edges in a compact form on the host, from which a front end restores them.
 
 #include <cstdint>
 #include <vector>
