@@ -33,9 +33,8 @@ inline const std::vector<Pairing> kBothSides = {{0, 0, 1}, {1, 1, 1}};
 class Picture {
  public:
   explicit Picture(const ImageView& image);
-  struct Sample {
-    float grey, slope_x, slope_y;
-  };
+  /// Grey level, its slopes in x and y, and 0, to be interpolated at once.
+  using Sample = Eigen::Vector4f;
   Sample at(float x, float y) const;
   float grey(float x, float y) const;
 
@@ -43,8 +42,8 @@ class Picture {
   template <class Read>
   auto interpolate(float x, float y, const Read& read) const;
 
-  int width_, height_;
-  std::vector<Sample> samples_;
+  int width_, height_, stride_;
+  std::vector<Sample> samples_;  ///< the last row and column are there twice
 };
 
 /// Position [px] and direction [rad] of an edge.
