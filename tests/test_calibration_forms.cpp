@@ -334,7 +334,7 @@ TEST_CASE("calibration forms: a ZED camera's resolutions, and OAK's by scaling a
   cv::Rodrigues(cv::Vec3d(-0.002, 0.01, 0.003), turn);
   for (int i = 0; i < 9; ++i)
     CHECK(zed.right_from_left.linear()(i / 3, i % 3) == Approx(turn(i / 3, i % 3)).margin(1e-8));
-  CHECK((zed.right_from_left.translation() - Eigen::Vector3d(-0.1199, -0.0001, 0.0002)).norm() < 1e-9);
+  CHECK((zed.right_from_left.translation() - Eigen::Vector3d(-0.1199, 0.0001, -0.0002)).norm() < 1e-9);
   data::set_image_sizes(zed, {672, 376}, {672, 376}, "the images");
   CHECK(zed.left.camera.fx == 350);
   StereoCalibration other = read_calibration(folder / "SN1.conf");
@@ -509,4 +509,154 @@ TEST_CASE("calibration forms: settings of other cameras are not taken for rectif
   const std::string skewed = "Camera2.fx: 517\nCamera2.fy: 516\nCamera2.cx: 318\nCamera2.cy: 255\n" +
                              opencv_matrix("Tlr", 3, 4, "1, 0.1, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0");
   CHECK_THAT(complaint("%YAML:1.0\n" + camera + skewed), Contains("Tlr") && Contains("orthonormal"));
+}
+
+TEST_CASE("calibration forms: OpenCV's YAML has values without a space, as ORB-SLAM2's own settings", "[calibration]") {
+  const TemporaryFolder folder;
+  std::string text = orb_slam2(Rig());
+  for (std::size_t at = 0; (at = text.find("data: [", at)) != std::string::npos; ++at) text.replace(at, 7, "data:[");
+  write_text(folder / "settings.yaml",
+             text + "Viewer.PointSize:2\nTbc: !!opencv-matrix\n   rows: 1\n   cols: 2\n   data: [1.0 0.0]\n");
+  const StereoCalibration read = read_calibration(folder / "settings.yaml");
+  CHECK(read.format == "orb-slam");
+  check_rig(read, 3e-9);
+  write_text(folder / "other.yaml", "Camera.fx:2\nCamera.fy: 2\n");  // without OpenCV's header it is not OpenCV's YAML
+  CHECK_THROWS_WITH(read_calibration(folder / "other.yaml"), Contains("other.yaml:2") && Contains("is not YAML"));
+}
+
+TEST_CASE("calibration forms: a ZED camera's lens in a section of its own", "[calibration]") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& left, const std::string& right) {
+    const std::string camera = "fx = 700\nfy = 701\ncx = 950\ncy = 600\n";
+    write_text(folder / "SN2.conf", "; factory\n[LEFT_CAM_FHD1200]\n" + camera + "[RIGHT_CAM_FHD1200]\n" + camera +
+                                        "[LEFT_DISTO]\n" + left + "[RIGHT_DISTO]\n" + right +
+                                        "[STEREO]\nBaseline = 120\nTY_FHD1200 = 0.3\nTY = 9\nTZ = -0.4\n");
+    return read_calibration(folder / "SN2.conf");
+  };
+  const std::string rational = "k1 = 1\nk2 = 2\np1 = 0.003\np2 = 0.004\nk3 = 5\nk4 = 6\nk5 = 7\nk6 = 8\n",
+                    fisheye = "k1 = 0.1\nk2 = 0.2\nk3 = 0.3\nk4 = 0.4\nk5 = 0\nk6 = 0\np1 = 0\np2 = 0\n";
+  const StereoCalibration zed = read(rational, fisheye);
+  CHECK(zed.left.camera.height == 1200);
+  CHECK(zed.left.parameters == std::vector<double>{1, 2, 0.003, 0.004, 5, 6, 7, 8});
+  CHECK(zed.right.model == LensModel::equidistant);
+  CHECK(zed.right.parameters == std::vector<double>{0.1, 0.2, 0.3, 0.4});
+  CHECK((zed.right_from_left.translation() - Eigen::Vector3d(-0.12, 0.0003, -0.0004)).norm() < 1e-9);
+  CHECK_THROWS_WITH(read(rational, "\n"), Contains("RIGHT_CAM_FHD1200:K1"));
+}
+
+TEST_CASE("calibration forms: MATLAB's numbers as displayed, in any order, in their own unit", "[calibration]") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    write_text(folder / "stereo.txt", text);
+    return read_calibration(folder / "stereo.txt");
+  };
+  // A camera after the other for each property; a matrix times 1000; 11 cm to the right, turned by 90 degrees about z.
+  const std::string cameras =
+      "CameraParameters1.IntrinsicMatrix =\n\n   1.0e+03 *\n\n   0.4500 0 0\n   0 0.4600 0\n   0.3610 0.2410 0.0010\n\n"
+      "CameraParameters2.K = [470 0 381; 0 480 251; 0 0 1];\nCameraParameters1.RadialDistortion = [-0.25 0.0625]\n"
+      "CameraParameters2.RadialDistortion = [-0.5 0.125 0.5]\nCameraParameters1.TangentialDistortion = [0.001 "
+      "-0.002]\n";
+  const StereoCalibration centimetres = read(
+      cameras + "RotationOfCamera2: [0 1 0; -1 0 0; 0 0 1]\nTranslationOfCamera2: [-11 0 0.5]\nWorldUnits: 'cm'\n");
+  CHECK(centimetres.left.camera.fx == 450);
+  CHECK(centimetres.left.camera.cx == Approx(360));
+  CHECK(centimetres.left.parameters == std::vector<double>{-0.25, 0.0625, 0.001, -0.002, 0});
+  CHECK(centimetres.right.camera.cy == 250);
+  CHECK(centimetres.right.parameters == std::vector<double>{-0.5, 0.125, 0, 0, 0.5});
+  CHECK((centimetres.right_from_left.translation() - Eigen::Vector3d(-0.11, 0, 0.005)).norm() < 1e-9);
+  CHECK(centimetres.right_from_left.linear()(1, 0) == Approx(1));  // (0 1 0; -1 0 0; 0 0 1) transposed
+  const StereoCalibration posed =
+      read("{\"x\":[" + cameras + "],\"PoseCamera2\":{\"R\":[[0,-1,0],[1,0,0],[0,0,1]],\"Translation\":[-110,0,5]}}");
+  CHECK(posed.right_from_left.matrix() == centimetres.right_from_left.matrix());
+  CHECK_THROWS_WITH(read("CameraParameters1: [1x1 cameraParameters]\nTranslationOfCamera2: [-110 0 0]\n"),
+                    Contains("IntrinsicMatrix") && Contains("not a summary") && Contains("jsonencode"));
+}
+
+TEST_CASE("calibration forms: KITTI-360's K ends in 0, KITTI's calib.txt has projections only", "[calibration]") {
+  const TemporaryFolder folder;
+  const Rig rig;
+  std::string text = kitti_cameras(rig);
+  for (const char* k : {"248.375  0  0  1", "255.238  0  0  1"}) {
+    const std::size_t at = text.find(k);
+    REQUIRE(at != std::string::npos);
+    text[at + 15] = '0';
+  }
+  write_text(folder / "perspective.txt", text);
+  StereoCalibration read = read_calibration(folder / "perspective.txt");
+  data::set_image_sizes(read, {752, 480}, {752, 480}, "the images");
+  check_rig(read, 3e-9);
+  write_text(folder / "calib.txt",
+             "P0: 435 0 367 0 0 435 252 0 0 0 1 0\nP1: 435 0 367 -47.85 0 435 252 0 0 0 1 0\n"
+             "R0_rect: 1 0 0 0 1 0 0 0 1\n");
+  read = read_calibration(folder / "calib.txt");
+  CHECK(read.left.camera.cx == 367);
+  CHECK(read.right_from_left.translation().x() == Approx(-0.11));
+}
+
+TEST_CASE("calibration forms: camera_info of both cameras in one file, and what it leaves out", "[calibration]") {
+  const TemporaryFolder folder;
+  const Rig rig;
+  const std::string left = camera_info_echo(rig, false, true), right = camera_info_echo(rig, true, true);
+  write_text(folder / "both.yaml", right + left + right);  // appended in any order, some twice
+  check_rig(read_calibration(folder / "both.yaml"), 3e-9);
+  write_text(folder / "both.yaml", left + left);
+  CHECK_THROWS_WITH(read_calibration(folder / "both.yaml"), Contains("one camera") && Contains("LEFT,RIGHT"));
+  const auto with = [&](const std::string& model) {
+    for (const bool is_right : {false, true}) {
+      std::string text = is_right ? right : left;
+      const std::size_t at = text.find("distortion_model");
+      text.replace(at, text.find('\n', at) - at, model);
+      write_text(folder / (is_right ? "right" : "left"), text);
+    }
+    return read_calibration((folder / "left") + "," + (folder / "right"));
+  };
+  check_rig(with("# no model"), 3e-9);
+  CHECK_THROWS_WITH(with("distortion_model: none"), Contains("coefficients") && Contains("none"));
+  const std::string mono =
+      "width: 752\nheight: 480\ndistortion_model: plumb_bob\nD: [0, 0, 0, 0, 0]\nK: [435, 0, 367, 0, "
+      "435, 252, 0, 0, 1]\nR: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nP: [435, 0, 367, 0, 0, 435, 252, 0, 0, 0, 1, "
+      "0]\n";
+  write_text(folder / "left", mono);
+  write_text(folder / "right", mono);
+  CHECK_THROWS_WITH(read_calibration((folder / "left") + "," + (folder / "right")),
+                    Contains("fourth column") && Contains("one by one"));
+}
+
+TEST_CASE("calibration forms: words and wrappings that programs leave out or add", "[calibration]") {
+  const TemporaryFolder folder;
+  const Rig rig;
+  const auto read = [&](const std::string& text, bool rectified = false) {
+    write_text(folder / "file", text);
+    return read_calibration(folder / "file", rectified);
+  };
+  const auto renamed = [&](std::initializer_list<std::pair<const char*, const char*>> names) {
+    std::string text = plain_opencv(rig, "K", "D");
+    for (const auto& [from, to] : names) text.replace(text.find(from), std::string(from).size(), to);
+    return text;
+  };
+  check_rig(read(renamed({{"K1:", "Camera_Matrix_Left:"},
+                          {"D1:", "Distortion_Left:"},
+                          {"K2:", "right_camera_matrix:"},
+                          {"D2:", "dist_coeff_R:"},
+                          {"\nR:", "\nRot:"},
+                          {"\nT:", "\ntranslationVector:"}})),
+            3e-9);
+  const std::string wrapped = basalt(rig);
+  check_rig(read(wrapped.substr(wrapped.find('{', 1), wrapped.rfind('}') - wrapped.find('{', 1))), 3e-9);
+  std::string wide = "\xFF\xFE";  // as PowerShell redirects
+  for (const char letter : realsense(rig)) wide += std::string{letter, '\0'};
+  check_rig(read(wide), 3e-9);
+  CHECK_THROWS_WITH(read("Stream Profiles supported by Stereo Module\n"), Contains("rs-enumerate-devices -c"));
+  const StereoCalibration rectified = read(stella(rig), true);
+  CHECK(rectified.left.is_pinhole());
+  CHECK(rectified.left.camera.cx == 367);
+  CHECK(rectified.right_from_left.linear().isIdentity());
+  // DSO's camera.txt without a name: five numbers are the model FOV, or a pinhole with 0.
+  CHECK(read("435 435 367 252 0\n752 480\ncrop\n640 480\n0.11\n").left.is_pinhole());
+  CHECK(read("435 435 367 252 0.9\n752 480\ncrop\n640 480\n0.11\n").left.model == LensModel::field_of_view);
+  CHECK_THROWS_WITH(read("0.53 0.66 0.49 0.5 0.89\n1280 1024\ncrop\n640 480\n"), Contains("one camera"));
+  const std::string matrix =
+      "camera_matrix: [435, 0, 367, 0, 435, 252, 0, 0, 1]\ndistortion_coefficients: [0, 0, 0, 0]\n";
+  CHECK_THROWS_WITH(read(matrix), Contains("without the transform"));
+  CHECK_THROWS_WITH(read("hello\n"), Contains("one of these forms") && Contains("Kalibr"));
 }

@@ -56,7 +56,10 @@ std::string read_text(const std::string& file) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::string text = read_bytes(file);
   if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) text.erase(0, kByteOrderMark.size());
-  return text;
+  if (text.compare(0, 2, "\xFF\xFE") != 0) return text;
+  std::string narrow;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) narrow += text[i + 1] == 0 ? text[i] : '?';
+  return narrow;
 }
 
 std::vector<Line> text_lines(const std::string& file) {
@@ -83,6 +86,13 @@ std::vector<Line> data_lines(const std::string& file) {
   std::vector<Line> lines = text_lines(file);
   lines.erase(std::remove_if(lines.begin(), lines.end(), [](const Line& line) { return !has_data(line); }),
               lines.end());
+  return lines;
+}
+
+std::vector<Line> table_lines(const std::string& file) {
+  std::vector<Line> lines = data_lines(file);
+  const auto is_name = [](const std::string& cell) { return cell.find_first_of("0123456789") == std::string::npos; };
+  if (!lines.empty() && is_name(lines[0].text.substr(0, lines[0].text.find(',')))) lines.erase(lines.begin());
   return lines;
 }
 

@@ -20,7 +20,8 @@ std::string irregular_kind(const std::string& file);
 /// Reads a regular file of at most 2 GiB. \throws DataError if it is missing, larger, of another kind, or unreadable
 std::string read_bytes(const std::string& file);
 
-/// Reads a text file, without the UTF-8 byte order mark that some editors add. \throws DataError as read_bytes()
+/// Reads a text file, without the UTF-8 byte order mark that some editors add. UTF-16, as Windows' PowerShell writes
+/// what a program prints, is read as its ASCII characters. \throws DataError as read_bytes()
 std::string read_text(const std::string& file);
 
 /// One line of a text file, without the line ending.
@@ -37,6 +38,9 @@ bool has_data(const Line& line);
 
 /// The lines with data: not empty and not starting with '#'. \throws DataError as read_text()
 std::vector<Line> data_lines(const std::string& file);
+
+/// The same without a first line that names the columns. \throws DataError as read_text()
+std::vector<Line> table_lines(const std::string& file);
 
 /// The non-empty parts between any of the `separators`.
 std::vector<std::string> split(std::string_view text, std::string_view separators = " \t");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
 
 #include "data/layout.hpp"
@@ -22,14 +23,24 @@ void check_keys(const YAML::Node& node, const std::string& file, int levels = 2)
   }
 }
 
+/// OpenCV's YAML and tabs in JSON as YAML: "%YAML:1.0" is no directive, and OpenCV reads "KEY:VALUE" without a space.
+std::string without_dialect(std::string text) {
+  if (const std::size_t header = text.find("%YAML:");
+      header != std::string::npos && (header == 0 || text[header - 1] == '\n')) {
+    text[header] = '#';
+    static const std::regex tight("(^|\n)( *[A-Za-z_][A-Za-z_0-9.]*:)(?=[^\\s])");
+    text = std::regex_replace(text, tight, "$1$2 ");
+  }
+  if (const std::size_t first = text.find_first_not_of(" \t\r\n"); first != std::string::npos && text[first] == '{')
+    std::replace(text.begin(), text.end(), '\t', ' ');
+  return text;
+}
+
 }  // namespace
 
 YamlMap::YamlMap(const std::string& file, const std::string& what) : file_(file), what_(what) {
-  std::string text = read_text(file);
-  if (text.rfind("%YAML:", 0) == 0) text[0] = '#';  // not a valid YAML directive, which would be "%YAML 1.0"
-  if (text.rfind('{', 0) == 0) std::replace(text.begin(), text.end(), '\t', ' ');  // JSON may be indented with tabs
   try {
-    node_ = YAML::Load(text);
+    node_ = YAML::Load(without_dialect(read_text(file)));
     check_keys(node_, file);
   } catch (const YAML::Exception& problem) {
     fail(file, problem.mark.line + 1, "text that is not YAML (" + problem.msg + ")", what);

@@ -54,7 +54,7 @@ Eigen::Isometry3d read_pose(const YamlMap& pose) {
 }  // namespace
 
 StatedCalibration read_basalt(const YamlMap& calibration) {
-  const YamlMap value = calibration.map("value0").as("Basalt's calibration of two cameras");
+  const YamlMap value = calibration.has("value0") ? calibration.map("value0") : calibration;
   const auto cameras = value.items("intrinsics"), poses = value.items("T_imu_cam");
   const YamlMatrix sizes = value.matrix("resolution");
   if (cameras.size() < 2 || poses.size() < 2 || sizes.values.size() < 4)

@@ -44,15 +44,14 @@ void apply_roi_and_binning(const YamlMap& camera, PinholeCamera& lens) {
 
 StatedLens read_lens(const YamlMap& camera, const Names& names) {
   const ImageSize size = camera.size(names.width, names.height);
-  const std::string model = camera.word("distortion_model");
-  StatedLens stated(camera.file(), names.k, names.d);
+  // ROS itself takes plumb_bob for files of before it had other models.
+  const std::string model = camera.has("distortion_model") ? camera.word("distortion_model") : "plumb_bob";
+  StatedLens stated = read_matrix_lens(camera, names.k, names.d, size);
   Lens& lens = stated.lens;
   if (model == "none" || model.empty()) {
-    lens.camera.width = size.width;
-    lens.camera.height = size.height;
-    set_intrinsics(camera, names.k, lens.camera);
-  } else {
-    stated = read_matrix_lens(camera, names.k, names.d, size);
+    for (const double coefficient : lens.parameters)
+      if (coefficient != 0) camera.complain(names.d, "coefficients of the lens model " + in_quotes(model), "zeros");
+    lens.parameters.clear();
   }
   lens.model = model_of_word(camera, "distortion_model", model);
   if (lens.model == LensModel::equidistant)
@@ -80,11 +79,16 @@ LensModel model_of_word(const YamlMap& camera, const std::string& key, const std
 
 StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right) {
   const Names &left_names = names_of(left), &right_names = names_of(right);
+  const Rectification of_left = read_rectification(left, left_names), of_right = read_rectification(right, right_names);
+  const double offset = of_right.rectified_from_reference.x() - of_left.rectified_from_reference.x();
+  if (offset > 0 && left.file() == right.file()) return read_camera_infos(right, left);  // in no order
+  if (of_left.rectified_from_reference.isZero() && of_right.rectified_from_reference.isZero())
+    fail(right.file(), "a fourth column of zeros in " + std::string(right_names.p) + " as in the left camera's",
+         "a baseline above zero, -fx' times it there: were the cameras calibrated one by one?");
   StatedCalibration stated;
   stated.left = read_lens(left, left_names);
   stated.right = read_lens(right, right_names);
-  stated.right_from_left =
-      right_from_left_of(read_rectification(left, left_names), read_rectification(right, right_names));
+  stated.right_from_left = right_from_left_of(of_left, of_right);
   StatedCalibration rectified =
       rectified_cameras(left, left_names.p, left.size(left_names.width, left_names.height), right, right_names.p,
                         right.size(right_names.width, right_names.height));

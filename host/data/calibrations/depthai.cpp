@@ -18,7 +18,9 @@ constexpr ImageSize kResolutions[] = {{1920, 1200}, {1920, 1080}, {1280, 800}, {
 StatedLens read_lens(const YamlMap& camera) {
   StatedLens stated = read_matrix_lens(camera, "intrinsicMatrix", "distortionCoeff", camera.size("width", "height"));
   Lens& lens = stated.lens;
-  if (camera.number_or("cameraType", 0) == 1) {
+  const double type = camera.number_or("cameraType", 0);
+  if (type > 1) camera.complain("cameraType", format_exact(type), "0 (perspective) or 1 (fisheye)");
+  if (type == 1) {
     lens.model = LensModel::equidistant;
     lens.parameters.resize(std::min<std::size_t>(lens.parameters.size(), 4));
   }

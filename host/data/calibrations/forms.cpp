@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
+#include <set>
 #include <sstream>
 
 #include "common/calibration.hpp"
@@ -31,12 +32,6 @@ StatedCalibration of_text(const std::vector<CalibrationText>& texts) {
   return Read(texts[0]);
 }
 
-StatedCalibration read_kitti_pair(const std::vector<CalibrationText>& texts) {
-  const YamlMap& cameras = texts[0].entries();
-  const bool has_grey = cameras.has("P_rect_00") && cameras.has("P_rect_01");
-  return read_kitti_cameras(cameras, has_grey ? "00" : "02", has_grey ? "01" : "03");
-}
-
 /// For files of one camera that no form combines: what is missing is the transform.
 [[noreturn]] StatedCalibration refuse_single_cameras(const std::vector<CalibrationText>& texts) {
   fail(
@@ -47,7 +42,21 @@ StatedCalibration read_kitti_pair(const std::vector<CalibrationText>& texts) {
 }
 
 bool is_camera_info(const CalibrationText& text) {
-  return text.has("camera_matrix") || (text.has("K") && text.has("P")) || (text.has("k") && text.has("p"));
+  return (text.has("camera_matrix") && (text.has("projection_matrix") || text.has("image_width"))) ||
+         (text.has("K") && text.has("P")) || (text.has("k") && text.has("p"));
+}
+
+/// The cameras of one file: of several documents, as `ros2 topic echo` appends messages, those that differ.
+std::vector<CalibrationText> cameras_of(const CalibrationText& text, const CalibrationForm& form) {
+  std::vector<CalibrationText> cameras;
+  std::set<std::string> seen;
+  for (YAML::Node node : YAML::LoadAll(text.text)) {
+    if (!node.IsMap()) continue;
+    node.remove("header");
+    CalibrationText camera{text.file, text.text, YamlMap(node, text.file, form.contents)};
+    if (form.recognise(camera) && seen.insert(YAML::Dump(node)).second) cameras.push_back(std::move(camera));
+  }
+  return cameras;
 }
 
 /// OpenCV's XML as YAML.
@@ -84,16 +93,20 @@ std::string first_entries(const CalibrationText& text) {
   return "the entries " + in_quotes(list) + (keys.size() > kShown ? " and others" : "");
 }
 
-[[noreturn]] void fail_unknown(const std::vector<CalibrationText>& texts) {
-  std::string expected;
+std::string all_contents() {
+  std::string list;
   for (const CalibrationForm& form : calibration_forms()) {
     if (form.contents[0] == '\0') continue;
-    expected +=
-        (expected.empty() ? "" : "; ") + std::string(form.contents) + (form.has_two_files ? " (two files)" : "");
+    list += (list.empty() ? "one of these forms: " : "; ") + std::string(form.contents) +
+            (form.has_two_files ? " (two files)" : "");
   }
+  return list;
+}
+
+[[noreturn]] void fail_unknown(const std::vector<CalibrationText>& texts) {
   std::string found = first_entries(texts[0]);
   if (texts.size() > 1) found += ", and in " + texts[1].file + " " + first_entries(texts[1]);
-  fail(texts[0].file, found, "one of these forms: " + expected);
+  fail(texts[0].file, found, all_contents());
 }
 
 /// \throws DataError for a baseline that a stereo camera cannot have: zero, tens of metres, or with the right camera on
@@ -176,14 +189,18 @@ const std::vector<CalibrationForm>& calibration_forms() {
       {"vins-fusion", "VINS-Fusion's configuration (body_T_cam0, cam0_calib)", false,
        [](Text text) { return text.has("cam0_calib") || text.has("body_T_cam0"); }, of_map<read_vins_fusion>},
       {"basalt", "Basalt's calibration (value0: T_imu_cam, intrinsics)", false,
-       [](Text text) { return text.has("value0"); }, of_map<read_basalt>},
+       [](Text text) { return text.has("value0") || (text.has("T_imu_cam") && text.has("intrinsics")); },
+       of_map<read_basalt>},
       {"depthai", "DepthAI's calibration of an OAK camera (cameraData)", false,
        [](Text text) { return text.has("cameraData"); }, of_map<read_depthai>},
-      {"zed", "a ZED camera's SNxxxx.conf ([LEFT_CAM_HD], [STEREO])", false,
-       [](Text text) { return text.text.find("[LEFT_CAM_") != std::string::npos; }, of_text<read_zed>},
+      {"zed", "a ZED camera's SNxxxx.conf ([LEFT_CAM_HD], [STEREO])", false, is_zed, of_text<read_zed>},
       {"realsense", "what `rs-enumerate-devices -c` prints", false, is_realsense, of_text<read_realsense>},
-      {"kitti", "KITTI's calib_cam_to_cam.txt or KITTI-360's perspective.txt (P_rect_00)", false,
-       [](Text text) { return text.has("P_rect_00") || text.has("P_rect_02"); }, read_kitti_pair},
+      {"kitti", "KITTI's calib_cam_to_cam.txt (P_rect_00) or calib.txt (P0), KITTI-360's perspective.txt", false,
+       [](Text text) {
+         const auto has = [&](const char* key) { return text.has(key); };
+         return has("P_rect_00") || has("P_rect_02") || (has("P0") && has("P1")) || (has("P2") && has("P3"));
+       },
+       of_map<read_kitti_pair>},
       {"matlab", "MATLAB's stereoParameters as text (CameraParameters1, TranslationOfCamera2)", false, is_matlab,
        of_text<read_matlab>},
       {"stereo-dso", "Stereo DSO's camera.txt (with the baseline in its fifth line)", false, is_dso_camera,
@@ -193,7 +210,10 @@ const std::vector<CalibrationForm>& calibration_forms() {
       {"opencv", "OpenCV's stereo calibration in one or two files (M1 D1 M2 D2 R T, or K1 or cameraMatrix1 ...)", false,
        is_opencv_stereo, read_opencv_stereo},
       {"single", "", false,
-       [](Text text) { return text.has("model_type") || text.has("projection_parameters") || is_dso_camera(text); },
+       [](Text text) {
+         return text.has("model_type") || text.has("projection_parameters") || text.has("camera_matrix") ||
+                is_dso_camera(text);
+       },
        refuse_single_cameras},
   };
   return forms;
@@ -210,9 +230,9 @@ CalibrationText read_calibration_text(const std::string& file) {
     } catch (const cv::Exception& problem) {
       fail(file, "text that cv::FileStorage does not read (" + problem.err + ")", "OpenCV's stereo calibration");
     }
-  } else if (!is_realsense(text) && !is_matlab(text) && !is_dso_camera(text) &&
+  } else if (!is_zed(text) && !is_realsense(text) && !is_matlab(text) && !is_dso_camera(text) &&
              (first == std::string::npos || text.text[first] != '[')) {
-    text.map.emplace(file, "a calibration");
+    text.map.emplace(file, all_contents());
   }
   return text;
 }
@@ -244,9 +264,9 @@ Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::str
   return rotation_by(vector);
 }
 
-void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result) {
+void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result, double last) {
   const auto k = camera.matrix(key, 3, 3);
-  if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1)
+  if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || (k[8] != 1 && k[8] != last))
     camera.complain(key, "a matrix with skew or another last row", "fx 0 cx 0 fy cy 0 0 1");
   result.fx = k[0];
   result.fy = k[4];
@@ -255,11 +275,11 @@ void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera
 }
 
 StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,
-                            ImageSize size) {
+                            ImageSize size, double last) {
   StatedLens stated(camera.file(), camera.name(matrix), camera.name(coefficients));
   stated.lens.camera.width = size.width;
   stated.lens.camera.height = size.height;
-  set_intrinsics(camera, matrix, stated.lens.camera);
+  set_intrinsics(camera, matrix, stated.lens.camera, last);
   const YamlMatrix values = camera.matrix(coefficients);
   if (values.rows > 1 && values.columns > 1)
     camera.complain(coefficients, "a matrix of several rows and columns", "one row of coefficients");
@@ -338,13 +358,19 @@ StereoCalibration read_calibration(const std::string& files, bool rectified) {
   for (const data::CalibrationForm& form : data::calibration_forms()) {
     if (!std::all_of(texts.begin(), texts.end(), form.recognise)) continue;
     if (form.has_two_files && texts.size() < 2) {
-      data::fail(texts[0].file, "the calibration of one camera (" + std::string(form.contents) + ")",
-                 "those of both cameras: LEFT,RIGHT");
+      auto both = data::cameras_of(texts[0], form);
+      if (both.size() != 2) {
+        data::fail(texts[0].file, "the calibration of one camera (" + std::string(form.contents) + ")",
+                   "those of both cameras: LEFT,RIGHT");
+      }
+      texts = std::move(both);
     }
-    const StereoCalibration calibration = data::judged(form.read(texts), form.name, files);
-    if (rectified && calibration.of_rectified.empty())
+    for (data::CalibrationText& text : texts)
+      if (text.map) text.map = text.map->as(form.contents);
+    const data::StatedCalibration stated = form.read(texts);
+    if (rectified && stated.of_rectified.empty())
       data::fail(files, "no projection matrices of rectified images", "P as in ROS's camera_info, or no --rectified");
-    return rectified ? calibration.of_rectified.front() : calibration;
+    return data::judged(rectified ? stated.of_rectified.front() : stated, form.name, files);
   }
   data::fail_unknown(texts);
 }

@@ -69,9 +69,11 @@ StatedCalibration read_stereo_dso(const CalibrationText& text);
 /// Cameras `left` and `right` of KITTI's calib_cam_to_cam.txt or KITTI-360's perspective.txt: "00" and "01" are grey,
 /// "02" and "03" colour. Rectified images first; the images as recorded have another size.
 StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& left, const std::string& right);
+StatedCalibration read_kitti_pair(const YamlMap& cameras);
 StatedCalibration read_native_calibration(const YamlMap& file);
 
 bool is_opencv_stereo(const CalibrationText& text);
+bool is_zed(const CalibrationText& text);
 bool is_realsense(const CalibrationText& text);
 bool is_matlab(const CalibrationText& text);
 bool is_dso_camera(const CalibrationText& text);
@@ -93,12 +95,12 @@ StatedLens read_named_lens(const YamlMap& camera, const std::string& coefficient
 /// The model that a camera_info message calls `word`. \throws DataError that names `key`
 LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word);
 
-/// Rows of a 3 x 3 matrix. \throws DataError for numbers that are not those of fx 0 cx 0 fy cy 0 0 1
-void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result);
+/// Rows of a 3 x 3 matrix. \throws DataError for numbers that are not those of fx 0 cx 0 fy cy 0 0 1, or `last`
+void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result, double last = 1);
 
 /// A camera by its matrix and its coefficients in OpenCV's order, of which there may be none.
 StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,
-                            ImageSize size);
+                            ImageSize size, double last = 1);
 
 /// What a rectifying calibration states of a camera: the rotation of its images, and the position of the rectified
 /// camera in units of the baseline's.

@@ -1,6 +1,6 @@
 /// \file kitti_cameras.cpp  KITTI's calib_cam_to_cam.txt and KITTI-360's perspective.txt: for camera NN the size S, K,
 /// D and pose R, T of the camera as it records, and size S_rect, rotation R_rect and projection P_rect of its rectified
-/// images. Metres; all cameras refer to camera 00.
+/// images. Metres; all cameras refer to camera 00. KITTI's calib.txt has P0 to P3 only.
 
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
@@ -8,7 +8,9 @@
 namespace quadedge::data {
 namespace {
 
+/// 0 x 0 where the file does not state it.
 ImageSize size_of(const YamlMap& cameras, const std::string& key) {
+  if (!cameras.has(key)) return {};
   const auto values = cameras.matrix(key, 1, 2);
   for (const double value : values)
     if (!(value >= 1 && value <= kLargestImageSide) || value != std::floor(value))
@@ -17,7 +19,8 @@ ImageSize size_of(const YamlMap& cameras, const std::string& key) {
 }
 
 StatedLens read_recording(const YamlMap& cameras, const std::string& number) {
-  return read_matrix_lens(cameras, "K_" + number, "D_" + number, size_of(cameras, "S_" + number));
+  constexpr double kLastOfKitti360 = 0;  // where K has 1
+  return read_matrix_lens(cameras, "K_" + number, "D_" + number, size_of(cameras, "S_" + number), kLastOfKitti360);
 }
 
 Eigen::Isometry3d camera_from_reference(const YamlMap& cameras, const std::string& number) {
@@ -28,6 +31,15 @@ Eigen::Isometry3d camera_from_reference(const YamlMap& cameras, const std::strin
 }
 
 }  // namespace
+
+StatedCalibration read_kitti_pair(const YamlMap& cameras) {
+  for (const auto& [left, right] : {std::pair("00", "01"), std::pair("02", "03")})
+    if (cameras.has("P_rect_" + std::string(left)) && cameras.has("P_rect_" + std::string(right)))
+      return read_kitti_cameras(cameras, left, right);
+  for (const auto& [left, right] : {std::pair("P0", "P1"), std::pair("P2", "P3")})
+    if (cameras.has(left) && cameras.has(right)) return rectified_cameras(cameras, left, {}, cameras, right, {});
+  fail(cameras.file(), "one camera of a pair", "P_rect_00 and P_rect_01, or 02 and 03, or P0 and P1, or P2 and P3");
+}
 
 StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& left, const std::string& right) {
   StatedCalibration rectified = rectified_cameras(cameras, "P_rect_" + left, size_of(cameras, "S_rect_" + left),

@@ -1,6 +1,11 @@
-/// \file matlab.cpp  MATLAB's stereoParameters as text: CameraParameters1 and CameraParameters2 with IntrinsicMatrix
-/// (the transpose of K) or K, RadialDistortion, TangentialDistortion, ImageSize (rows, columns); RotationOfCamera2 for
-/// row vectors, TranslationOfCamera2 [mm]. Pixels count from 1.
+/// \file matlab.cpp  MATLAB's stereoParameters as text, as displayed, assigned or by jsonencode(toStruct(...)):
+/// CameraParameters1 and CameraParameters2 with IntrinsicMatrix (the transpose of K) or K, RadialDistortion,
+/// TangentialDistortion, ImageSize (rows, columns); RotationOfCamera2 for row vectors and TranslationOfCamera2, or
+/// PoseCamera2 (R, Translation); WorldUnits, millimetres by default. Pixels count from 1.
+
+#include <cctype>
+#include <charconv>
+#include <map>
 
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
@@ -8,49 +13,90 @@
 namespace quadedge::data {
 namespace {
 
-/// The numbers behind a name, up to the next letter; empty if the text does not have the name.
-std::vector<double> numbers_after(const CalibrationText& text, const std::string& name, std::size_t from,
-                                  std::size_t to) {
-  std::size_t at = text.text.find(name, from);
-  while (at != std::string::npos && at < to && std::isalnum(static_cast<unsigned char>(text.text[at + name.size()])))
-    at = text.text.find(name, at + 1);
-  if (at == std::string::npos || at >= to) return {};
-  std::vector<double> values;
-  const int line = 1 + static_cast<int>(std::count(text.text.begin(), text.text.begin() + static_cast<long>(at), '\n'));
-  const std::size_t end =
-      text.text.find_first_of("ABCDFGHIJKLMNOPQRSTUVWXYZabcdfghijklmnopqrstuvwxyz", at + name.size());
-  for (const std::string& token :
-       split(std::string_view(text.text).substr(at + name.size(), end - at - name.size()), " \t\r\n:=[](),;'\""))
-    values.push_back(parse_number(token, text.file, line, name));
-  return values;
-}
+bool is_of_word(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_'; }
 
-std::vector<double> required(const CalibrationText& text, const std::string& name, std::size_t from, std::size_t to,
-                             std::size_t count) {
-  auto values = numbers_after(text, name, from, to);
-  if (values.size() != count)
-    fail(text.file, counted(values.size(), "number") + " for " + name, std::to_string(count) + ", row by row");
-  return values;
-}
+/// The numbers behind every name: "1.K" of CameraParameters1, "2.K" of CameraParameters2, and "K" of the last one.
+class Numbers {
+ public:
+  explicit Numbers(const CalibrationText& text) : file_(text.file) {
+    const std::string& all = text.text;
+    std::string camera, name;
+    double scale = 1;  // of a matrix that is displayed as "1.0e+03 *" and its rows
+    bool is_new = true;
+    for (std::size_t at = 0; at < all.size();) {
+      const std::size_t begin = at;
+      if (std::isalpha(static_cast<unsigned char>(all[at])) != 0) {
+        while (at < all.size() && is_of_word(all[at])) ++at;
+        const std::string word = all.substr(begin, at - begin);
+        if (name == "WorldUnits") unit_ = word;
+        if (word == "CameraParameters1" || word == "CameraParameters2") camera = word.back() + std::string(".");
+        if (word != "ans") name = word;
+        is_new = true;
+        scale = 1;
+        continue;
+      }
+      double value = 0;
+      const auto end = std::from_chars(all.data() + at, all.data() + all.size(), value);
+      if (end.ec != std::errc()) {
+        ++at;
+      } else {
+        at = static_cast<std::size_t>(end.ptr - all.data());
+        const std::size_t next = all.find_first_not_of(' ', at);
+        if (next != std::string::npos && all[next] == '*') {
+          scale = value;
+          continue;
+        }
+        for (const std::string& key : {camera + name, name}) {
+          if (is_new) values_[key].clear();
+          values_[key].push_back(scale * value);
+        }
+        is_new = false;
+      }
+    }
+  }
 
-StatedLens read_lens(const CalibrationText& text, std::size_t from, std::size_t to) {
-  StatedLens stated(text.file, "IntrinsicMatrix", "RadialDistortion");
+  /// Empty if there are none.
+  std::vector<double> of(const std::string& name) const {
+    const auto found = values_.find(name);
+    return found == values_.end() ? std::vector<double>() : found->second;
+  }
+  /// The numbers of the first of the names that has `count` of them. \throws DataError if none does
+  std::vector<double> of_first(std::initializer_list<std::string> names, std::size_t count) const {
+    for (const std::string& name : names)
+      if (auto values = of(name); values.size() == count) return values;
+    fail(file_, "no " + std::to_string(count) + " numbers for " + *names.begin(),
+         "the values of stereoParameters, not a summary, such as by jsonencode(toStruct(stereoParams))");
+  }
+  double metres() const {
+    constexpr std::pair<const char*, double> kUnits[] = {{"mm", 1e-3},    {"milli", 1e-3}, {"cm", 1e-2},
+                                                         {"centi", 1e-2}, {"in", 0.0254},  {"m", 1}};
+    for (const auto& [name, metres] : kUnits)
+      if (unit_.rfind(name, 0) == 0) return metres;
+    fail(file_, "WorldUnits " + in_quotes(unit_), "mm, cm, m or in");
+  }
+
+ private:
+  std::string file_, unit_ = "mm";
+  std::map<std::string, std::vector<double>> values_;
+};
+
+StatedLens read_lens(const CalibrationText& text, const Numbers& numbers, const std::string& camera) {
+  StatedLens stated(text.file, camera + "IntrinsicMatrix", camera + "RadialDistortion");
   Lens& lens = stated.lens;
-  const bool is_transposed = !numbers_after(text, "IntrinsicMatrix", from, to).empty();
-  const auto k = required(text, is_transposed ? "IntrinsicMatrix" : "K", from, to, 9);
+  auto k = numbers.of_first({camera + "IntrinsicMatrix", camera + "K"}, 9);
+  if (k[6] != 0) k = {k[0], k[3], k[6], k[1], k[4], k[7], k[2], k[5], k[8]};
   constexpr double kFirstPixel = 1;
   lens.camera.fx = k[0];
   lens.camera.fy = k[4];
-  lens.camera.cx = (is_transposed ? k[6] : k[2]) - kFirstPixel;
-  lens.camera.cy = (is_transposed ? k[7] : k[5]) - kFirstPixel;
-  if (const double skew = is_transposed ? k[3] : k[1]; skew != 0)
-    fail(text.file, "a skew of " + format_exact(skew), "0: estimate the calibration without skew");
-  if (const auto size = numbers_after(text, "ImageSize", from, to); size.size() == 2) {
+  lens.camera.cx = k[2] - kFirstPixel;
+  lens.camera.cy = k[5] - kFirstPixel;
+  if (k[1] != 0) fail(text.file, "a skew of " + format_exact(k[1]), "0: estimate the calibration without skew");
+  if (const auto size = numbers.of(camera + "ImageSize"); size.size() == 2) {
     lens.camera.width = static_cast<int>(size[1]);
     lens.camera.height = static_cast<int>(size[0]);
   }
-  auto radial = numbers_after(text, "RadialDistortion", from, to),
-       tangential = numbers_after(text, "TangentialDistortion", from, to);
+  auto radial = numbers.of(camera + "RadialDistortion"), tangential = numbers.of(camera + "TangentialDistortion");
+  if (radial.size() != 3) radial = numbers.of_first({camera + "RadialDistortion"}, 2);
   radial.resize(3);
   tangential.resize(2);
   lens.parameters = {radial[0], radial[1], tangential[0], tangential[1], radial[2]};
@@ -59,21 +105,22 @@ StatedLens read_lens(const CalibrationText& text, std::size_t from, std::size_t 
 
 }  // namespace
 
-bool is_matlab(const CalibrationText& text) { return text.text.find("TranslationOfCamera2") != std::string::npos; }
+bool is_matlab(const CalibrationText& text) {
+  const auto has = [&](const char* name) { return text.text.find(name) != std::string::npos; };
+  return has("CameraParameters1") && (has("TranslationOfCamera2") || has("PoseCamera2"));
+}
 
 StatedCalibration read_matlab(const CalibrationText& text) {
-  const std::size_t all = text.text.size(), first = text.text.find("CameraParameters1"),
-                    second = text.text.find("CameraParameters2");
-  if (first == std::string::npos || second == std::string::npos || second < first)
-    fail(text.file, "no CameraParameters1 and CameraParameters2", "MATLAB's stereoParameters");
+  const Numbers numbers(text);
   StatedCalibration stated;
-  stated.left = read_lens(text, first, second);
-  stated.right = read_lens(text, second, all);
-  const auto r = required(text, "RotationOfCamera2", 0, all, 9), t = required(text, "TranslationOfCamera2", 0, all, 3);
-  constexpr double kMetres = 1e-3;  // MATLAB's calibrator works in millimetres
-  // Column by column, the transpose: MATLAB multiplies row vectors from the left.
+  stated.left = read_lens(text, numbers, "1.");
+  stated.right = read_lens(text, numbers, "2.");
+  // Column by column, the transpose: MATLAB multiplies row vectors from the left by RotationOfCamera2, not by R.
+  const auto rows = numbers.of("RotationOfCamera2"), r = rows.size() == 9 ? rows : numbers.of_first({"R"}, 9),
+             t = numbers.of_first({"TranslationOfCamera2", "Translation"}, 3);
   stated.right_from_left.linear() = Eigen::Map<const Eigen::Matrix3d>(r.data());
-  stated.right_from_left.translation() = kMetres * Eigen::Vector3d(t[0], t[1], t[2]);
+  if (rows.size() != 9) stated.right_from_left.linear().transposeInPlace();
+  stated.right_from_left.translation() = numbers.metres() * Eigen::Vector3d(t[0], t[1], t[2]);
   return stated;
 }
 

@@ -3,19 +3,23 @@
 /// metres. YAML, XML or JSON. Optional: image_width and image_height; distortion_model: equidistant for
 /// fisheye::stereoCalibrate.
 
+#include <cctype>
+
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
 namespace {
 
-/// The names that programs give to the matrices of a camera, what they append for the left and right one, and the names
-/// of the transform.
+/// The names that programs give to the matrices of a camera, what they have before or behind them for the left and
+/// right one, and the names of the transform; without case and separators: Camera_Matrix_Left is cameramatrixleft.
 using Words = std::vector<std::string>;
-const Words kCameraNames = {"M", "K", "cameraMatrix", "camera_matrix", "CM"},
-            kDistortionNames = {"D", "distCoeffs", "dist_coeffs", "distortion_coefficients", "dist"},
-            kLeft = {"1", "_1", "L", "_l", "_left", "Left"}, kRight = {"2", "_2", "R", "_r", "_right", "Right"},
-            kRotationNames = {"R", "rotation_matrix"}, kTranslationNames = {"T", "translation_vector", "t"};
+const Words kCameraNames = {"m", "k", "cameramatrix", "cammatrix", "cammtx", "mtx", "cm"},
+            kDistortionNames = {"d",          "distcoeffs", "distcoeff", "distortioncoefficients", "distortioncoeffs",
+                                "distortion", "dist"},
+            kLeft = {"1", "l", "left"}, kRight = {"2", "r", "right"},
+            kRotationNames = {"r", "rotation", "rotationmatrix", "rot", "rvec", "stereor"},
+            kTranslationNames = {"t", "translation", "translationvector", "trans", "tvec", "stereot"};
 
 /// An entry of one of the files.
 struct Place {
@@ -23,11 +27,24 @@ struct Place {
   std::string key;
 };
 
+std::string plain(const std::string& name) {
+  std::string letters;
+  for (const char letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return letters;
+}
+
 std::optional<Place> find(const std::vector<CalibrationText>& texts, const Words& names, const Words& sides = {""}) {
-  for (const CalibrationText& text : texts)
+  for (const CalibrationText& text : texts) {
+    if (!text.map) continue;
+    const auto keys = text.map->keys();
     for (const std::string& name : names)
       for (const std::string& side : sides)
-        if (text.has((name + side).c_str())) return Place{&*text.map, name + side};
+        for (const std::string& key : keys)
+          if (const std::string word = plain(key); word == name + side || word == side + name)
+            return Place{&*text.map, key};
+  }
   return std::nullopt;
 }
 
@@ -35,7 +52,9 @@ Place required(const std::vector<CalibrationText>& texts, const Words& names, co
   if (const auto place = find(texts, names, sides)) return *place;
   std::string files;
   for (const CalibrationText& text : texts) files += (files.empty() ? "" : ", ") + text.file;
-  fail(files, "no entry " + names[0] + sides[0], "M1 D1 M2 D2 R T, or K1 or cameraMatrix1, distCoeffs1 ...");
+  std::string name = names[0] + sides[0];
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  fail(files, "no entry " + name, "M1 D1 M2 D2 R T, or K1 or cameraMatrix1, distCoeffs1 ...");
 }
 
 StatedLens read_lens(const std::vector<CalibrationText>& texts, const Words& side) {
@@ -46,7 +65,7 @@ StatedLens read_lens(const std::vector<CalibrationText>& texts, const Words& sid
   if (coefficients.rows > 1 && coefficients.columns > 1)
     d.map->complain(d.key, "a matrix of several rows and columns", "one row of coefficients");
   stated.lens.parameters = coefficients.values;
-  if (const auto model = find(texts, {"distortion_model"})) {
+  if (const auto model = find(texts, {"distortionmodel"})) {
     const std::string word = model->map->word(model->key);
     if (word == "equidistant" || word == "fisheye") {
       stated.lens.model = LensModel::equidistant;
@@ -56,8 +75,8 @@ StatedLens read_lens(const std::vector<CalibrationText>& texts, const Words& sid
                            "plumb_bob, radtan, rational_polynomial, equidistant or fisheye");
     }
   }
-  if (const auto width = find(texts, {"image_width"})) {
-    const ImageSize size = width->map->size("image_width", "image_height");
+  if (const auto width = find(texts, {"imagewidth"}), height = find(texts, {"imageheight"}); width && height) {
+    const ImageSize size = width->map->size(width->key, height->key);
     stated.lens.camera.width = size.width;
     stated.lens.camera.height = size.height;
   }
@@ -84,7 +103,7 @@ StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts) 
   stated.right_from_left.linear() = read_rotation(required(texts, kRotationNames));
   const Place translation = required(texts, kTranslationNames);
   stated.right_from_left.translation() = translation.map->vector(translation.key);
-  if (const auto left = find(texts, {"P"}, kLeft), right = find(texts, {"P"}, kRight); left && right) {
+  if (const auto left = find(texts, {"p"}, kLeft), right = find(texts, {"p"}, kRight); left && right) {
     const auto size = [](const StatedLens& lens) { return ImageSize{lens.lens.camera.width, lens.lens.camera.height}; };
     stated.of_rectified.push_back(
         rectified_cameras(*left->map, left->key, size(stated.left), *right->map, right->key, size(stated.right)));

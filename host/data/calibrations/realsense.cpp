@@ -87,8 +87,8 @@ Eigen::Isometry3d read_extrinsics(const CalibrationText& text, const std::vector
 }  // namespace
 
 bool is_realsense(const CalibrationText& text) {
-  return text.text.find("Intrinsic of \"") != std::string::npos &&
-         text.text.find("Extrinsic from \"") != std::string::npos;
+  return text.text.find("Intrinsic of \"") != std::string::npos ||
+         text.text.find("Stream Profiles supported by") != std::string::npos;
 }
 
 StatedCalibration read_realsense(const CalibrationText& text) {
@@ -113,7 +113,8 @@ StatedCalibration read_realsense(const CalibrationText& text) {
     }
     if (!stated.left.file.empty()) return stated;
   }
-  fail(text.file, "no two streams Infrared 1 and 2, or Fisheye 1 and 2", "those of a stereo camera");
+  fail(text.file, "no intrinsics of Infrared 1 and 2, or Fisheye 1 and 2",
+       "what `rs-enumerate-devices -c` prints of a stereo camera");
 }
 
 }  // namespace quadedge::data

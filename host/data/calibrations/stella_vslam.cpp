@@ -38,26 +38,26 @@ StatedCalibration read_stella_vslam(const YamlMap& settings) {
   const double focal = map.number(camera.key("fx"));
   Rectification left, right;
   right.rectified_from_reference.x() = -map.number(camera.key("focal_x_baseline")) / focal;
-  StatedCalibration stated;
-  if (rectifier.map.has(rectifier.key("K_left"))) {
-    stated.left = read_recording_lens(rectifier, "left", size);
-    stated.right = read_recording_lens(rectifier, "right", size);
-    left.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_left"));
-    right.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_right"));
-  } else {
+  StatedCalibration rectified;
+  rectified.left = StatedLens(map.file(), map.name(camera.key("fx")), map.name(camera.key("fx")));
+  rectified.left.lens.camera = {
+      focal,      map.number(camera.key("fy")), map.number(camera.key("cx")), map.number(camera.key("cy")), size.width,
+      size.height};
+  rectified.right = rectified.left;
+  rectified.right_from_left = right_from_left_of(left, right);
+  if (!rectifier.map.has(rectifier.key("K_left"))) {
     for (const char* name : {"k1", "k2", "k3", "k4", "p1", "p2"})
       if (map.has(camera.key(name)) && map.number(camera.key(name)) != 0)
         map.complain(camera.key(name), "distortion without StereoRectifier", "0, as rectified images have it");
-    stated.left = StatedLens(map.file(), map.name(camera.key("fx")), map.name(camera.key("fx")));
-    stated.left.lens.camera = {focal,
-                               map.number(camera.key("fy")),
-                               map.number(camera.key("cx")),
-                               map.number(camera.key("cy")),
-                               size.width,
-                               size.height};
-    stated.right = stated.left;
+    return rectified;
   }
+  StatedCalibration stated;
+  stated.left = read_recording_lens(rectifier, "left", size);
+  stated.right = read_recording_lens(rectifier, "right", size);
+  left.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_left"));
+  right.rectified_from_camera = rectifier.map.rotation(rectifier.key("R_right"));
   stated.right_from_left = right_from_left_of(left, right);
+  stated.of_rectified.push_back(std::move(rectified));
   return stated;
 }
 

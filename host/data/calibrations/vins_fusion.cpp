@@ -11,8 +11,10 @@ namespace {
 
 StatedLens read_camodocal(const std::string& file) {
   const YamlMap camera(file, "a camera file of camodocal (model_type, projection_parameters)");
-  const YamlMap projection = camera.map("projection_parameters");
   const std::string model = camera.word("model_type");
+  if (model != "PINHOLE" && model != "PINHOLE_FULL" && model != "KANNALA_BRANDT" && model != "MEI")
+    camera.complain("model_type", in_quotes(model), "PINHOLE, PINHOLE_FULL, KANNALA_BRANDT or MEI");
+  const YamlMap projection = camera.map("projection_parameters");
   const ImageSize size = camera.size("image_width", "image_height");
   StatedLens stated(file, "projection_parameters", "distortion_parameters");
   Lens& lens = stated.lens;
@@ -32,13 +34,11 @@ StatedLens read_camodocal(const std::string& file) {
     k = read(projection, {"mu", "mv", "u0", "v0"});
     lens.model = LensModel::equidistant;
     lens.parameters = read(projection, {"k2", "k3", "k4", "k5"});
-  } else if (model == "MEI") {
+  } else {  // MEI
     k = read(projection, {"gamma1", "gamma2", "u0", "v0"});
     lens.model = LensModel::omnidirectional;
     lens.parameters = read(camera.map("distortion_parameters"), {"k1", "k2", "p1", "p2"});
     lens.parameters.insert(lens.parameters.begin(), camera.map("mirror_parameters").number("xi"));
-  } else {
-    camera.complain("model_type", in_quotes(model), "PINHOLE, PINHOLE_FULL, KANNALA_BRANDT or MEI");
   }
   lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
   return stated;
