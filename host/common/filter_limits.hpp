@@ -66,7 +66,7 @@ inline FilterLimits temporal_limits(const TemporalConfig& config, const Temporal
   }
   const bool wide = search.radius > static_cast<float>(config.coarse_radius);
   return {static_cast<float>(kCoarseNccMin),
-          static_cast<float>(wide ? kCoarseWideSiftMax : config.coarse_sift_max),
+          static_cast<float>(wide ? kCoarseWideSiftMax : config.sift_max),
           static_cast<float>(kCoarseNccNearlyBest),
           static_cast<float>(kCoarseSiftNearlyBest),
           order_of(TemporalFilter::ncc),

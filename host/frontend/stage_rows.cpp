@@ -142,7 +142,7 @@ Config configuration(const SmallSequence& sequence, const std::map<std::string, 
   config.stereo.max_disparity = sequence.max_disparity;
   config.stereo.sift_max = 500;
   config.stereo.coarse_ties = 0;
-  config.temporal.coarse_sift_max = 500;
+  config.temporal.sift_max = 500;
   config.temporal.coarse_radius = config.temporal.radius;
   config.edges.budget = 200;
   config.variants = variants;

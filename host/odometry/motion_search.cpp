@@ -190,7 +190,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
     current_from_base = step->motion.current_from_previous;
     predict(current_from_base, kSettledStep, next_search_);
     if (known != nullptr && shift_from_known() < kSettled) return nullptr;
-    if (round == config_.temporal.rounds || (others.must_compete && cannot_compete(*step, known)) ||
+    if (round == kGuidedRounds || (others.must_compete && cannot_compete(*step, known)) ||
         frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
       return step;
     predict_all();

@@ -90,8 +90,11 @@ constexpr double kSupportDecay = 0.95;
 /// Minimum inlier ratio of a proposed motion; low, because the confirmation follows.
 constexpr double kProposalMinInlierRatio = 0.03;
 
-/// The confirmation ends when the predicted positions change by less than this on average [px], far below
-/// temporal.radius. The mean is computed over every 16th edge, which suffices for an average.
+/// The guided search is repeated at most this often, around the motion that it found.
+constexpr int kGuidedRounds = 3;
+
+/// It ends when the predicted positions change by less than this on average [px], far below temporal.radius. The mean
+/// is computed over every 16th edge, which suffices for an average.
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
 

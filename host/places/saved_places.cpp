@@ -9,8 +9,8 @@ namespace quadedge::places {
 
 void check_map_config(const Config& config) {
   if (config.temporal.wide_edges == 0) throw UsageError("a map needs the global search: temporal.wide_edges above 0");
-  if (config.temporal.sift_max > 0 || config.temporal.coarse_sift_max > 0)
-    throw UsageError("a map keeps no SIFT descriptors: expected temporal.sift_max and temporal.coarse_sift_max of 0");
+  if (config.temporal.sift_max > 0)
+    throw UsageError("a map keeps no SIFT descriptors: expected temporal.sift_max of 0");
 }
 
 std::vector<std::pair<std::string, std::string>> descriptor_settings(const Config& config) {

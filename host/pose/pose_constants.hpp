@@ -36,8 +36,11 @@ constexpr int kFitSteps = 5;
 /// Step length below which a fit ends [standard deviations of the pose], far below the effect of noise.
 constexpr double kFitTolerance = 0.01;
 
-/// Number of quads on which all hypotheses are compared. The promising ones are then compared on pose.scoring_quads.
-constexpr std::size_t kPreviewQuads = 512;
+/// Number of quads on which all hypotheses are compared, and of those on which the promising ones are.
+constexpr std::size_t kPreviewQuads = 512, kScoringQuads = 4096;
+
+/// Minimum distance in the image of the two quads of a sample [image diagonals].
+constexpr double kMinPairDistance = 0.05;
 
 /// Draws per pair of quads after which hardly any pair has not been drawn; the same pair gives the same hypothesis.
 constexpr double kDrawsPerPair = 10;

@@ -29,7 +29,7 @@ class Search {
   Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
          ConsensusWorkspace& workspace)
       : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), work_(workspace) {
-    const auto scored = static_cast<std::size_t>(config.scoring_quads), preview = kPreviewQuads;
+    const std::size_t scored = kScoringQuads, preview = kPreviewQuads;
     if (config.scoring_cell > 0) {
       balanced_subset(random_, quads.scoring, config.scoring_cell, scored, work_.subset, work_.scored_rows);
     } else {
@@ -48,7 +48,7 @@ class Search {
     for (std::int32_t row : preview_rows)
       work_.preview_terms.push_back(make_sample_term(quads, static_cast<std::size_t>(row), noise_, rig.left));
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
-    min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
+    min_distance_squared_ = std::pow(kMinPairDistance * diagonal, 2);
   }
 
   Consensus run(const std::optional<Eigen::Isometry3d>& initial) {

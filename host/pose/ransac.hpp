@@ -40,7 +40,7 @@ struct ConsensusWorkspace {
 /// the six constraints is solved, fitted with the noise of its tangents (fit_sample()) and scored on kPreviewQuads
 /// quads, taken evenly from cells of config.scoring_cell px, so that a motion is judged by the area that agrees with
 /// it. A sample that beats all previous ones is optimised locally over its inliers, with a distance that decreases from
-/// config.local_optimisation_widening times to config.inlier_distance, and compared over config.scoring_quads. The
+/// config.local_optimisation_widening times to config.inlier_distance, and compared over kScoringQuads. The
 /// search ends after kConfidence, max_hypotheses or max_draws; rejected draws count.
 /// \param seed seed of all random numbers; the same seed gives identical bits
 /// \param initial a hypothesis that is scored first (a predicted or frame-to-frame pose), current_from_previous
