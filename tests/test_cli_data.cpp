@@ -95,6 +95,14 @@ TEST_CASE("evaluate trajectory: KITTI rows are matched by number, or with timed 
     CHECK(result.code == 0);
     CHECK_THAT(result.out, Contains(zero) && Contains("5 of 5"));
   }
+  // EuRoC's CSV is timed: other times than the estimate's are no matter.
+  std::ofstream csv(folder / "denser.csv");
+  for (int k = 0; k < 10; ++k)
+    csv << 100 + k / 2 << (k % 2 == 0 ? "000000000" : "500000000") << ",0,0," << 0.5 * k << ",1,0,0,0\n";
+  csv.close();
+  const auto denser = run_program({"evaluate", "trajectory", folder / "timed.txt", folder / "denser.csv"});
+  INFO(denser.err);
+  CHECK_THAT(denser.out, Contains(zero) && Contains("5 of 5"));
   const auto mismatch = run_program({"evaluate", "trajectory", folder / "timed.txt", folder / "short.txt"});
   check_refused(mismatch, "short.txt");
   CHECK_THAT(mismatch.err, Contains("3 rows") && Contains("5"));

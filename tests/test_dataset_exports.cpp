@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "calibration_files.hpp"
 #include "quadedge/dataset.hpp"
@@ -161,4 +162,49 @@ TEST_CASE("dataset: real recordings in the layouts that people bring", "[data]")
   CHECK(room.frames.size() == 3);
   CHECK(room.rig.max_value == 65535);
   CHECK(room.rig.baseline() == Approx(0.101).epsilon(0.01));
+}
+
+TEST_CASE("dataset: KITTI-360 has rectified and recorded images of one size, KITTI's calib.txt other rows", "[data]") {
+  const TemporaryFolder folder;
+  const std::string drive = folder / "data_2d_raw/2013_05_28_drive_0000_sync";
+  for (const char* kind : {"data_rgb", "data_rect"}) {
+    write_images(drive + "/image_00/" + kind, drive + "/image_01/" + kind, 62, 24);
+    std::string times;
+    for (int i = 0; i < 7; ++i) times += "2013-05-28 08:46:0" + std::to_string(i) + ".5\n";
+    write_text(drive + "/image_00/timestamps.txt", times);
+    write_text(folder / "calibration/perspective.txt",
+               "S_00: 62 24\nK_00: 60 0 31 0 61 11 0 0 0\nD_00: 0 0 0 0 0\nR_00: 1 0 0 0 1 0 0 0 1\nT_00: 0 0 0\n"
+               "S_01: 62 24\nK_01: 62 0 32 0 63 10 0 0 0\nD_01: 0 0 0 0 0\nR_01: 1 0 0 0 1 0 0 0 1\nT_01: -0.4 0.1 0\n"
+               "S_rect_00: 62 24\nP_rect_00: 50 0 30 0 0 50 12 0 0 0 1 0\n"
+               "S_rect_01: 62 24\nP_rect_01: 50 0 30 -30 0 50 12 0 0 0 1 0\n");
+    const Dataset dataset = open_dataset(drive);
+    CHECK(dataset.format == "kitti-raw");
+    REQUIRE(dataset.frames.size() == kFrames);
+    CHECK_THAT(dataset.frames[0].right, Contains(kind));
+    CHECK(dataset.rig.left.fx == (kind == std::string("data_rect") ? 50 : 60));
+    CHECK(dataset.rig.right_from_left.translation().x() == Approx(kind == std::string("data_rect") ? -0.6 : -0.4));
+  }
+  const std::string root = folder / "kitti", calibration = root + "/sequences/07/calib.txt";
+  dataset_files::write_kitti(root, 3);
+  const StereoRig rig = open_dataset(root).rig;
+  std::ofstream(calibration, std::ios::app) << "R0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: 1 0 0\ncalib_time 2012\n";
+  CHECK(open_dataset(root).rig.right_from_left.matrix() == rig.right_from_left.matrix());
+}
+
+TEST_CASE("dataset: lists may name their columns in a first line without a comment sign", "[data]") {
+  const TemporaryFolder folder;
+  const Rig rig;
+  write_text(folder / "camchain.yaml", kalibr_chain(rig, "both"));
+  for (const std::string camera : {"cam0", "cam1"}) {
+    write_image(folder / (camera + "/data/a.png"), 752, 480);
+    write_image(folder / (camera + "/data/b.png"), 752, 480);
+    write_text(folder / (camera + "/data.csv"), "timestamp,filename\n1000000000,a.png\n1050000000,b.png\n");
+  }
+  CHECK(open_dataset(folder / ".").frames.size() == 2);
+  write_text(folder / "seconds.csv", "timestamp,x,y,z,qw,qx,qy,qz\n1403636584.763555584,1,2,3,1,0,0,0\n");
+  const Trajectory seconds = read_trajectory(folder / "seconds.csv");
+  REQUIRE(seconds.size() == 1);
+  CHECK(seconds[0].stamp_ns == 1403636584763555584);
+  write_text(folder / "leica.csv", "#timestamp [ns],x,y,z\n1403636584763555584,1,2,3\n");
+  CHECK_THROWS_WITH(read_trajectory(folder / "leica.csv"), Contains("without orientation") && Contains("vicon0"));
 }

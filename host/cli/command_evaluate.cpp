@@ -41,7 +41,8 @@ void set_segments(Trajectory& poses, const std::string& frames_csv) {
 Loaded load_file(const std::string& path) {
   Loaded loaded;
   loaded.poses = read_trajectory(path);
-  loaded.timed = data::split(data::data_lines(path).front().text).size() == 8;
+  const std::string first = data::table_lines(path).front().text;
+  loaded.timed = first.find(',') != std::string::npos || data::split(first).size() == 8;
   if (!loaded.timed) set_segments(loaded.poses, std::filesystem::path(path).replace_filename("frames.csv").string());
   return loaded;
 }

@@ -30,8 +30,8 @@ std::vector<std::pair<std::int64_t, std::string>> read_camera(const fs::path& ca
   }
   const fs::path folder = fs::is_directory(camera / "images") ? camera / "images" : camera / "data";
   CameraImages images = list_images(folder);
-  if (const fs::path times = camera / ".." / "timestamps.txt"; images.stamps_ns.empty() && fs::exists(times))
-    images.stamps_ns = read_time_rows(times.string()).stamps_ns;
+  for (const fs::path& times : {camera / ".." / "timestamps.txt", camera / ".." / ".." / "timestamps.txt"})
+    if (images.stamps_ns.empty() && fs::exists(times)) images.stamps_ns = read_time_rows(times.string()).stamps_ns;
   if (images.stamps_ns.size() != images.files.size())
     fail(camera.string(), counted(images.stamps_ns.size(), "time") + " for " + counted(images.files.size(), "image"),
          "data.csv, times.txt, or names that are times");
@@ -100,7 +100,9 @@ void find_truth(Dataset& dataset, const fs::path& folder, const Eigen::Isometry3
     return;
   }
   if (fs::exists(folder / "leica0" / "data.csv"))
-    dataset.notes.push_back("leica0 holds positions without orientation, which is no ground truth of poses");
+    dataset.notes.push_back(
+        "leica0 holds positions without orientation, with which poses are not compared; state_groundtruth_estimate0, "
+        "vicon0 or mocap0 would be ground truth");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ bool comes_before(const std::string& a, const std::string& b) {
 std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file) {
   std::vector<std::pair<std::int64_t, std::string>> list;
   std::set<std::int64_t> stamps;
-  for (const auto& line : data_lines(file)) {
+  for (const auto& line : table_lines(file)) {
     const auto cells = split(line.text, ", \t");
     if (cells.size() != 2) fail(file, line.number, in_quotes(line.text), "timestamp [ns],filename");
     const fs::path name = cells[1], place = name.parent_path();  // some lists state cam0/data/NAME
@@ -99,7 +99,7 @@ std::vector<std::int64_t> read_times(const std::string& file, bool restarts) {
 
 /// Whether a data.csv lists images: an IMU's has other columns.
 bool lists_images(const std::string& file) {
-  const auto lines = data_lines(file);
+  const auto lines = table_lines(file);
   return lines.empty() || split(lines[0].text, ", \t").size() <= 2;
 }
 

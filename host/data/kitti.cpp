@@ -41,10 +41,14 @@ fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
 
 using Projection = Eigen::Matrix<double, 3, 4>;
 
+/// The rows of P0 to P3; others, such as R0_rect, Tr or a date, are not needed.
 std::map<std::string, Projection> read_projections(const std::string& file) {
   std::map<std::string, Projection> projections;
   for (const auto& line : data_lines(file)) {
     const std::size_t colon = line.text.find(':');
+    const bool is_projection =
+        line.text[0] == 'P' && line.text.size() > 2 && line.text[1] >= '0' && line.text[1] <= '3';
+    if (!is_projection) continue;
     if (colon == std::string::npos) fail(file, line.number, in_quotes(line.text), "NAME: and twelve numbers");
     const auto values = parse_row({line.number, line.text.substr(colon + 1)}, file, 12, "a 3 x 4 matrix, row by row");
     const auto words = split(line.text.substr(0, colon));

@@ -1,6 +1,7 @@
 /// \file kitti_raw.cpp  KITTI's raw drives: DATE/DATE_drive_NNNN_sync/{image_00,image_01}/{data/0000000000.png,
 /// timestamps.txt}, or image_02 and image_03 in colour; calib_cam_to_cam.txt and the two other calibrations in DATE;
-/// oxts/data/0000000000.txt as ground truth. Image number k belongs to row k of timestamps.txt.
+/// oxts/data/0000000000.txt as ground truth. Image number k belongs to row k of timestamps.txt. KITTI-360 has its
+/// images in data_rect and data_rgb, its calibration in calibration/perspective.txt above data_2d_raw/DRIVE.
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,13 @@
 
 namespace quadedge::data {
 namespace {
+
+/// Where a camera's images are: data in KITTI; data_rect in KITTI-360, or data_rgb as recorded.
+fs::path images_of(const fs::path& camera) {
+  for (const char* name : {"data", "data_rect"})
+    if (fs::is_directory(camera / name)) return camera / name;
+  return camera / "data_rgb";
+}
 
 /// The drive: `folder` itself, or its only drive, or the one that --sequence names.
 fs::path drive_folder(const fs::path& folder, const std::string& wanted) {
@@ -34,7 +42,7 @@ fs::path drive_folder(const fs::path& folder, const std::string& wanted) {
 
 /// A calibration file in the drive's folder or the one above, where KITTI has it.
 std::string calibration_beside(const fs::path& drive, const char* name) {
-  for (const fs::path& place : {drive / name, drive / ".." / name})
+  for (const fs::path& place : {drive / name, drive / ".." / name, drive / ".." / ".." / "calibration" / name})
     if (fs::exists(place)) return place.lexically_normal().string();
   return (drive / ".." / name).lexically_normal().string();
 }
@@ -50,7 +58,7 @@ void read_frames(Dataset& dataset, const fs::path& left, const fs::path& right, 
                  Findings& findings) {
   const std::string times_file = (left / "timestamps.txt").string();
   const std::vector<std::int64_t> stamps = read_time_rows(times_file).stamps_ns;
-  const auto names = image_names(left / "data");
+  const auto names = image_names(images_of(left));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::size_t row = number_in(names[i], i);
     if (row >= stamps.size()) {
@@ -58,7 +66,7 @@ void read_frames(Dataset& dataset, const fs::path& left, const fs::path& right, 
       return;
     }
     const std::size_t before = dataset.frames.size();
-    add_frame(dataset, stamps[row], left / "data" / names[i], right / "data" / names[i], findings);
+    add_frame(dataset, stamps[row], images_of(left) / names[i], images_of(right) / names[i], findings);
     if (dataset.frames.size() > before) rows.push_back(row);
   }
 }
@@ -117,7 +125,7 @@ void read_truth(Dataset& dataset, const fs::path& drive, const YamlMap& cameras,
 }  // namespace
 
 bool is_kitti_raw_drive(const fs::path& folder) {
-  return fs::is_directory(folder / "image_00" / "data") || fs::is_directory(folder / "image_02" / "data");
+  return fs::is_directory(images_of(folder / "image_00")) || fs::is_directory(folder / "image_02" / "data");
 }
 
 bool is_kitti_raw(const fs::path& folder) {
@@ -139,9 +147,14 @@ Dataset read_kitti_raw(const fs::path& root, const DatasetOptions& options, Find
   findings.attempt(
       [&] { read_frames(dataset, drive / ("image_" + left), drive / ("image_" + right), rows, findings); });
   findings.attempt([&] {
-    const std::string file = calibration_beside(drive, "calib_cam_to_cam.txt");
+    const std::string of_360 = calibration_beside(drive, "perspective.txt"),
+                      file = fs::exists(of_360) ? of_360 : calibration_beside(drive, "calib_cam_to_cam.txt");
     const YamlMap cameras(file, "KITTI's calib_cam_to_cam.txt");
     StereoCalibration calibration = judged(read_kitti_cameras(cameras, left, right), "kitti", file);
+    if (images_of(drive / ("image_" + left)).filename() == "data_rgb" && !calibration.other_sizes.empty()) {
+      StereoCalibration recorded = calibration.other_sizes.front();
+      calibration = std::move(recorded);
+    }
     if (!dataset.frames.empty()) {
       const FrameFiles& first = dataset.frames.front();
       set_image_sizes(calibration, image_size(first.left), image_size(first.right), first.left);

@@ -88,7 +88,7 @@ std::optional<std::vector<std::int64_t>> stamps_of_names(const std::vector<std::
 
 TimeRows read_time_rows(const std::string& file, bool restarts) {
   TimeRows rows;
-  const std::vector<Line> lines = data_lines(file);
+  const std::vector<Line> lines = table_lines(file);
   if (lines.empty()) fail(file, "no timestamps", "one in seconds on every line");
   std::vector<std::string> words_of_times;
   for (const Line& line : lines) {

@@ -21,6 +21,14 @@ constexpr double kRotationInFiles = 1e-3;
 /// seconds.
 bool are_nanoseconds(const std::string& word) { return word.find_first_of(".eE") >= 16 && word.size() >= 16; }
 
+/// Nanoseconds, or seconds where they have a point.
+std::int64_t stamp_of(const std::string& word, const std::string& file, int line) {
+  const std::size_t point = word.find('.');
+  if (are_nanoseconds(word) || point == std::string::npos)
+    return data::parse_nanoseconds(word.substr(0, point), file, line);
+  return data::parse_seconds(word, file, line);
+}
+
 StampedPose tum_pose(const data::Line& line, const std::string& path) {
   const auto values = data::parse_row(line, path, 8, kTumColumns);
   const Eigen::Quaterniond rotation(values[7], values[4], values[5], values[6]);
@@ -45,8 +53,11 @@ Trajectory read_euroc_poses(const std::string& file) {
   const std::string expected = "timestamp [ns], p_x, p_y, p_z, q_w, q_x, q_y, q_z, ...";
   constexpr std::size_t kColumns = 8;
   Trajectory trajectory;
-  for (const auto& line : data_lines(file)) {
+  for (const auto& line : table_lines(file)) {
     const auto cells = split(line.text, ", \t\r");
+    if (cells.size() == 4)
+      fail(file, line.number, "a position without orientation, as EuRoC's leica0 has it",
+           "poses, as state_groundtruth_estimate0, vicon0 and mocap0 have them (" + expected + ")");
     if (cells.size() < kColumns) fail(file, line.number, in_quotes(line.text), expected);
     double v[kColumns];
     for (std::size_t i = 1; i < kColumns; ++i) v[i] = parse_number(cells[i], file, line.number, expected);
@@ -56,7 +67,7 @@ Trajectory read_euroc_poses(const std::string& file) {
            "a unit quaternion q_w q_x q_y q_z");
     }
     StampedPose pose;
-    pose.stamp_ns = parse_nanoseconds(cells[0].substr(0, cells[0].find('.')), file, line.number);
+    pose.stamp_ns = stamp_of(cells[0], file, line.number);
     pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
     pose.world_from_left.translation() << v[1], v[2], v[3];
     trajectory.push_back(pose);
@@ -150,7 +161,7 @@ void write_kitti(const std::string& path, const Trajectory& trajectory) {
 }
 
 Trajectory read_trajectory(const std::string& path) {
-  const auto lines = data::data_lines(path);
+  const auto lines = data::table_lines(path);
   if (lines.empty()) data::fail(path, "no pose", std::string("rows of ") + kTumColumns + " or of " + kKittiColumns);
   if (lines[0].text.find(',') != std::string::npos) {
     Trajectory trajectory = data::read_euroc_poses(path);
