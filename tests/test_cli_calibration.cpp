@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
+#include <sstream>
 
 #include "calibration_files.hpp"
 #include "program.hpp"
@@ -72,4 +74,31 @@ TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with
   CHECK(run_program({"check", pinhole, "--quiet", "--write-calibration", folder / "kitti.yaml"}).code == 0);
   CHECK_THAT(read_text(folder / "kitti.yaml"),
              Contains("left_coefficients: []") && Contains("translation: [-0.5, 0, 0]"));
+}
+
+TEST_CASE("cli: KITTI's rectified images beside the cameras as they record are proposed as rectified", "[cli][data]") {
+  const std::string drive = real_data("kitti_raw_layout");
+  if (drive.empty()) return;
+  const TemporaryFolder folder;
+  const std::string date = drive + "/2011_09_26/";
+  std::map<std::string, std::string> numbers;  // as kitti2bag takes them into camera_info
+  std::istringstream lines(read_text(date + "calib_cam_to_cam.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    std::replace(line.begin(), line.end(), ' ', ',');
+    const std::size_t colon = line.find(":,");
+    if (colon != std::string::npos) numbers[line.substr(0, colon)] = line.substr(colon + 2);
+  }
+  for (const std::string camera : {"00", "01"}) {
+    dataset_files::write_text(folder / camera, "height: 375\nwidth: 1242\ndistortion_model: plumb_bob\nD: [" +
+                                                   numbers["D_" + camera] + "]\nK: [" + numbers["K_" + camera] +
+                                                   "]\nR: [" + numbers["R_rect_" + camera] + "]\nP: [" +
+                                                   numbers["P_rect_" + camera] + "]\n");
+  }
+  const std::string images = date + "2011_09_26_drive_0001_sync/image_";
+  std::vector<std::string> check = {"check",   "--left",           images + "00/data",
+                                    "--right", images + "01/data", "--fps",
+                                    "10",      "--calibration",    (folder / "00") + "," + (folder / "01")};
+  CHECK_THAT(run_program(check).out, Contains("--rectified takes P"));
+  check.emplace_back("--rectified");
+  CHECK_THAT(run_program(check).out, !Contains("--rectified takes P") && !Contains("do not fit"));
 }

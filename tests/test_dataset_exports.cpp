@@ -4,6 +4,7 @@
 #include "calibration_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/stereo_source.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;
@@ -207,4 +208,25 @@ TEST_CASE("dataset: lists may name their columns in a first line without a comme
   CHECK(seconds[0].stamp_ns == 1403636584763555584);
   write_text(folder / "leica.csv", "#timestamp [ns],x,y,z\n1403636584763555584,1,2,3\n");
   CHECK_THROWS_WITH(read_trajectory(folder / "leica.csv"), Contains("without orientation") && Contains("vicon0"));
+}
+
+TEST_CASE("dataset: times beside images that cannot be read are replaced by --fps, with a warning", "[data]") {
+  const TemporaryFolder folder;
+  for (const char* side : {"l", "r"}) {
+    write_image(folder / (side + std::string("/a.png")), 752, 480);
+    write_image(folder / (side + std::string("/b.png")), 752, 480);
+  }
+  write_text(folder / "times.txt", "exposures of 4 frames\n1 2 3 4\n");
+  write_text(folder / "rig.yaml", kalibr_chain(Rig(), "both"));
+  StereoSource source;
+  source.left = folder / "l";
+  source.right = folder / "r";
+  source.calibration = folder / "rig.yaml";
+  CHECK_THROWS_WITH(open_stereo_source(source), Contains("times.txt"));
+  source.fps = 4;
+  const Dataset dataset = open_stereo_source(source);
+  REQUIRE(dataset.frames.size() == 2);
+  CHECK(dataset.frames[1].stamp_ns == 250'000'000);
+  REQUIRE(dataset.warnings.size() == 1);
+  CHECK_THAT(dataset.warnings[0], Contains("times.txt") && Contains("--fps is used"));
 }

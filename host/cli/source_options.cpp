@@ -49,7 +49,7 @@ void SourceOptions::declare(Options& options) {
                "the images are rectified: the calibration's P describes them, not K and D");
   options.number("--fps", own_.fps,
                  "pairs per second, for sources without stamps and in place of a video's own; images keep the stamps "
-                 "of their names, times.txt or data.csv; 0: the source's own");
+                 "of their names, times.txt or data.csv, if these can be read; 0: the source's own");
   options.text("--times", own_.times, "stamps in place of all others: seconds, one per line, or EuRoC's data.csv",
                "FILE");
   options.number("--tolerance", own_.tolerance_ms,

@@ -106,10 +106,24 @@ CameraImages images_of(const std::string& place, bool needs_stamps) {
   return {{place}, {}, {}};
 }
 
+/// The images of both cameras. Times beside them that cannot be read matter only where --fps does not replace them.
+std::pair<CameraImages, CameraImages> images_of_both(const StereoSource& source, Dataset& dataset) {
+  const auto list = [&](bool needs_stamps) {
+    return std::pair(images_of(source.left, needs_stamps), images_of(source.right, needs_stamps));
+  };
+  try {
+    return list(source.times.empty());
+  } catch (const DataError& problem) {
+    if (!(source.fps > 0)) throw;
+    auto images = list(false);
+    dataset.warnings.push_back(problem.what() + std::string("; --fps is used instead"));
+    return images;
+  }
+}
+
 Dataset open_images(const StereoSource& source, Findings& findings) {
-  const bool needs_stamps = source.times.empty();
-  CameraImages left = images_of(source.left, needs_stamps), right = images_of(source.right, needs_stamps);
   Dataset dataset;
+  auto [left, right] = images_of_both(source, dataset);
   if (!left.stamps_ns.empty() && !right.stamps_ns.empty())
     if (const std::string dropped = keep_pairs(source, left, right); !dropped.empty())
       dataset.warnings.push_back(dropped);
