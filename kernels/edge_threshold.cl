@@ -206,10 +206,11 @@ static inline float noise_median(local const int* tally, const float total) {
 
 // From the tallies of both images to the threshold. One group. result = threshold [grey levels per px], which it keeps
 // from frame to frame as long as it stays within kThresholdHold of what is measured; standard deviation of the noise
-// [grey levels].
+// [grey levels], or known_noise unless that is negative; gradient that args.area of the images exceed.
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edges_threshold(const ThresholdArguments args,
                                                                                global const int* tallies,
-                                                                               const int count, global float* result) {
+                                                                               const int count, const float known_noise,
+                                                                               global float* result) {
   local int sums[kThresholdBins];
   const int item = (int)get_local_id(0);
   for (int bin = item; bin < kThresholdBins; bin += GROUP) {
@@ -222,7 +223,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edges_threshold(c
   float gradients = 0.0f, responses = 0.0f;
   for (int bin = 0; bin < kGradientBins; ++bin) gradients += (float)sums[bin];
   for (int bin = kGradientBins; bin < kThresholdBins; ++bin) responses += (float)sums[bin];
-  const float noise = args.quantum * noise_median(sums, responses) / kNoiseMedian;
+  const float noise = known_noise >= 0.0f ? known_noise : args.quantum * noise_median(sums, responses) / kNoiseMedian;
   const float gradient = gradients > 0.0f ? gradient_exceeded_by(sums, args.area * gradients) : args.highest;
   const float contrast = gradient * gradient / args.highest;
   const float measured = fmin(fmax(contrast, fmax(args.per_noise * noise, args.lowest)), args.highest);
@@ -230,4 +231,5 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edges_threshold(c
   const bool held = before <= kThresholdHold * measured && measured <= kThresholdHold * before;
   result[0] = held ? before : measured;
   result[1] = noise;
+  result[2] = gradient;
 }

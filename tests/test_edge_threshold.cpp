@@ -63,7 +63,7 @@ std::vector<ThresholdAndNoise> measure(Device& device, const std::string& varian
       context.finish();
     }
     stage.run(planes[0], planes.size() > 1 ? &planes[1] : nullptr);
-    const auto values = stage.values().read(2);
+    const auto values = stage.values().read(3);
     found.push_back({values[0], values[1]});
   }
   return found;

@@ -34,6 +34,9 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),
       threshold_(context, config.edges, config.variants),
+      smoothed_threshold_(context, config.edges, config.variants),
+      smoothing_(context, config.variants, rig.max_value),
+      noise_gate_(rig, config.edges),
       selection_(context, config.edges, left_.detection.maxima()),
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
@@ -55,14 +58,41 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
   itself_.write(context, itself);
 }
 
-void DeviceFrontend::detect(FrameEdges& current) {
-  const stages::DeviceStereoEdges& rig = own(current).on_device;
+void DeviceFrontend::measure(const stages::DeviceStereoEdges& rig, stages::EdgeThreshold& threshold,
+                             float known_noise) {
   context_.begin_stage("edge_detection");
   left_.plane.prepare(rig.left_image.pixels);
   right_.plane.prepare(rig.right_image.pixels);
-  threshold_.run(left_.plane, &right_.plane);
-  left_.detection.find_maxima(left_.plane, threshold_.values());
-  right_.detection.find_maxima(right_.plane, threshold_.values());
+  threshold.run(left_.plane, &right_.plane, known_noise);
+  used_threshold_ = &threshold;
+}
+
+bool DeviceFrontend::smooths(FrameEdges& current) {
+  if (is_smoothed_) return false;
+  is_smoothed_ = noise_gate_.judge(threshold_.host_noise(), threshold_.host_gradient());
+  if (!is_smoothed_) return false;
+  stages::DeviceStereoEdges& rig = own(current).on_device;
+  left_.undistortion.smooth(smoothing_, rig.left_image.pixels, smoothed_left_);
+  right_.undistortion.smooth(smoothing_, rig.right_image.pixels, smoothed_right_);
+  measure(rig, smoothed_threshold_, static_cast<float>(noise_gate_.smoothed_noise()));
+  return true;
+}
+
+/// Without noise the host does not wait for its measurement before the edges are found.
+void DeviceFrontend::detect(FrameEdges& current) {
+  do {
+    find_edges();
+  } while (smooths(current));
+  counts_.edge_threshold = used_threshold_->host_threshold();
+  current.edges_spacing = std::max(selection_.host_spacing(), static_cast<double>(kClosestSelection));
+  counts_.edges_left = left_.edges.host_count;
+  counts_.edges_right = right_.edges.host_count;
+  counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
+}
+
+void DeviceFrontend::find_edges() {
+  left_.detection.find_maxima(left_.plane, used_threshold_->values());
+  right_.detection.find_maxima(right_.plane, used_threshold_->values());
   context_.flush();
   left_.mask.run(left_.detection.maxima());
   right_.mask.run(right_.detection.maxima());
@@ -71,16 +101,11 @@ void DeviceFrontend::detect(FrameEdges& current) {
                  right_.detection.maxima());
   left_.detection.take_directions(left_.plane, left_.edges);
   right_.detection.take_directions(right_.plane, right_.edges);
-  threshold_.request();
+  used_threshold_->request();
   selection_.request();
   left_.edges.request_count();
   right_.edges.request_count();
   context_.finish();
-  counts_.edge_threshold = threshold_.host_threshold();
-  current.edges_spacing = std::max(selection_.host_spacing(), static_cast<double>(kClosestSelection));
-  counts_.edges_left = left_.edges.host_count;
-  counts_.edges_right = right_.edges.host_count;
-  counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
 }
 
 FrameEdgesHandle DeviceFrontend::process(const StereoFrame& frame) {
@@ -92,6 +117,13 @@ FrameEdges& DeviceFrontend::start(const StereoFrame& frame) {
   DeviceFrameEdges& current = rigs_.next(calibration_);
   left_.undistortion.run(frame.left, current.on_device.left_image.pixels);
   right_.undistortion.run(frame.right, current.on_device.right_image.pixels);
+  is_smoothed_ = false;
+  measure(current.on_device, threshold_, -1);
+  if (noise_gate_.is_open()) {
+    threshold_.request();
+    context_.finish();
+    smooths(current);
+  }
   return current;
 }
 

@@ -3,6 +3,7 @@
 
 #include "frontend/coarse_gate.hpp"
 #include "frontend/frontend.hpp"
+#include "frontend/noise_gate.hpp"
 #include "frontend/range_follower.hpp"
 #include "frontend/staged_frontend.hpp"
 #include "stages/candidates.hpp"
@@ -49,6 +50,11 @@ class DeviceFrontend : public StagedFrontend {
     left_.mask.set(calibration_.left_mask, config_.edges.margin, left_.detection.maxima());
   }
   FrameEdges& start(const StereoFrame& frame) override;
+  /// Prepares both images for detection and measures their threshold.
+  void measure(const stages::DeviceStereoEdges& rig, stages::EdgeThreshold& threshold, float known_noise);
+  /// Smooths both images and measures them again, if their noise asks for it and they are not smoothed yet.
+  bool smooths(FrameEdges& current);
+  void find_edges();
   void detect(FrameEdges& current) override;
   void describe(const FrameEdges& current, bool by_sift) override;
   RelaxationTally find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry, const DisparityProbe& probe,
@@ -91,7 +97,10 @@ class DeviceFrontend : public StagedFrontend {
 
   opencl::Context& context_;
   Camera left_, right_;
-  stages::EdgeThreshold threshold_;
+  stages::EdgeThreshold threshold_, smoothed_threshold_;
+  stages::EdgeThreshold* used_threshold_ = &threshold_;
+  stages::Smoothing smoothing_;
+  NoiseGate noise_gate_;
   stages::EdgeSelection selection_;
   stages::StereoCandidates stereo_candidates_;
   stages::CandidateFilters filters_;

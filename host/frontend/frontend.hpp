@@ -69,6 +69,13 @@ class Frontend {
   /// Restores a kept rig as a base of match() and match_globally().
   virtual FrameEdgesHandle restore(const KeptFrameEdges& kept) = 0;
 
+  /// Whether the current frame is so noisy that its images were smoothed.
+  bool is_smoothed() const { return is_smoothed_; }
+  /// The images of the current frame in which edges were found: `frame`, or if that is noisy the smoothed images.
+  StereoFrame searched(const StereoFrame& frame) const {
+    return is_smoothed_ ? StereoFrame{frame.stamp_ns, smoothed_left_.view(), smoothed_right_.view()} : frame;
+  }
+
   const FrontendCounts& counts() const { return counts_; }
 
   /// Edges of one of the current images.
@@ -87,6 +94,8 @@ class Frontend {
   StereoRig calibration_;
   RectificationFollower rectification_;
   FrontendCounts counts_;
+  bool is_smoothed_ = false;              ///< the current frame
+  Image smoothed_left_, smoothed_right_;  ///< as recorded, if it is
   int searches_ = 0;  ///< calls of match() for the current frame; they number TemporalMatches::search
   Tap* tap_ = nullptr;
 

@@ -11,6 +11,7 @@
 #include "reference/edge_selection.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
+#include "reference/smoothing.hpp"
 #include "reference/stereo_mutual.hpp"
 #include "reference/temporal_match.hpp"
 #include "reference/undistortion.hpp"
@@ -38,13 +39,25 @@ std::vector<std::uint8_t> sift_of(const Image& image, const EdgePositionsView& e
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : StagedFrontend(rig, config), threshold_(config.edges) {}
+    : StagedFrontend(rig, config),
+      threshold_(config.edges),
+      smoothed_threshold_(config.edges),
+      noise_gate_(rig, config.edges) {}
 
 FrameEdges& ReferenceFrontend::start(const StereoFrame& frame) {
   ReferenceFrameEdges& now = rigs_.next();
   now.left = reference::pinhole_image(frame.left, calibration_.left_undistortion);
   now.right = reference::pinhole_image(frame.right, calibration_.right_undistortion);
   counts_.edge_threshold = threshold_.next({now.left.view(), now.right.view()});
+  is_smoothed_ = noise_gate_.judge(threshold_.noise(), threshold_.gradient());
+  if (is_smoothed_) {
+    smoothed_left_ = reference::smoothed(frame.left);
+    smoothed_right_ = reference::smoothed(frame.right);
+    now.left = reference::pinhole_image(smoothed_left_.view(), calibration_.left_undistortion);
+    now.right = reference::pinhole_image(smoothed_right_.view(), calibration_.right_undistortion);
+    counts_.edge_threshold =
+        smoothed_threshold_.next({now.left.view(), now.right.view()}, noise_gate_.smoothed_noise());
+  }
   return now;
 }
 

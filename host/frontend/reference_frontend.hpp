@@ -2,6 +2,7 @@
 /// \file reference_frontend.hpp  The front end in C++, used as the reference for the whole pipeline (`--device
 /// reference`).
 
+#include "frontend/noise_gate.hpp"
 #include "frontend/staged_frontend.hpp"
 #include "reference/candidate_filters.hpp"
 #include "reference/edge_threshold.hpp"
@@ -46,7 +47,8 @@ class ReferenceFrontend : public StagedFrontend {
   ReferenceFrameEdges& own(const FrameEdges& rig) override { return rigs_.own(rig); }
   void tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result);
 
-  reference::EdgeThreshold threshold_;
+  reference::EdgeThreshold threshold_, smoothed_threshold_;
+  NoiseGate noise_gate_;
   EdgeSet left_edges_, right_edges_;
   reference::EdgeDescriptions left_described_, right_described_;
   // Of the last find_stereo_edges(), for taps:

@@ -25,7 +25,7 @@ FrameEdgesHandle StagedFrontend::process(const StereoFrame& frame) {
     range_.start_frame();
     while (!search_stereo(current)) {
     }
-  } while (!rectification_.suffices(frame, current.edges));
+  } while (!rectification_.suffices(searched(frame), current.edges));
   counts_.disparity_range = range_.disparity();
   counts_.epipolar_correction = rectification_.error().largest();
   finish(current);

@@ -30,13 +30,13 @@ frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame) {
 rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
   if (!checks_rig_) return {};
   const frontend::FrontendCounts& counts = frontend_->counts();
-  return rig_monitor_.judge(frame, current_->edges, counts.edges_left, counts.disparity_range,
+  return rig_monitor_.judge(frontend_->searched(frame), current_->edges, counts.edges_left, counts.disparity_range,
                             counts.epipolar_correction);
 }
 
 std::optional<FrameFault> FramePreparation::fault(const rig::RigReport& report) {
   const auto* mismatch = report.mismatch();
-  if (mismatch == nullptr)
+  if (mismatch == nullptr && !frontend_->is_smoothed())  // noise alone displaces patches by as much as a warning takes
     for (const auto& finding : report.findings) warn(rig::warning(finding));
   if (!has_enough_edges()) {
     const std::string cause = mismatch == nullptr ? "" : "; " + rig::warning(*mismatch).text;

@@ -15,6 +15,8 @@ const std::vector<Variant>& all_variants() {
   static const std::vector<Variant> table = {
       {"undistortion", "item64", {"undistortion.cl"}, Form::items, {}, 64, true, true,
        "one work-item per pixel, groups of 64"},
+      {"smoothing", "item64", {"smoothing.cl"}, Form::items, {}, 64, true, true,
+       "one work-item per pixel, groups of 64"},
       {"scan", "serial", {"scan.cl"}, Form::items, {}, 1, true, false, "one work-item per part of the counts"},
       {"scan", "group256", {"scan.cl"}, Form::groups, {}, 256, false, true,
        "work-groups of 256 with their sums in local memory", 2048},

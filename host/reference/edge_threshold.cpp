@@ -119,15 +119,15 @@ double ContrastTally::noise() const {
   return 0;
 }
 
-double EdgeThreshold::next(const std::vector<ImageView>& images) {
+double EdgeThreshold::next(const std::vector<ImageView>& images, std::optional<double> known_noise) {
   if (config_.threshold > 0) return config_.threshold;
   ContrastTally tally;
   for (const ImageView& image : images) tally.add(image, config_.sigma);
   const double step = kMaxGrey / images.front().max_value;  // [grey levels]
-  noise_ = step * tally.noise();
+  noise_ = known_noise ? *known_noise : step * tally.noise();
   const ThresholdLimits limits = threshold_limits(config_);
-  const double gradient = sum_of(tally.gradients) > 0 ? tally.gradient_exceeded_by(kThresholdArea) : kThresholdMax;
-  const double contrast = gradient * gradient / kThresholdMax;
+  gradient_ = sum_of(tally.gradients) > 0 ? tally.gradient_exceeded_by(kThresholdArea) : kThresholdMax;
+  const double contrast = gradient_ * gradient_ / kThresholdMax;
   const double measured =
       std::min(std::max({contrast, limits.per_noise * noise_, limits.per_step * step}), kThresholdMax);
   const double hold = kThresholdHold;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/layouts.hpp"
@@ -32,12 +33,15 @@ class EdgeThreshold {
   explicit EdgeThreshold(const EdgesConfig& config) : config_(config) {}
 
   /// The threshold of the next frame [grey levels per px], whose images these are: two, or a single one.
-  double next(const std::vector<ImageView>& images);
+  /// \param known_noise in place of a measurement
+  double next(const std::vector<ImageView>& images, std::optional<double> known_noise = std::nullopt);
   double noise() const { return noise_; }  ///< of that frame, standard deviation [grey levels]; 0 if not measured
+  /// That a fifth of the frame exceeds [grey levels per px]; 0 if not measured.
+  double gradient() const { return gradient_; }
 
  private:
   EdgesConfig config_;
-  double threshold_ = 0, noise_ = 0;
+  double threshold_ = 0, noise_ = 0, gradient_ = 0;
 };
 
 }  // namespace quadedge::reference

@@ -18,7 +18,7 @@ constexpr int kStripRows = 32;               // that one work-item filters: two 
 
 EdgeThreshold::EdgeThreshold(opencl::Context& context, const EdgesConfig& config, const opencl::VariantChoice& variants)
     : Stage(context, "edge_threshold", variants), config_(config) {
-  values_.write(context, {static_cast<cl_float>(config.threshold), 0.0F});
+  values_.write(context, {static_cast<cl_float>(config.threshold), 0.0F, 0.0F});
   if (config.threshold > 0) return;
   opencl::Defines defines = gradient_defines(config);
   defines["GROUP"] = std::to_string(variant_.local_size);
@@ -48,14 +48,14 @@ int EdgeThreshold::tally(const PaddedPlane& plane, int first) {
   return rows;
 }
 
-void EdgeThreshold::run(const PaddedPlane& left, const PaddedPlane* right) {
+void EdgeThreshold::run(const PaddedPlane& left, const PaddedPlane* right, float known_noise) {
   if (config_.threshold > 0) return;
   begin();
   const int rows = (left.height() + (right != nullptr ? right->height() : 0)) / kThresholdStep + 1;
   tallies_.ensure(context_, static_cast<std::size_t>(rows) * kThresholdBins);
   int count = tally(left, 0);
   if (right != nullptr) count += tally(*right, count);
-  choose_({local_size_, local_size_}, arguments(left), tallies_, count, values_);
+  choose_({local_size_, local_size_}, arguments(left), tallies_, count, known_noise, values_);
 }
 
 EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, const EdgesConfig& config,

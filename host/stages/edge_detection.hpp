@@ -18,16 +18,19 @@ class EdgeThreshold : private Stage {
   /// `variants`: stage "edge_threshold". \throws UsageError for an unknown variant.
   EdgeThreshold(opencl::Context& context, const EdgesConfig& config, const opencl::VariantChoice& variants);
 
-  /// Enqueues the measurement of a stereo pair, or of a single image (`right` null).
-  void run(const PaddedPlane& left, const PaddedPlane* right);
+  /// Enqueues the measurement of a stereo pair, or of a single image (`right` null). \param known_noise in place of a
+  /// measurement, unless it is negative
+  void run(const PaddedPlane& left, const PaddedPlane* right, float known_noise = -1);
 
-  /// {threshold [grey levels per px], standard deviation of the noise [grey levels], 0 if not measured} of the last
-  /// frame.
+  /// {threshold [grey levels per px], standard deviation of the noise [grey levels], gradient that a fifth of the
+  /// images exceeds} of the last frame; the last two are 0 if not measured.
   const opencl::Buffer<cl_float>& values() const { return values_; }
 
   /// Copies them to the host, where they are valid after the next wait for the queue.
-  void request() { values_.read_later(host_values_, 2); }
+  void request() { values_.read_later(host_values_, 3); }
   double host_threshold() const { return static_cast<double>(host_values_[0]); }
+  double host_noise() const { return static_cast<double>(host_values_[1]); }
+  double host_gradient() const { return static_cast<double>(host_values_[2]); }
 
  private:
   /// Enqueues the tallies of one image, the first of which is number `first`. \returns how many.
@@ -37,11 +40,13 @@ class EdgeThreshold : private Stage {
   EdgesConfig config_;
   opencl::Buffer<cl_float> values_;
   opencl::Buffer<cl_int> tallies_;
-  cl_float host_values_[2] = {0, 0};
+  cl_float host_values_[3] = {0, 0, 0};
   opencl::Kernel<void(ThresholdArguments args, const cl_float* plane, const cl_float* taps, cl_int first_tally,
                       cl_int* tallies)>
       tally_;
-  opencl::Kernel<void(ThresholdArguments args, const cl_int* tallies, cl_int count, cl_float* result)> choose_;
+  opencl::Kernel<void(ThresholdArguments args, const cl_int* tallies, cl_int count, cl_float known_noise,
+                      cl_float* result)>
+      choose_;
 };
 
 /// Stage 2b: third-order edges of one image.

@@ -77,6 +77,7 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
     : Stage(context, "undistortion", variants),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       bytes_per_pixel_(bytes_per_pixel(max_value)),
+      max_value_(max_value),
       active_(!table.empty()) {
   if (!active_) return;
   kernel_ = {context, variant_.program(context, image_defines(max_value)), "undistort"};
@@ -102,15 +103,42 @@ void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& t
 
 void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& image) {
   begin();
-  if (!active_) {
-    upload(recorded, image);
-    return;
-  }
-  upload(recorded, recorded_);
+  recorded_width_ = recorded.width;
+  recorded_height_ = recorded.height;
+  upload(recorded, active_ ? recorded_ : image);
+  if (active_) undistort(image);
+}
+
+void Undistortion::undistort(opencl::Buffer<cl_uchar>& image) {
   image.ensure(context_, pixels_ * bytes_per_pixel_);
-  corners_->prepare(recorded_, recorded.width, recorded.height);
-  kernel_(over(pixels_), corners_->values(), recorded.width, recorded.height, source_x_, source_y_, image,
+  corners_->prepare(recorded_, recorded_width_, recorded_height_);
+  kernel_(over(pixels_), corners_->values(), recorded_width_, recorded_height_, source_x_, source_y_, image,
           static_cast<cl_int>(pixels_));
+}
+
+void Undistortion::smooth(Smoothing& smoothing, opencl::Buffer<cl_uchar>& image, Image& recorded) {
+  opencl::Buffer<cl_uchar>& pixels = active_ ? recorded_ : image;
+  smoothing.run(recorded_width_, recorded_height_, pixels);
+  recorded = Image(recorded_width_, recorded_height_, max_value_);
+  recorded.pixels = pixels.read(recorded.pixels.size());
+  begin();
+  if (active_) undistort(image);
+}
+
+Smoothing::Smoothing(opencl::Context& context, const opencl::VariantChoice& variants, int max_value)
+    : Stage(context, "smoothing", variants) {
+  const cl::Program program = variant_.program(context, image_defines(max_value));
+  rows_ = {context, program, "smooth_rows"};
+  columns_ = {context, program, "smooth_columns"};
+}
+
+void Smoothing::run(int width, int height, opencl::Buffer<cl_uchar>& image) {
+  begin();
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  sums_.ensure(context_, columns * rows);
+  const opencl::Range pixels{columns, rows, local_size_, 1};
+  rows_(pixels, image, width, height, sums_);
+  columns_(pixels, sums_, width, height, image);
 }
 
 }  // namespace quadedge::stages

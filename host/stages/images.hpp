@@ -72,6 +72,20 @@ class PaddedPlane {
 /// The defines of every program that begins with edge_detection.cl.
 opencl::Defines gradient_defines(const EdgesConfig& config);
 
+/// Smooths noisy images, one after another.
+class Smoothing : private Stage {
+ public:
+  Smoothing(opencl::Context& context, const opencl::VariantChoice& variants, int max_value = kMaxValue8);
+
+  /// Enqueues the smoothing of `image` (packed, height x width), which is replaced.
+  void run(int width, int height, opencl::Buffer<cl_uchar>& image);
+
+ private:
+  opencl::Buffer<cl_uint> sums_;
+  opencl::Kernel<void(const cl_uchar* bytes, cl_int width, cl_int height, cl_uint* sums)> rows_;
+  opencl::Kernel<void(const cl_uint* sums, cl_int width, cl_int height, cl_uchar* bytes)> columns_;
+};
+
 /// Stage 1: converts the recorded image to a pinhole image.
 /// Uploads the images of one camera and removes lens distortion; without a table it only uploads.
 class Undistortion : private Stage {
@@ -84,11 +98,16 @@ class Undistortion : private Stage {
   /// Enqueues upload and undistortion. `image` receives the packed pinhole image, height x width.
   /// The recorded image may have any size when there is a table.
   void run(const ImageView& recorded, opencl::Buffer<cl_uchar>& image);
+  /// Smooths the recorded image on the device, which `recorded` receives, and undistorts it again. \param image as
+  /// run() has left it
+  void smooth(Smoothing& smoothing, opencl::Buffer<cl_uchar>& image, Image& recorded);
 
  private:
+  void undistort(opencl::Buffer<cl_uchar>& image);
   void upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target);
 
   std::size_t pixels_ = 0, bytes_per_pixel_;
+  int max_value_, recorded_width_ = 0, recorded_height_ = 0;
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;
   opencl::Buffer<cl_uchar> recorded_;

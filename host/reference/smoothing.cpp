@@ -1,0 +1,49 @@
+#include "reference/smoothing.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace quadedge::reference {
+namespace {
+
+/// A row of Pascal's triangle.
+std::vector<std::int64_t> binomial(int order) {
+  std::vector<std::int64_t> row{1};
+  for (int n = 0; n < order; ++n) {
+    std::vector<std::int64_t> next(row.size() + 1, 0);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      next[k] += row[k];
+      next[k + 1] += row[k];
+    }
+    row = next;
+  }
+  return row;
+}
+
+}  // namespace
+
+Image smoothed(const ImageView& image) {
+  constexpr int kOrder = 16;
+  const std::vector<std::int64_t> weights = binomial(kOrder);
+  Image result(image.width, image.height, image.max_value);
+  const auto clamped = [](int i, int size) { return std::clamp(i, 0, size - 1); };
+  const auto weight = [&](int offset) { return weights[static_cast<std::size_t>(offset + kOrder / 2)]; };
+  std::vector<std::int64_t> along_y(static_cast<std::size_t>(image.width));
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      std::int64_t sum = 0;
+      for (int k = -kOrder / 2; k <= kOrder / 2; ++k) sum += weight(k) * image.value(x, clamped(y + k, image.height));
+      along_y[static_cast<std::size_t>(x)] = sum;
+    }
+    for (int x = 0; x < image.width; ++x) {
+      std::int64_t sum = std::int64_t{1} << (2 * kOrder - 1);  // a half
+      for (int k = -kOrder / 2; k <= kOrder / 2; ++k)
+        sum += weight(k) * along_y[static_cast<std::size_t>(clamped(x + k, image.width))];
+      result.set(x, y, static_cast<int>(sum >> (2 * kOrder)));
+    }
+  }
+  return result;
+}
+
+}  // namespace quadedge::reference
