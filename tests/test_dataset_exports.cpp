@@ -202,6 +202,12 @@ TEST_CASE("dataset: lists may name their columns in a first line without a comme
     write_text(folder / (camera + "/data.csv"), "timestamp,filename\n1000000000,a.png\n1050000000,b.png\n");
   }
   CHECK(open_dataset(folder / ".").frames.size() == 2);
+  for (const std::string camera : {"cam0", "cam1"}) {  // as Kalibr extracts bags
+    write_image(folder / ("kalibr/" + camera + "/1403636584763555584.png"), 752, 480);
+    write_image(folder / ("kalibr/" + camera + "/1403636584813555584.png"), 752, 480);
+  }
+  write_text(folder / "kalibr/camchain.yaml", kalibr_chain(rig, "both"));
+  CHECK(open_dataset(folder / "kalibr").frames.at(1).stamp_ns == 1403636584813555584);
   write_text(folder / "seconds.csv", "timestamp,x,y,z,qw,qx,qy,qz\n1403636584.763555584,1,2,3,1,0,0,0\n");
   const Trajectory seconds = read_trajectory(folder / "seconds.csv");
   REQUIRE(seconds.size() == 1);

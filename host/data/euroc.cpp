@@ -20,7 +20,7 @@ namespace {
 /// Published ground truth has a rate of 200 Hz (or one pose per frame), so that the nearest row is at most 2.5 ms away.
 constexpr std::int64_t kTruthToleranceNs = 5'000'000;
 
-/// Times and image files of a camera: of data.csv, or of data/ or images/ with times.txt or times in the names.
+/// Times and image files of a camera: of data.csv, or of data/, images/ or itself, with times in a file or the names.
 std::vector<std::pair<std::int64_t, std::string>> read_camera(const fs::path& camera) {
   std::vector<std::pair<std::int64_t, std::string>> list;
   if (fs::exists(camera / "data.csv")) {
@@ -28,7 +28,9 @@ std::vector<std::pair<std::int64_t, std::string>> read_camera(const fs::path& ca
     for (auto& entry : list) entry.second = (camera / "data" / entry.second).string();
     return list;
   }
-  const fs::path folder = fs::is_directory(camera / "images") ? camera / "images" : camera / "data";
+  fs::path folder = camera;  // itself, as Kalibr's bagextractor writes it
+  for (const char* name : {"data", "images"})
+    if (fs::is_directory(camera / name)) folder = camera / name;
   CameraImages images = list_images(folder);
   for (const fs::path& times : {camera / ".." / "timestamps.txt", camera / ".." / ".." / "timestamps.txt"})
     if (images.stamps_ns.empty() && fs::exists(times)) images.stamps_ns = read_time_rows(times.string()).stamps_ns;

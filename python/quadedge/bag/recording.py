@@ -124,7 +124,8 @@ class Recording:
                                              (self.topics.right, self.topics.right_info)) if info not in self._infos]
         if missing:
             raise DataError(f"{self.name}: found no camera_info of {' and '.join(missing)}, expected one beside the "
-                            "images, or a calibration file")
+                            "images, or others by --left-info and --right-info (left_info=, right_info=), or a "
+                            "calibration file")
         return self._infos[self.topics.left_info], self._infos[self.topics.right_info]
 
     @property
@@ -140,6 +141,7 @@ class Recording:
             return Rig.from_file(self._calibration, max_value=max_value, rectified=self.calibration_states_p)
         infos, topics = self._camera_infos(), (self.topics.left_info, self.topics.right_info)
         return rig_of(infos, [f"{self.name}: {topic}" for topic in topics], self.rectified, max_value)
+
     def write_calibration(self, folder: Path) -> str:
         """The calibration as ``quadedge run --calibration`` takes it; camera_info is written to files in ``folder``."""
         given = self._calibration
