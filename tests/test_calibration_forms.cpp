@@ -641,6 +641,7 @@ TEST_CASE("calibration forms: words and wrappings that programs leave out or add
                           {"\nR:", "\nRot:"},
                           {"\nT:", "\ntranslationVector:"}})),
             3e-9);
+  check_rig(read(renamed({{"K1:", "left:\n  K:"}, {"D1:", "  D:"}, {"K2:", "right:\n  K:"}, {"D2:", "  D:"}})), 3e-9);
   const std::string wrapped = basalt(rig);
   check_rig(read(wrapped.substr(wrapped.find('{', 1), wrapped.rfind('}') - wrapped.find('{', 1))), 3e-9);
   std::string wide = "\xFF\xFE";  // as PowerShell redirects

@@ -54,6 +54,9 @@ TEST_CASE("image list: times.txt and data.csv beside the images give the timesta
   CHECK(images.stamps_ns == std::vector<std::int64_t>{0, 500'000'000, 1'000'000'000});
   CHECK_THAT(images.files[2], Contains("10.png"));
   CHECK(images.stamps_from == (std::filesystem::path(folder / "a") / ".." / "times.txt").string());
+  std::filesystem::rename(folder / "times.txt", folder / "timestamps.txt");  // as beside the data of KITTI's raw drives
+  CHECK(data::list_images(folder / "a").stamps_ns == images.stamps_ns);
+  std::filesystem::rename(folder / "timestamps.txt", folder / "times.txt");
   // A list takes precedence over times.txt and defines the order.
   dataset_files::write_text(folder / "a/data.csv", "#timestamp [ns],filename\n7,10.png\n9,1.png\n");
   images = list_images(folder / "a");

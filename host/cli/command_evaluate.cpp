@@ -131,7 +131,11 @@ class EvaluateTrajectoryCommand : public Command {
   /// Ground truth of a sequence's folder and the stamps of its frames; gives these to the estimate if it has none.
   Trajectory folder_truth(Loaded& estimate, std::vector<std::int64_t>& frames) const {
     const Dataset dataset = open_dataset(truth_, dataset_);
-    if (dataset.truth.empty()) throw DataError(truth_ + ": the sequence has no ground truth");
+    if (dataset.truth.empty()) {
+      std::string notes;
+      for (const std::string& note : dataset.notes) notes += "; " + note;
+      throw DataError(truth_ + ": the sequence has no ground truth" + notes);
+    }
     for (const auto& frame : dataset.frames) frames.push_back(frame.stamp_ns);
     if (!estimate.timed) give_stamps(estimate.poses, frames, estimate_, truth_);
     return dataset.truth;

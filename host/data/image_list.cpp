@@ -128,6 +128,11 @@ CameraImages list_images(const fs::path& folder, bool needs_stamps) {
   std::vector<std::string> stems;
   for (const auto& file : images.files) stems.push_back(fs::path(file).stem().string());
   const auto stamps = stamps_of_names(stems, folder.string());
+  if (const std::string rows = beside(folder, "timestamps.txt"); !stamps && !rows.empty()) {
+    images.stamps_from = rows;  // of KITTI's raw drives
+    take_times(read_time_rows(rows), rows, folder, images);
+    return images;
+  }
   if (!stamps) return images;
   images.stamps_ns = *stamps;
   images.stamps_from = "the names in " + folder.string();

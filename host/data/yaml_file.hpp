@@ -35,6 +35,7 @@ class YamlMap {
   YamlMap as(const std::string& what) const;
   std::vector<std::string> keys() const;
   bool has(const std::string& key) const { return node_[key].IsDefined(); }
+  bool holds_map(const std::string& key) const { return node_[key].IsMap(); }
   /// Line number of the entry, from 1.
   int line(const std::string& key) const { return node_[key].Mark().line + 1; }
   /// Full name of the entry, "cam0.intrinsics".

@@ -18,12 +18,12 @@ const Words kCameraNames = {"m", "k", "cameramatrix", "cammatrix", "cammtx", "mt
             kDistortionNames = {"d",          "distcoeffs", "distcoeff", "distortioncoefficients", "distortioncoeffs",
                                 "distortion", "dist"},
             kLeft = {"1", "l", "left"}, kRight = {"2", "r", "right"},
-            kRotationNames = {"r", "rotation", "rotationmatrix", "rot", "rvec", "stereor"},
-            kTranslationNames = {"t", "translation", "translationvector", "trans", "tvec", "stereot"};
+            kRotationNames = {"r", "rotation", "rotationmatrix", "rot", "rvec", "stereor", "extrinsicsr"},
+            kTranslationNames = {"t", "translation", "translationvector", "trans", "tvec", "stereot", "extrinsicst"};
 
-/// An entry of one of the files.
+/// An entry of one of the files, or of a map in it ("left: {K: ...}").
 struct Place {
-  const YamlMap* map;
+  std::optional<YamlMap> map;
   std::string key;
 };
 
@@ -35,15 +35,27 @@ std::string plain(const std::string& name) {
   return letters;
 }
 
+/// All entries by their plain names; those of a map other than a matrix follow its name.
+std::vector<std::pair<std::string, Place>> entries_of(const CalibrationText& text) {
+  std::vector<std::pair<std::string, Place>> entries;
+  if (!text.map) return entries;
+  for (const std::string& key : text.map->keys()) {
+    entries.emplace_back(plain(key), Place{text.map, key});
+    if (!text.map->holds_map(key)) continue;
+    const YamlMap inner = text.map->map(key);
+    if (inner.has("data")) continue;
+    for (const std::string& name : inner.keys()) entries.emplace_back(plain(key + name), Place{inner, name});
+  }
+  return entries;
+}
+
 std::optional<Place> find(const std::vector<CalibrationText>& texts, const Words& names, const Words& sides = {""}) {
   for (const CalibrationText& text : texts) {
-    if (!text.map) continue;
-    const auto keys = text.map->keys();
+    const auto entries = entries_of(text);
     for (const std::string& name : names)
       for (const std::string& side : sides)
-        for (const std::string& key : keys)
-          if (const std::string word = plain(key); word == name + side || word == side + name)
-            return Place{&*text.map, key};
+        for (const auto& [word, place] : entries)
+          if (word == name + side || word == side + name) return place;
   }
   return std::nullopt;
 }
