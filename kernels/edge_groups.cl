@@ -13,21 +13,21 @@ static inline int are_chained(const PackedPositions at, global const float* pack
 // Number of groups among edges[begin .. end - 1]. On entry label[c] is c where edge c takes part, negative where it
 // does not; on return it is the first member of the edge's group. A macro, since OpenCL C 1.2 has no pointers to any
 // address space: lists are in private or in global memory.
-#define DEFINE_COUNT_GROUPS(SPACE)                                                                                 \
-  static inline int count_groups(const int begin, const int end, SPACE const int* edges, const PackedPositions at, \
-                                 global const float* packed, const QuadChoice* choice, SPACE int* label) {         \
-    for (int changed = 1; changed;) {                                                                              \
-      changed = 0;                                                                                                 \
-      for (int c = begin; c < end; ++c) {                                                                          \
-        for (int d = begin; d < c && label[c] >= 0; ++d) {                                                         \
-          if (label[d] < 0 || label[d] == label[c]) continue;                                                      \
-          if (!are_chained(at, packed, edges[c], edges[d], choice)) continue;                                      \
-          label[c] = label[d] = min(label[c], label[d]);                                                           \
-          changed = 1;                                                                                             \
-        }                                                                                                          \
-      }                                                                                                            \
-    }                                                                                                              \
-    int groups = 0;                                                                                                \
-    for (int c = begin; c < end; ++c) groups += label[c] == c;                                                     \
-    return groups;                                                                                                 \
+#define DEFINE_COUNT_GROUPS(NAME, SPACE)                                                                   \
+  static inline int NAME(const int begin, const int end, SPACE const int* edges, const PackedPositions at, \
+                         global const float* packed, const QuadChoice* choice, SPACE int* label) {         \
+    for (int changed = 1; changed;) {                                                                      \
+      changed = 0;                                                                                         \
+      for (int c = begin; c < end; ++c) {                                                                  \
+        for (int d = begin; d < c && label[c] >= 0; ++d) {                                                 \
+          if (label[d] < 0 || label[d] == label[c]) continue;                                              \
+          if (!are_chained(at, packed, edges[c], edges[d], choice)) continue;                              \
+          label[c] = label[d] = min(label[c], label[d]);                                                   \
+          changed = 1;                                                                                     \
+        }                                                                                                  \
+      }                                                                                                    \
+    }                                                                                                      \
+    int groups = 0;                                                                                        \
+    for (int c = begin; c < end; ++c) groups += label[c] == c;                                             \
+    return groups;                                                                                         \
   }

@@ -91,7 +91,7 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
   return kept;
 }
 
-DEFINE_COUNT_GROUPS(private)
+DEFINE_COUNT_GROUPS(count_groups, private)
 
 // LONG: a row from the index to its quad, all of it in private memory.
 IN_VECTORS

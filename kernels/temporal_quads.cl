@@ -28,7 +28,7 @@ kernel void temporal_agreement(const TemporalAgreementArguments args, global con
   }
 }
 
-DEFINE_COUNT_GROUPS(global)
+DEFINE_COUNT_GROUPS(count_groups_of_list, global)
 
 // One work-item = one row. Joins living candidates whose left positions chain up within cluster_gap with directions
 // within cluster_orientation. The member with the highest score wins; a score counts less by distance_weight for the
@@ -57,6 +57,6 @@ kernel void temporal_best(const TemporalBestArguments args, global const int* fi
     ((global int4*)result)[row] = (int4)(-1, 0, 0, 0);
     return;
   }
-  const int groups = count_groups(begin, end, target, args.current, current, &args.choice, label);
+  const int groups = count_groups_of_list(begin, end, target, args.current, current, &args.choice, label);
   ((global int4*)result)[row] = (int4)(target[winner], groups - 1, as_int(score[winner]), 0);
 }

@@ -6,7 +6,7 @@
 
 #define HALF 7  // samples on either side of the middle one
 #define SIDE (2 * HALF + 1)
-#define CELL_WIDTH 3.0f  // small pixels
+#define WIDE_CELL_WIDTH 3.0f  // small pixels
 #define CLIP 0.2f
 #define NORM 512.0f
 
@@ -14,8 +14,8 @@
 constant float8 kCosine = (float8)(1.0f, 0.707106781f, 0.0f, -0.707106781f, -1.0f, -0.707106781f, 0.0f, 0.707106781f);
 constant float8 kSine = (float8)(0.0f, 0.707106781f, 1.0f, 0.707106781f, 0.0f, -0.707106781f, -1.0f, -0.707106781f);
 // exp(-k^2 / 72), k = 0 .. 7: the window's Gaussian has a standard deviation of 2 cells.
-constant float kWindow[HALF + 1] = {1.0f,         0.986207117f, 0.945959469f, 0.882496903f,
-                                    0.800737403f, 0.706648277f, 0.60653066f,  0.50633562f};
+constant float kWideWindow[HALF + 1] = {1.0f,         0.986207117f, 0.945959469f, 0.882496903f,
+                                        0.800737403f, 0.706648277f, 0.60653066f,  0.50633562f};
 
 kernel void wide_shrink(global const uchar* bytes, const int width, const int small_width, const int small_height,
                         global float* small) {
@@ -42,8 +42,8 @@ static inline float wide_sample(global const float* small, const int width, cons
 
 // Weight that a sample `offset` small pixels from the middle has in a cell, along one axis.
 static inline float wide_weight(const int offset, const int cell) {
-  const float distance = fabs((float)offset * (1.0f / CELL_WIDTH) - ((float)cell - 0.5f * (kWideCells - 1)));
-  return max(0.0f, 1.0f - distance) * kWindow[abs(offset)];
+  const float distance = fabs((float)offset * (1.0f / WIDE_CELL_WIDTH) - ((float)cell - 0.5f * (kWideCells - 1)));
+  return max(0.0f, 1.0f - distance) * kWideWindow[abs(offset)];
 }
 
 // What a gradient gives to the angle bins.

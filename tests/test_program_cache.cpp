@@ -87,6 +87,13 @@ TEST_CASE("program cache: a context uses a stored program and rebuilds a damaged
   const TemporaryFolder folder;
   DeviceOptions options;
   options.program_folder = folder / "programs";
+  if (Device(name, options).info().platform == "Portable Computing Language") {
+    // It caches kernels itself, and to hand out a program it compiles all of its kernels once more.
+    Device device(name, options);
+    device.context()->program({"undistortion.cl"}, {});
+    CHECK_FALSE(std::filesystem::exists(folder / "programs"));
+    return;
+  }
   const auto undistort = [&] {
     Device device(name, options);
     const auto program = device.context()->program({"undistortion.cl"}, {});

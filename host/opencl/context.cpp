@@ -21,6 +21,8 @@ Context::Context(cl::Device device, const DeviceOptions& options, const DeviceLi
     const cl::Platform platform(device_.getInfo<CL_DEVICE_PLATFORM>());
     driver_ = platform.getInfo<CL_PLATFORM_NAME>() + "\n" + platform.getInfo<CL_PLATFORM_VERSION>() + "\n" + name_ +
               "\n" + device_.getInfo<CL_DEVICE_VERSION>() + "\n" + device_.getInfo<CL_DRIVER_VERSION>() + "\n";
+    // PoCL has a cache of its own, and for a binary compiles every kernel once more, for groups of any size.
+    keeps_binaries_ = !options.program_folder.empty() && driver_.rfind("Portable Computing Language", 0) != 0;
     take_limits(limits);
     context_ = cl::Context(device_);
     queue_ =
@@ -111,11 +113,14 @@ cl::Program Context::program(const std::vector<std::string>& files, const Define
   for (const auto& file : files) source += "\n" + kernel_text(file);
   const auto start = std::chrono::steady_clock::now();
   const std::string kept_as = driver_ + options + "\n" + source;
-  auto program = find_kept(kept_as, options);
+  std::optional<cl::Program> program;
+  if (keeps_binaries_) program = find_kept(kept_as, options);
   if (!program) {
     program = build(source, options, files.empty() ? "common.cl" : files.back());
-    const auto binaries = program->getInfo<CL_PROGRAM_BINARIES>();
-    if (!binaries.empty() && !binaries.front().empty()) cache_.keep(kept_as, binaries.front());
+    if (keeps_binaries_) {
+      const auto binaries = program->getInfo<CL_PROGRAM_BINARIES>();
+      if (!binaries.empty() && !binaries.front().empty()) cache_.keep(kept_as, binaries.front());
+    }
   }
   build_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   programs_.emplace(key, *program);

@@ -63,7 +63,7 @@ class Context {
   bool profiling() const { return profiling_; }
 
   /// Returns the program made of common.cl, layouts.cl and `files`, in that order. It is built once per context and set
-  /// of defines, or loaded from the program cache.
+  /// of defines, or loaded from the program cache or the driver's own.
   /// \throws DeviceError with device, options and compiler log, which names kernel file and line
   cl::Program program(const std::vector<std::string>& files, const Defines& defines);
 
@@ -149,6 +149,7 @@ class Context {
   ProgramCache cache_;
   Limits limits_;
   std::string build_options_;
+  bool keeps_binaries_ = false;
   bool checks_kernels_ = false;
   std::vector<std::string> kernel_faults_;
   bool copies_in_flight_ = false;

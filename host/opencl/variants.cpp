@@ -1,12 +1,14 @@
 #include "opencl/variants.hpp"
 
+#include <algorithm>
+
 #include "quadedge/error.hpp"
 
 namespace quadedge::opencl {
 
 cl::Program Variant::program(Context& context, Defines others) const {
   others.insert(defines.begin(), defines.end());
-  return context.program(files, others);
+  return default_on_cpu ? joint_program(context, files, others) : context.program(files, others);
 }
 
 const std::vector<Variant>& all_variants() {
@@ -111,6 +113,51 @@ const std::vector<Variant>& all_variants() {
 
 namespace {
 
+/// A program of CPUs: the default variants of `stages`, and `files` that prepare their data.
+struct Joint {
+  std::vector<std::string> stages, files;
+  Defines defines;
+
+  /// Takes over what the table of variants says about the stages.
+  Joint filled() const {
+    Joint whole{stages, {}, {}};
+    const auto add = [&](const std::string& file) {
+      if (!whole.holds({file})) whole.files.push_back(file);
+    };
+    for (const auto& variant : all_variants()) {
+      if (!variant.default_on_cpu || std::find(stages.begin(), stages.end(), variant.stage) == stages.end()) continue;
+      for (const auto& file : variant.files) add(file);
+      whole.defines.insert(variant.defines.begin(), variant.defines.end());
+    }
+    for (const auto& file : files) add(file);
+    return whole;
+  }
+  bool holds(const std::vector<std::string>& wanted) const {
+    return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& file) {
+      return std::find(files.begin(), files.end(), file) != files.end();
+    });
+  }
+};
+
+/// One program per kind of setting that the kernels depend on: the scale of the edges, the depth of the images, none.
+const std::vector<Joint>& joint_programs() {
+  static const std::vector<Joint> programs = [] {
+    std::vector<Joint> list = {
+        {{"edge_threshold", "edge_detection"}, {"edge_selection.cl"}, {}},
+        {{"undistortion", "patches", "sift", "stereo_refinement", "coarse_disparity", "wide_description"},
+         {"pixel_corners.cl"},
+         {}},
+        {{"scan", "stereo_candidates", "candidate_filters", "stereo_clusters", "stereo_relaxation", "stereo_mutual",
+          "point_index", "temporal_candidates", "temporal_match", "temporal_quads", "wide_matching"},
+         {"edge_mask.cl"},
+         {}},
+    };
+    for (Joint& joint : list) joint = joint.filled();
+    return list;
+  }();
+  return programs;
+}
+
 const Variant& find_variant(const std::string& stage, const std::string& name) {
   std::string names, stages;
   for (const auto& variant : all_variants()) {
@@ -131,6 +178,17 @@ const Variant& find_variant(const std::string& stage, const std::string& name) {
 }
 
 }  // namespace
+
+cl::Program joint_program(Context& context, const std::vector<std::string>& files, Defines defines) {
+  if (context.is_cpu()) {
+    for (const Joint& joint : joint_programs()) {
+      if (!joint.holds(files)) continue;
+      defines.insert(joint.defines.begin(), joint.defines.end());
+      return context.program(joint.files, defines);
+    }
+  }
+  return context.program(files, defines);
+}
 
 const Variant& choose_variant(const std::string& stage, const Context& context, const VariantChoice& chosen) {
   const auto fits = [&](const Variant& variant) {

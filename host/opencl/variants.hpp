@@ -39,6 +39,11 @@ struct Variant {
 /// Every variant of every stage, in the order of the stages.
 const std::vector<Variant>& all_variants();
 
+/// A program with `files`, which belong to default variants or prepare their data. On CPUs these share a few programs:
+/// PoCL reads OpenCL's own header anew for every program, which takes longer than most kernels.
+/// \throws as Context::program()
+cl::Program joint_program(Context& context, const std::vector<std::string>& files, Defines defines = {});
+
 /// The variant of `stage` selected in `chosen`, else the default for the type of the device. If the device cannot run
 /// that, because its groups or local memory are too small, the variant with the largest groups that it can run.
 /// \throws UsageError for an unknown name, with the known ones; DeviceError if the device cannot run the variant

@@ -21,7 +21,7 @@ EdgeThreshold::EdgeThreshold(opencl::Context& context, const EdgesConfig& config
   values_.write(context, {static_cast<cl_float>(config.threshold), 0.0F, 0.0F});
   if (config.threshold > 0) return;
   opencl::Defines defines = gradient_defines(config);
-  defines["GROUP"] = std::to_string(variant_.local_size);
+  if (is_grouped()) defines["GROUP"] = std::to_string(variant_.local_size);
   const cl::Program program = variant_.program(context, defines);
   tally_ = {context, program, "edges_tally"};
   choose_ = {context, program, "edges_threshold"};
@@ -160,11 +160,10 @@ void EdgeMask::set(const PixelMask& mask, int margin, const EdgeMaxima& maxima) 
   if (mask.empty()) return;
   hidden_.write(context_, with_border(mask, margin).hidden);
   if (std::exchange(is_built_, true)) return;
-  const cl::Program program = context_.program({"edge_mask.cl"}, maxima.defines());
   if (maxima.at_pixels) {
-    pixels_ = {context_, program, "edge_mask_pixels"};
+    pixels_ = {context_, context_.program({"edge_mask.cl"}, maxima.defines()), "edge_mask_pixels"};
   } else {
-    rows_ = {context_, program, "edge_mask_rows"};
+    rows_ = {context_, opencl::joint_program(context_, {"edge_mask.cl"}), "edge_mask_rows"};
   }
 }
 
@@ -190,7 +189,9 @@ EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config
   opencl::Defines defines = gradient_defines(config);
   defines.merge(maxima.defines());
   if (maxima.at_pixels) defines["GROUP"] = std::to_string(weighing_group_);
-  const cl::Program program = context.program({"edge_detection.cl", "edge_selection.cl"}, defines);
+  const std::vector<std::string> files = {"edge_detection.cl", "edge_selection.cl"};
+  const cl::Program program =
+      maxima.at_pixels ? context.program(files, defines) : opencl::joint_program(context, files, defines);
   space_ = {context, program, "edge_selection_spacing"};
   if (maxima.at_pixels) {
     weigh_pixels_ = {context, program, "edge_selection_weigh_pixels"};

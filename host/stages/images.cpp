@@ -35,7 +35,8 @@ std::vector<cl_float> pair_taps(double sigma) {
 PixelCorners::PixelCorners(opencl::Context& context, int max_value)
     : context_(&context),
       words_per_pixel_(bytes_per_pixel(max_value)),
-      kernel_(context, context.program({"pixel_corners.cl"}, image_defines(max_value)), "pixel_corners") {}
+      kernel_(context, opencl::joint_program(context, {"pixel_corners.cl"}, image_defines(max_value)),
+              "pixel_corners") {}
 
 void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int height) {
   width_ = width;

@@ -9,7 +9,9 @@ constexpr int kSmall = 4096;                           // one group is enough up
 }  // namespace
 
 Scan::Scan(opencl::Context& context, const opencl::VariantChoice& variants) : Stage(context, "scan", variants) {
-  kernel_ = {context, variant_.program(context, {{"SCAN_LOCAL", std::to_string(local_size_)}}), "scan"};
+  opencl::Defines defines;
+  if (is_grouped()) defines["SCAN_LOCAL"] = std::to_string(local_size_);
+  kernel_ = {context, variant_.program(context, defines), "scan"};
 }
 
 void Scan::run(const opencl::Buffer<cl_int>& counts, int count, int capacity, opencl::Buffer<cl_int>& first,
