@@ -4,12 +4,15 @@
 #include "common/images.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
+#include "frontend/common_view.hpp"
+#include "frontends.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/edge_mask.hpp"
 #include "stages/edge_detection.hpp"
 
 using namespace quadedge;
+using frontend::within_common_view;
 
 namespace {
 
@@ -76,5 +79,77 @@ TEST_CASE("edge mask: every device and variant keeps the same edges as the refer
       }
       CHECK(detect_edges(image.view(), device, config).size() == all.size());
     }
+  }
+}
+
+namespace {
+
+/// A rectified rig of 100 x 60 px.
+StereoRig hundred_pixel_rig() {
+  StereoRig rig;
+  rig.left = rig.right = {100, 100, 49.5, 29.5, 100, 60};
+  rig.right_from_left.translation().x() = -0.1;
+  return rig;
+}
+
+/// Whether exactly the pixels with wanted(x, y) are hidden.
+template <class Wanted>
+bool hides(const PixelMask& mask, const Wanted& wanted) {
+  REQUIRE(mask.hidden.size() == static_cast<std::size_t>(mask.width * mask.height));
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x)
+      if ((mask.hidden[static_cast<std::size_t>(y * mask.width + x)] != 0) != wanted(x, y)) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("common view: equal rectified cameras hide nothing, and keep their masks", "[frontend]") {
+  StereoRig rig = hundred_pixel_rig();
+  CHECK(within_common_view(rig).left_mask.empty());
+  CHECK(within_common_view(rig).right_mask.empty());
+  rig.left_mask = {100, 60, std::vector<std::uint8_t>(6000)};
+  rig.left_mask.hidden[1234] = 1;
+  CHECK(within_common_view(rig).left_mask.hidden == rig.left_mask.hidden);
+}
+
+TEST_CASE("common view: rows and columns beyond the other image are hidden in both", "[frontend]") {
+  StereoRig rig = hundred_pixel_rig();
+  rig.right.cy -= 20;  // left row y is right row y - 20
+  rig.left_mask = {100, 60, std::vector<std::uint8_t>(6000)};
+  rig.left_mask.hidden[5999] = 1;
+  StereoRig seen = within_common_view(rig);
+  CHECK(hides(seen.left_mask, [](int x, int y) { return y < 20 || (x == 99 && y == 59); }));
+  CHECK(hides(seen.right_mask, [](int, int y) { return y >= 40; }));
+  // At infinity, left column x is right column x - 10; nearer points lie farther left in the right image.
+  rig = hundred_pixel_rig();
+  rig.right.cx -= 10;
+  seen = within_common_view(rig);
+  CHECK(hides(seen.left_mask, [](int x, int) { return x < 10; }));
+  CHECK(hides(seen.right_mask, [](int x, int) { return x >= 90; }));
+  // The other way round, nearer points of all columns lie in the other image.
+  rig.right.cx += 20;
+  CHECK(within_common_view(rig).left_mask.empty());
+  CHECK(within_common_view(rig).right_mask.empty());
+}
+
+TEST_CASE("common view: a camera that looks back sees nothing of the other's", "[frontend]") {
+  StereoRig rig = hundred_pixel_rig();
+  rig.right_from_left.linear() = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  CHECK(hides(within_common_view(rig).left_mask, [](int, int) { return true; }));
+}
+
+TEST_CASE("common view: the front ends detect no edge outside it", "[frontend][device]") {
+  const matching::RenderedScene room("room", 320, 200, 1);
+  StereoRig rig = room.rig;
+  rig.right.cy -= 50;
+  for (const std::string& name : all_devices()) {
+    Device device(name, kept_programs());
+    const auto frontend = frontend::make_frontend(rig, device, room.config);
+    frontend->process(room.frame(0));
+    const EdgeSet left = frontend->edges(Side::left), right = frontend->edges(Side::right);
+    REQUIRE(left.size() > 100);
+    CHECK(*std::min_element(left.y.begin(), left.y.end()) > 59);
+    CHECK(*std::max_element(right.y.begin(), right.y.end()) < 140);
   }
 }

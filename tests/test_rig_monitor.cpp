@@ -178,6 +178,31 @@ TEST_CASE("rig monitor: aligned patches measure a pitch error of 0.3 degrees", "
   CHECK(fit.offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));
 }
 
+TEST_CASE("rig monitor: crossings of cables off their lines are no error of the rig, and a pitched camera is one",
+          "[rig][device]") {
+  for (const char* rig_name : {"rectified", "eth3d-slam"}) {
+    SyntheticOptions options;
+    options.scene = "cables";
+    options.rig = rig_name;
+    if (options.rig == "rectified") {
+      options.width = 742;
+      options.height = 464;
+      options.focal = 726.044;
+      options.baseline = 0.0898;
+    }
+    const SyntheticSequence cables(options);
+    const StereoPair pair = cables.pair(50);
+    Device device(all_devices().front(), kept_programs());
+    for (const double rows : {0, -5}) {
+      INFO(rig_name << " " << rows);
+      StereoRig rig = cables.rig();
+      rig.right.cy += rows;
+      CHECK(StereoOdometry(rig, device).track(pair.view()).status ==
+            (rows == 0 ? FrameStatus::first : FrameStatus::lost_rig_mismatch));
+    }
+  }
+}
+
 TEST_CASE("rig monitor: odd rows that are shifted against even ones are reported as interlaced", "[rig]") {
   const Image& left = evidence_room().left[0];
   const auto shifted = [](int x, int y) { return std::pair(y % 2 == 1 ? std::max(x - 2, 0) : x, y); };

@@ -66,6 +66,9 @@ constexpr double kDoubtfulResidual = 0.5;
 /// If more of the edges than this have a match on their epipolar lines, the corners off their lines are mostly on thin
 /// structures.
 constexpr double kReliableMatchedRatio = 0.65;
+/// The fit is not believed if more of the edges than the last number are matched and this fraction of the corners lies
+/// within kOnLine of the lines where the fit says kOffLine or more [px].
+constexpr double kOnLine = 1, kOffLine = 2, kContradictingRatio = 0.1, kCertainMatchedRatio = 0.75;
 /// Learned disparity offset. [px]
 constexpr double kMaxOffset = 1.5;
 

@@ -53,7 +53,7 @@ void add_search_results(const CornerSearch& search, const EpipolarFit& fit, RigE
     negative += match.along < -1 - 2 * match.sigma ? 1 : 0;
     beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
     aligned += match.is_aligned ? 1 : 0;
-    on_line += match.is_aligned && std::abs(match.across) < 1 ? 1 : 0;
+    on_line += match.is_aligned && std::abs(match.across) < kOnLine ? 1 : 0;
   }
   const auto found = static_cast<double>(search.found.size());
   if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
@@ -67,10 +67,24 @@ bool finds_few_corners(const CornerSearch& search, const RigEvidence& evidence) 
          !(evidence.matched_ratio > kLostMatchedRatio);
 }
 
+/// Fraction of the aligned corners that lie on their lines, although the fit to all puts these corners off them. Where
+/// curves cross one another, corners are no points of the scene and agree on a distance that is none of the rig's.
+double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, const PinholeCamera& left) {
+  const RectificationError::Plane plane = fit.plane(left.width, left.height);
+  int aligned = 0, contradicting = 0;
+  for (const CornerMatch& match : search.found) {
+    if (!match.is_aligned) continue;
+    ++aligned;
+    const double fitted = plane.x * match.left.x() + plane.y * match.left.y() + plane.one;
+    contradicting += std::abs(match.across) < kOnLine && std::abs(fitted) > kOffLine ? 1 : 0;
+  }
+  return aligned > 0 ? static_cast<double>(contradicting) / aligned : 0;
+}
+
 /// Judges the rig by the results of a search.
 /// \param turn transformation of the right image with which most corners are found, or none
 std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarFit& fit, const RigEvidence& evidence,
-                                     ImageTurn turn) {
+                                     ImageTurn turn, const PinholeCamera& left) {
   std::vector<RigFinding> findings;
   const auto add = [&](RigFindingKind kind) {
     RigFinding finding{kind, evidence};
@@ -90,11 +104,15 @@ std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarF
     return findings;
   }
   if (search.found.size() < static_cast<std::size_t>(kMinMatches)) return findings;
-  if (evidence.negative_ratio > kMajority || fit.residual > kLostResidual) {
+  const bool is_uncorrected = evidence.epipolar_correction == 0,
+             finds_edges_on_lines = evidence.matched_ratio > kReliableMatchedRatio && is_uncorrected,
+             is_contradicted = evidence.matched_ratio > kCertainMatchedRatio && is_uncorrected &&
+                               contradicting_ratio(search, fit, left) >= kContradictingRatio,
+             is_far = fit.residual > kLostResidual && !is_contradicted;
+  if (evidence.negative_ratio > kMajority || is_far) {
     add(evidence.negative_ratio > kMajority ? RigFindingKind::negative_disparities : RigFindingKind::far_off_lines);
     return findings;
   }
-  const bool finds_edges_on_lines = evidence.matched_ratio > kReliableMatchedRatio && evidence.epipolar_correction == 0;
   if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !finds_edges_on_lines) add(RigFindingKind::off_lines);
   if (evidence.beyond_ratio > kWarningRatio) add(RigFindingKind::beyond_range);
   if (evidence.negative_ratio > kWarningRatio) add(RigFindingKind::some_negative_disparities);
@@ -117,7 +135,7 @@ void search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const 
   add_search_results(search, fit, report.evidence);
   const ImageTurn turn =
       finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity) : ImageTurn::none;
-  report.findings = judge_search(search, fit, report.evidence, turn);
+  report.findings = judge_search(search, fit, report.evidence, turn, rig.left);
 }
 
 /// Adds a finding if the left image is interlaced. \returns whether it is
