@@ -14,11 +14,35 @@ MATCHED = {
     "Motorcycle": ("middlebury_2014/Motorcycle-perfect-quarter",),
     "rendered room": ("room", "--frames", 2),
 }
-# Title -> source, frames, seeds: the paper's method takes up to 30 s for a frame. KITTI 06 starts with frames whose
-# ground truth jumps.
+# Title -> source, frames, seeds: the paper's method takes about 4 s of processor time for a frame. KITTI 06 starts with
+# frames whose ground truth jumps.
 TRACKED = {
-    "KITTI 06, from frame 10": ("kitti_odometry/sequences/06", "10:14", 1),
-    "EuRoC MH_01": ("euroc_mh_01_easy", "0:6", 1),
+    "KITTI 06, from frame 10": ("kitti_odometry/sequences/06", "10:36", 5),
+    "KITTI 05": ("kitti_odometry/sequences/05", "0:25", 5),
+    "EuRoC MH_01": ("euroc_mh_01_easy", "0:25", 5),
+    "rendered room": ("room", 25, 5),
+    "rendered cables": ("cables", 20, 5),
+}
+# Extension -> options without it, for the default; options with it, for the paper's method, or none if it belongs to a
+# step that this method has in another form
+EXTENSIONS = {
+    "least squares": (["--pose.refine", "false", "--pose.local_optimisation_rounds", "0"], ["--pose.refine", "true"]),
+    "final fit alone": (["--pose.refine", "false"], None),
+    "fit to samples alone": (["--pose.local_optimisation_rounds", "0"], None),
+    "disparity offset, with least squares": (["--pose.disparity_offset_sigma", "0"],
+                                             ["--pose.refine", "true", "--pose.disparity_offset_sigma", "0.3"]),
+    "votes of neighbouring edges": (["--stereo.relaxation_rounds", "0"], None),
+    "prior of the alignment": (["--stereo.refine_prior_sigma", "100"], None),
+    "scoring by area": (["--pose.scoring_cell", "0"], None),
+    "global search": (["--temporal.wide_edges", "0"], None),
+    "second and third guided search": (["--temporal.rounds", "1"], None),
+    "Student-t weights": (["--pose.student_dof", "1000000"], None),
+    "budget of edges": (["--edges.budget", "0"], None),
+    "Newton step": (["--edges.newton_max", "0"], None),
+    "direction at the sub-pixel position": (["--edges.direction_at", "pixel"], None),
+    "automatic threshold": (["--edges.threshold", "2"], None),
+    "coarse disparity": (["--stereo.coarse_ties", "1"], None),
+    "key rig (the paper's, too)": (["--odometry.key_rig", "false"], None),
 }
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 SHOWN = ("recall", "precision", "precision_per_edge", "ambiguity_of_pool")
@@ -60,35 +84,57 @@ def matching_row(title, method, programs):
     return row
 
 
-def trajectory_row(title, method, programs):
-    """The four errors of Table 4, as mean and standard deviation over seeds of the means over frames."""
+def tracked(title, label, method, seeds, programs):
+    """Errors of Table 4 as lists over seeds, frames tracked and all frames, and the command without the seed."""
     options = programs.options
-    place, frames, seeds = TRACKED[title]
-    is_scene = isinstance(frames, int)
-    command = [options.quadedge, *(["demo", "--scene", place] if is_scene else ["run", options.data / place]),
-               "--frames", frames, *METHODS[method]]
-    errors, tracked, total = {name: [] for name in ERRORS}, 0, 0
+    place, frames, _ = TRACKED[title]
+    command = [options.quadedge, *(["demo", "--scene", place] if isinstance(frames, int) else
+                                   ["run", options.data / place]), "--frames", frames, *method]
+    errors, found, total = {name: [] for name in ERRORS}, 0, 0
     for seed in range(1, seeds + 1):
-        output = options.work / f"paper_{place.replace('/', '_')}_{method}_{seed}"
+        output = options.work / f"paper_{place.replace('/', '_')}_{label}_{seed}"
         if not (options.keep and (output / "report.json").exists()):
-            print(f"paper: {title}, {method}, seed {seed}", file=sys.stderr, flush=True)
+            print(f"paper: {title}, {label}, seed {seed}", file=sys.stderr, flush=True)
             programs.call([*command, "--seed", seed, "-o", output, "--quiet", "--force"], allowed=(0, 5))
         report = json.loads((output / "report.json").read_text(encoding="utf-8"))
-        tracked, total = tracked + report["frames_tracked"], total + report["frames_tracked"] + report["frames_lost"]
-        for name in ERRORS:
+        found, total = found + report["frames_tracked"], total + report["frames_tracked"] + report["frames_lost"]
+        for name in ERRORS if report.get("accuracy") else ():
             errors[name].append(report["accuracy"]["origin_aligned"][name]["mean"])
-    return {"title": title, "method": method, "commands": [programs.text(command)], "seeds": seeds,
-            "tracked": tracked, "frames": total,
+    return errors, {"title": title, "tracked": found, "frames": total, "commands": [programs.text(command)]}
+
+
+def trajectory_row(title, method, programs):
+    """The four errors of Table 4, as mean and standard deviation over seeds of the means over frames."""
+    seeds = TRACKED[title][2]
+    errors, row = tracked(title, method, METHODS[method], seeds, programs)
+    return {**row, "method": method, "seeds": seeds,
             **{name: {"mean": statistics.mean(values), "std": statistics.pstdev(values)}
                for name, values in errors.items()}}
 
 
+def extension_rows(programs, titles):
+    """Errors with the first seed: of both methods, of the default without each extension, of the paper's with it."""
+    runs = [("paper", "", METHODS["paper"]), ("default", "", [])]
+    for name, (without, alone) in EXTENSIONS.items():
+        runs.append(("default", name, without))
+        if alone:
+            runs.append(("paper", name, [*METHODS["paper"], *alone]))
+    for method, name, arguments in runs:
+        label = "_".join([method, *(name.replace(",", "").replace("(", "").replace(")", "").split())])
+        for title in titles:
+            errors, row = tracked(title, label, arguments, 1, programs)
+            yield {**row, "kind": "extension", "method": method, "extension": name,
+                   **{key: values[0] if values else None for key, values in errors.items()}}
+
+
 def measure_paper(programs):
     data = programs.options.data
-    return [{"kind": "matching", **matching_row(title, method, programs)} for title in MATCHED
-            for method in ("paper", "default") if data or "/" not in MATCHED[title][0]] + \
-        [{"kind": "trajectory", **trajectory_row(title, method, programs)} for title in TRACKED
-         for method in METHODS if data or isinstance(TRACKED[title][1], int)]
+    titles = [title for title, (_, frames, _) in TRACKED.items() if data or isinstance(frames, int)]
+    return [*({"kind": "matching", **matching_row(title, method, programs)} for title in MATCHED
+              for method in ("paper", "default") if data or "/" not in MATCHED[title][0]),
+            *({"kind": "trajectory", **trajectory_row(title, method, programs)} for title in titles
+              for method in METHODS),
+            *extension_rows(programs, titles)]
 
 
 def cell(line):
@@ -141,10 +187,29 @@ def trajectories(results, table, stamp):
               error(row, "ape_rotation_deg", 1, 3), error(row, "ape_translation_m", 1000, 1),
               error(row, "rpe_rotation_deg", 1, 4), error(row, "rpe_translation_m", 1000, 2)] for row in rows]
     return table(["sequence", "method", "tracked", "APE [deg]", "APE [mm]", "RPE [deg]", "RPE [mm]"], lines,
-                 "One seed: the paper's method takes up to half a minute for a frame. " +
-                 stamp(results["paper"]))
+                 "Means over the frames, and their standard deviations over five seeds. " + stamp(results["paper"]))
+
+
+def extensions(results, table, stamp):
+    """RPE [mdeg / mm] per recording; rows in the order of measurement."""
+    rows = [row for row in results["paper"]["rows"] if row["kind"] == "extension"]
+    titles = list(dict.fromkeys(row["title"] for row in rows))
+    found = {(row["method"], row["extension"], row["title"]): row for row in rows}
+
+    def error(row):
+        if row["rpe_rotation_deg"] is None:
+            return "-"
+        lost = f", {row['frames'] - row['tracked']} lost" if row["tracked"] < row["frames"] else ""
+        return f"{1000 * row['rpe_rotation_deg']:.3g} / {1000 * row['rpe_translation_m']:.3g}{lost}"
+
+    names = {("paper", ""): "`--preset paper`", ("default", ""): "default"}
+    lines = [[names.get(key, f"{'paper with' if key[0] == 'paper' else 'default without'}: {key[1]}"),
+              *(error(found[(*key, title)]) for title in titles)]
+             for key in sorted({(row["method"], row["extension"]) for row in rows},
+                               key=lambda key: (key[0] == "default", [*EXTENSIONS].index(key[1]) if key[1] else -1))]
+    return table(["RPE [mdeg / mm]", *titles], lines, "One seed. " + stamp(results["paper"]))
 
 
 def commands(results, command_list):
-    return command_list([{**row, "title": f"{row['title']}, {HEADS[row['method']]}"}
-                         for row in results["paper"]["rows"]])
+    shown = [row for row in results["paper"]["rows"] if row["kind"] != "extension"]
+    return command_list([{**row, "title": f"{row['title']}, {HEADS[row['method']]}"} for row in shown])

@@ -334,4 +334,5 @@ TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": be
           "paper-temporal": lambda results: paper_comparison.temporal(results, table),
           "paper-constraints": lambda results: paper_comparison.constraints(results, table),
           "paper-trajectories": lambda results: paper_comparison.trajectories(results, table, stamp),
+          "paper-extensions": lambda results: paper_comparison.extensions(results, table, stamp),
           "paper-commands": lambda results: paper_comparison.commands(results, command_list)}
