@@ -71,8 +71,8 @@ const Names& names_of(const YamlMap& camera) {
 }  // namespace
 
 LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word) {
-  if (word == "plumb_bob" || word == "rational_polynomial" || word == "none" || word.empty())
-    return LensModel::radial_tangential;
+  for (const char* name : {"plumb_bob", "rational_polynomial", "radtan", "radial-tangential", "none", ""})
+    if (word == name) return LensModel::radial_tangential;
   if (word == "equidistant" || word == "fisheye") return LensModel::equidistant;
   camera.complain(key, in_quotes(word), "plumb_bob, rational_polynomial, equidistant or none");
 }

@@ -274,16 +274,20 @@ void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera
   result.cy = k[5];
 }
 
+std::vector<double> coefficients_of(const YamlMap& camera, const std::string& key) {
+  const YamlMatrix values = camera.matrix(key);
+  if (values.rows > 1 && values.columns > 1)
+    camera.complain(key, "a matrix of several rows and columns", "one row of coefficients");
+  return values.values;
+}
+
 StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,
                             ImageSize size, double last) {
   StatedLens stated(camera.file(), camera.name(matrix), camera.name(coefficients));
   stated.lens.camera.width = size.width;
   stated.lens.camera.height = size.height;
   set_intrinsics(camera, matrix, stated.lens.camera, last);
-  const YamlMatrix values = camera.matrix(coefficients);
-  if (values.rows > 1 && values.columns > 1)
-    camera.complain(coefficients, "a matrix of several rows and columns", "one row of coefficients");
-  stated.lens.parameters = values.values;
+  stated.lens.parameters = coefficients_of(camera, coefficients);
   return stated;
 }
 

@@ -92,11 +92,14 @@ StereoCalibration read_euroc_calibration(const std::string& left, const std::str
 /// (key of the distortion coefficients) and resolution. \throws DataError
 StatedLens read_named_lens(const YamlMap& camera, const std::string& coefficients);
 
-/// The model that a camera_info message calls `word`. \throws DataError that names `key`
+/// The model that a camera_info message or OpenCV's results call `word`. \throws DataError that names `key`
 LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word);
 
 /// Rows of a 3 x 3 matrix. \throws DataError for numbers that are not those of fx 0 cx 0 fy cy 0 0 1, or `last`
 void set_intrinsics(const YamlMap& camera, const std::string& key, PinholeCamera& result, double last = 1);
+
+/// Coefficients in a row or a column, or none. \throws DataError for a matrix of both
+std::vector<double> coefficients_of(const YamlMap& camera, const std::string& key);
 
 /// A camera by its matrix and its coefficients in OpenCV's order, of which there may be none.
 StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,

@@ -73,20 +73,9 @@ StatedLens read_lens(const std::vector<CalibrationText>& texts, const Words& sid
   const Place k = required(texts, kCameraNames, side), d = required(texts, kDistortionNames, side);
   StatedLens stated(k.map->file(), k.key, d.key);
   set_intrinsics(*k.map, k.key, stated.lens.camera);
-  const YamlMatrix coefficients = d.map->matrix(d.key);
-  if (coefficients.rows > 1 && coefficients.columns > 1)
-    d.map->complain(d.key, "a matrix of several rows and columns", "one row of coefficients");
-  stated.lens.parameters = coefficients.values;
-  if (const auto model = find(texts, {"distortionmodel"})) {
-    const std::string word = model->map->word(model->key);
-    if (word == "equidistant" || word == "fisheye") {
-      stated.lens.model = LensModel::equidistant;
-    } else if (word != "plumb_bob" && word != "radtan" && word != "radial-tangential" &&
-               word != "rational_polynomial") {
-      model->map->complain(model->key, "'" + word + "'",
-                           "plumb_bob, radtan, rational_polynomial, equidistant or fisheye");
-    }
-  }
+  stated.lens.parameters = coefficients_of(*d.map, d.key);
+  if (const auto model = find(texts, {"distortionmodel"}))
+    stated.lens.model = model_of_word(*model->map, model->key, model->map->word(model->key));
   if (const auto width = find(texts, {"imagewidth"}), height = find(texts, {"imageheight"}); width && height) {
     const ImageSize size = width->map->size(width->key, height->key);
     stated.lens.camera.width = size.width;
