@@ -149,28 +149,28 @@ void weigh(const PatchValues& goal, const PatchValues& seen, Doubles& residual, 
 }
 
 /// Normal equations of a step, and the squares of its residuals.
-template <int kUnknowns>
+template <int Unknowns>
 struct Equations {
-  using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-  Eigen::Matrix<double, kUnknowns, kUnknowns> normal = Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
+  using Vector = Eigen::Matrix<double, Unknowns, 1>;
+  Eigen::Matrix<double, Unknowns, Unknowns> normal = Eigen::Matrix<double, Unknowns, Unknowns>::Zero();
   Vector pull = Vector::Zero();
   double squares = 0;
 
   void add(const PatchValues& goal, const Picture& picture, const Eigen::Vector2d& position, const Turn& turn, int side,
-           const Eigen::Matrix<double, 2, kUnknowns>& axes) {
+           const Eigen::Matrix<double, 2, Unknowns>& axes) {
     PatchValues xs, ys, seen{};
-    std::array<PatchValues, kUnknowns> slopes;
+    std::array<PatchValues, Unknowns> slopes;
     for_samples(static_cast<float>(position.x()), static_cast<float>(position.y()), turn, side, kRefinementOffset,
                 [&](std::size_t k, float x, float y) {
                   xs[k] = x;
                   ys[k] = y;
                 });
-    const Eigen::Matrix<float, 2, kUnknowns> directions = axes.template cast<float>();
+    const Eigen::Matrix<float, 2, Unknowns> directions = axes.template cast<float>();
     for (std::size_t i = 0; i < kSide * kSide; ++i) {
       const std::size_t k = i + i / kSide;
       const Picture::Sample sample = picture.at(xs[k], ys[k]);
       seen[k] = sample[0];
-      for (int d = 0; d < kUnknowns; ++d)
+      for (int d = 0; d < Unknowns; ++d)
         slopes[static_cast<std::size_t>(d)][k] = sample[1] * directions(0, d) + sample[2] * directions(1, d);
     }
     subtract_mean(seen);
@@ -179,7 +179,7 @@ struct Equations {
     weigh(goal, seen, residual, weight);
     for_indices([&](std::size_t k) {
       Vector slope;
-      for (int d = 0; d < kUnknowns; ++d) slope(d) = static_cast<double>(slopes[static_cast<std::size_t>(d)][k]);
+      for (int d = 0; d < Unknowns; ++d) slope(d) = static_cast<double>(slopes[static_cast<std::size_t>(d)][k]);
       normal += weight[k] * slope * slope.transpose();
       pull += weight[k] * residual[k] * slope;
       squares += weight[k] * residual[k] * residual[k];
@@ -187,22 +187,22 @@ struct Equations {
   }
 };
 
-template <int kUnknowns>
+template <int Unknowns>
 Refined refine_along(const SidePatches& fixed, const std::vector<Pairing>& pairings, const Picture& picture,
-                     const Place& start, const Eigen::Matrix<double, 2, kUnknowns>& axes,
+                     const Place& start, const Eigen::Matrix<double, 2, Unknowns>& axes,
                      const RefinementSettings& settings) {
   const double samples = static_cast<double>(kCount) * static_cast<double>(pairings.size());
   const Turn turn(start.direction);
   Refined result{{static_cast<double>(start.x), static_cast<double>(start.y)}, 0};
   for (int step = 0; step < settings.steps; ++step) {
-    Equations<kUnknowns> equations;
+    Equations<Unknowns> equations;
     for (const Pairing& pairing : pairings)
       equations.add(fixed.sides[static_cast<std::size_t>(pairing.first)], picture, result.position, turn,
                     pairing.second, axes);
     result.rms = std::sqrt(equations.squares / samples);
-    if (kUnknowns > 1) equations.normal.diagonal().array() += kDamping * samples;
+    if (Unknowns > 1) equations.normal.diagonal().array() += kDamping * samples;
     if (!(equations.normal.determinant() > kSingular)) break;
-    const Eigen::Matrix<double, kUnknowns, 1> change = equations.normal.inverse() * equations.pull;
+    const Eigen::Matrix<double, Unknowns, 1> change = equations.normal.inverse() * equations.pull;
     result.position += axes * change;
     if (change.norm() < settings.tolerance) break;
   }
