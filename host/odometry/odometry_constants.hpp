@@ -2,6 +2,8 @@
 /// \file odometry_constants.hpp  Constants that decide about motions (doc/method.md section 7) and that no recording
 /// has needed to adjust. The others are in quadedge/constants.inc.
 
+#include <cstddef>
+
 namespace quadedge::odometry {
 
 /// Coarse search without a global one: radius [image width] without a prediction or after it failed.
@@ -97,6 +99,11 @@ constexpr int kGuidedRounds = 3;
 /// is computed over every 16th edge, which suffices for an average.
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
+
+/// Key rigs with different views that are kept for a loss, how many of them a lost frame is compared with, and the
+/// difference between the directions to points [rad] up to which two of them say the same of its pose.
+constexpr std::size_t kEarlierRigs = 12, kEarlierTrials = 6;
+constexpr double kSamePlace = 0.05;
 
 /// A proposal whose predicted positions are this close on average to those of a confirmed motion [px] is fitted to the
 /// quads of that motion first, which lie within temporal.radius of both.

@@ -12,8 +12,10 @@
 #include "odometry/frame_preparation.hpp"
 #include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
+#include "odometry/odometry_constants.hpp"
 #include "odometry/paper_search.hpp"
 #include "odometry/tracking_state.hpp"
+#include "odometry/view_change.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
 #include "pose/uncertain_pose.hpp"
@@ -101,7 +103,9 @@ class StereoOdometry::Implementation {
   void hide(const PixelMask& left);
   void start(FrameResult& result);
   odometry::StepHandle search();
+  odometry::StepHandle search_earlier(odometry::MotionQuery query);
   void adopt(odometry::StepHandle found, FrameResult& result);
+  void return_to_earlier(FrameResult& result);
   void start_segment(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
@@ -115,7 +119,10 @@ class StereoOdometry::Implementation {
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
+  odometry::EarlierRigs earlier_;
+  bool key_is_ambiguous_ = false;  ///< the motion that gave the key rig its pose
   odometry::ConstantVelocity velocity_;
+  bool has_returned_ = false;           ///< the last frame was located against an earlier key rig
   bool was_lost_ = false;               ///< the last frame
   frontend::FrameEdgesHandle current_;  ///< of the last frame tracked; null before the first frame
   odometry::StepHandle step_;           ///< its motion; null if none was searched for
@@ -178,6 +185,8 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
 void StereoOdometry::Implementation::restart() {
   last_stamp_ns_.reset();
   velocity_.forget();
+  earlier_.clear();
+  key_is_ambiguous_ = false;
   starts_segment_ = starts_segment_ || state_.has_started();
   const odometry::TrackingState before = std::exchange(state_, {});
   state_.segment = before.segment;
@@ -239,12 +248,39 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
     query.base_from_key = state_.base.from_key.transform;
   }
   odometry::StepHandle found = motion_search_->find(query);
-  if (found->ok() || !state_.lost) return found;
+  if (found->ok()) return found;
+  if (odometry::StepHandle returned = search_earlier(query)) return returned;
+  if (!state_.lost) return found;
   query.base = state_.lost->rig;
+  query.key = nullptr;
   query.prediction = std::nullopt;
   query.accepts_ambiguous = true;
   odometry::StepHandle relocalised = motion_search_->find(query);
   return relocalised->ok() ? std::move(relocalised) : std::move(found);
+}
+
+/// Finds the motion since one of the earlier key rigs; null if there is none, or if two contradict one another, as in
+/// places that look alike. A motion that accidental matches support is none.
+odometry::StepHandle StereoOdometry::Implementation::search_earlier(odometry::MotionQuery query) {
+  if (config_.is_paper()) return nullptr;
+  query.key = nullptr;
+  query.prediction = std::nullopt;
+  query.accepts_ambiguous = false;
+  odometry::StepHandle best;
+  Eigen::Isometry3d world_from_best = Eigen::Isometry3d::Identity();
+  for (const odometry::KeyRig* rig : earlier_.nearest(state_.world_from_last)) {
+    query.base = rig->rig();
+    odometry::StepHandle found = motion_search_->find(query);
+    if (!found->ok() || found->verdict.support < odometry::kChanceSupport) continue;
+    const Eigen::Isometry3d world_from_found = rig->world_from_left() * found->motion.current_from_previous.inverse();
+    if (best && odometry::view_change(world_from_best.inverse() * world_from_found, found->mean_inverse_depth()) >
+                    odometry::kSamePlace)
+      return nullptr;
+    if (best && best->motion.inliers >= found->motion.inliers) continue;
+    best = std::move(found);
+    world_from_best = world_from_found;
+  }
+  return best;
 }
 
 /// Takes over the result of the search. If the motion was found from a lost frame, a segment starts.
@@ -252,15 +288,31 @@ void StereoOdometry::Implementation::adopt(odometry::StepHandle found, FrameResu
   step_ = std::move(found);
   motion_search_->remember(*step_);
   if (state_.lost && step_->base == state_.lost->rig) start_segment(result);
+  if (step_->ok()) return_to_earlier(result);
   result.counts.temporal_left = step_->matches.alive_left;
   result.counts.temporal_right = step_->matches.alive_right;
   result.counts.quads = static_cast<int>(step_->matches.size());
+}
+
+/// If the motion was found from an earlier key rig, makes that the key rig again. Nothing is known of the velocity.
+void StereoOdometry::Implementation::return_to_earlier(FrameResult& result) {
+  const odometry::KeyRig* found = earlier_.find(step_->base);
+  has_returned_ = found != nullptr && step_->base != state_.base.rig && step_->base != state_.key.rig();
+  if (!has_returned_) return;
+  const odometry::KeyRig earlier = *found;
+  if (!key_is_ambiguous_) earlier_.remember(state_.key, step_->mean_inverse_depth());
+  state_.set_key(earlier.rig(), earlier.pose());
+  key_is_ambiguous_ = false;
+  velocity_.forget();
+  add_message("located against frame " + std::to_string(earlier.frame()) + ", not since the last frame", result);
 }
 
 /// Makes the lost frame the key rig of a new segment, in which its predicted pose counts as exact.
 void StereoOdometry::Implementation::start_segment(FrameResult& result) {
   const auto number = [](int of) { return std::to_string(of); };
   const int last = state_.base.rig->frame, lost = state_.lost->rig->frame, segment = ++state_.segment;
+  earlier_.clear();
+  key_is_ambiguous_ = false;
   state_.set_key(state_.lost->rig, {state_.lost->world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()},
                  odometry::PoseOrigin::predicted);
   add_message("segment " + number(segment) + " starts: relocalised against frame " + number(lost) +
@@ -280,7 +332,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
   const Eigen::Isometry3d current_from_base = current_from_key.transform * state_.base.from_key.transform.inverse();
   const int frames = current_->frame - state_.base.rig->frame;
-  velocity_.observe(current_from_base, frames);
+  if (!has_returned_) velocity_.observe(current_from_base, frames);
   if (frames == 1) {
     if (const auto late = preparation_.rig_monitor().observe_motion(current_from_base))
       preparation_.warn(rig::warning(*late));
@@ -323,6 +375,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     // All frames located against one key rig share its disparities, so that together they carry no more information
     // than the last, most distant one.
     offset_.update(learned.offset, learned.offset_variance, fitness.frames);
+    if (!key_is_ambiguous_) earlier_.remember(state_.key, step.mean_inverse_depth());
+    key_is_ambiguous_ = step.ambiguity.exists();
     state_.set_key(current_, world_from_current);
   } else {
     state_.base = {current_, current_from_key, key_from_current};

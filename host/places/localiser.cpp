@@ -12,8 +12,8 @@
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
 #include "odometry/tracking_state.hpp"
+#include "odometry/view_change.hpp"
 #include "places/saved_places.hpp"
-#include "places/view_change.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
@@ -45,7 +45,7 @@ bool agree(const Match& one, const Match& other) {
 /// Whether a key rig sees the scene from elsewhere than the frame, by the location that a match gives.
 bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
   const Eigen::Isometry3d motion = map_from_key.inverse() * match.map_from_left;
-  return places::view_change(motion, match.inverse_depth) > places::kSameView;
+  return odometry::view_change(motion, match.inverse_depth) > odometry::kSameView;
 }
 
 /// Whether its support, which a wrong motion does not reach by chance, shows that the frame sees this place or one like

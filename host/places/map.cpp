@@ -11,10 +11,10 @@
 #include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
+#include "odometry/view_change.hpp"
 #include "places/place_store.hpp"
 #include "places/pose_graph.hpp"
 #include "places/saved_places.hpp"
-#include "places/view_change.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
@@ -197,7 +197,7 @@ const places::Place* Map::Implementation::nearest(int node, int max_gap, int min
     const int gap = node - place.node;
     if (!is_joined(place.node, node) || gap < min_gap || gap > max_gap) continue;
     const Eigen::Isometry3d motion = graph_.pose(node).inverse() * graph_.pose(place.node);
-    const double angle = places::view_change(motion, inverse_depth);
+    const double angle = odometry::view_change(motion, inverse_depth);
     if (angle >= smallest) continue;
     smallest = angle;
     best = &place;
@@ -221,7 +221,7 @@ bool Map::Implementation::is_predictable(const GraphEdge& motion, double inverse
 
 /// Whether both ends of a motion of the map may see the same.
 bool Map::Implementation::may_overlap(const GraphEdge& motion, double inverse_depth) const {
-  return places::view_change(motion.measured.transform, inverse_depth) < kMostChange + spread(motion, inverse_depth);
+  return odometry::view_change(motion.measured.transform, inverse_depth) < kMostChange + spread(motion, inverse_depth);
 }
 
 bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
@@ -233,7 +233,7 @@ bool Map::Implementation::recognise(int node) {
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   const double inverse_depth = mean_inverse_depth();
   const int min_gap = config_.map.min_gap;
-  if (const places::Place* seen = nearest(node, node, min_gap + 1, places::kSameView, inverse_depth)) {
+  if (const places::Place* seen = nearest(node, node, min_gap + 1, odometry::kSameView, inverse_depth)) {
     const GraphEdge motion = graph_.motion(seen->node, node);
     if (is_predictable(motion, inverse_depth)) {
       const auto closure = is_worthwhile(motion) ? compare({seen, 0}, node, true) : std::nullopt;
@@ -332,7 +332,7 @@ bool Map::Implementation::is_rival(const places::Place& place, const std::vector
     const GraphEdge& edge = closure.edge;
     if (!is_certain(closure) || !is_joined(place.node, edge.from)) return false;
     const Eigen::Isometry3d map_from_now = graph_.pose(edge.from) * edge.measured.transform.inverse();
-    return places::view_change(map_from_now.inverse() * graph_.pose(place.node), inverse_depth) > places::kSameView;
+    return odometry::view_change(map_from_now.inverse() * graph_.pose(place.node), inverse_depth) > odometry::kSameView;
   });
 }
 
