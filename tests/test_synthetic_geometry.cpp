@@ -251,3 +251,43 @@ TEST_CASE("cladding repeats with its pitch, and a texture's coarser levels are m
   for (const double footprint : {texel, 1.5 * texel, 4.0 * texel, 6.0 * texel})
     CHECK(texture.sample(0.12, 0.04, footprint) == Approx(130.0).margin(0.01));  // one grey level inside a brick
 }
+
+TEST_CASE("a bundle of rays sees what each of its rays sees, to the last bit", "[synthetic]") {
+  synthetic::TextureStyle style;
+  style.feature = 0.1;
+  const auto texture = std::make_shared<synthetic::Texture>(synthetic::dead_leaves(style, 5), 0.5, 0.4, 0.002, 4);
+  const Isometry3d pose = at({0.05, -0.02, 1.5}, 0.4, -0.2, 0.1);
+  const synthetic::PlaneSurface rectangle(pose, 0.5, 0.4, texture), ellipse(pose, 0.5, 0.4, texture, true);
+  const synthetic::SphereSurface sphere(pose, 0.4, texture);
+  for (const synthetic::Surface* surface :
+       {static_cast<const synthetic::Surface*>(&rectangle), static_cast<const synthetic::Surface*>(&ellipse),
+        static_cast<const synthetic::Surface*>(&sphere)}) {
+    synthetic::VisibleSurfaces parts;
+    surface->view(Isometry3d::Identity(), parts);
+    REQUIRE(parts.size() == 1);
+    int hits = 0, misses = 0, different = 0;
+    for (int row = 0; row < 50; ++row) {
+      synthetic::RayBundle rays;
+      synthetic::Lanes inverse, grey;
+      const double width = row % 2 == 0 ? 0.05 : 0.0125;  // of the bundle, every second one narrower
+      for (std::size_t i = 0; i < synthetic::kLanes; ++i) {
+        rays.x[i] = width * (static_cast<double>(i) - 7.5) + 0.001 * row;
+        rays.y[i] = 0.01 * (row - 25);
+      }
+      parts.front()->inverse_depths(rays, inverse);
+      const auto missed = std::count(inverse.begin(), inverse.end(), 0.0);
+      for (std::size_t i = 0; i < synthetic::kLanes; ++i)
+        different += inverse[i] == parts.front()->inverse_depth(rays[i]) ? 0 : 1;
+      missed > 0 ? ++misses : ++hits;
+      if (missed > 0) continue;
+      for (const double spread : {1e-4, 2e-3, 6e-3}) {
+        parts.front()->radiances(rays, inverse, spread, grey);
+        for (std::size_t i = 0; i < synthetic::kLanes; ++i)
+          different += grey[i] == parts.front()->radiance(rays[i], 1.0 / inverse[i], spread) ? 0 : 1;
+      }
+    }
+    CHECK(hits > 5);
+    CHECK(misses > 5);
+    CHECK(different == 0);
+  }
+}

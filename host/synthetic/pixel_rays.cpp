@@ -69,6 +69,14 @@ Eigen::Vector3d PixelRays::within(int x, int y, const Eigen::Vector2d& offset) c
   return (table_[index(x, y)].centre + spread(x, y) * offset).homogeneous();
 }
 
+void PixelRays::within(int x, int y, const Eigen::Vector2d* offsets, RayBundle& rays) const {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const Eigen::Vector3d ray = within(x, y, offsets[i]);
+    rays.x[i] = ray.x();
+    rays.y[i] = ray.y();
+  }
+}
+
 double PixelRays::focal_length(int x, int y) const {
   return table_.empty() ? camera_.fx : 1 / std::sqrt(std::abs(spread(x, y).determinant()));
 }

@@ -24,6 +24,8 @@ class PixelRays {
   Eigen::Vector3d corner(int x, int y) const;
   /// Ray at `offset` from the pixel centre, up to half a pixel.
   Eigen::Vector3d within(int x, int y, const Eigen::Vector2d& offset) const;
+  /// The same for several offsets.
+  void within(int x, int y, const Eigen::Vector2d* offsets, RayBundle& rays) const;
   /// Local focal length at a pixel: pixels per unit at unit depth.
   double focal_length(int x, int y) const;
 

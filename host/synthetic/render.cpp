@@ -40,6 +40,33 @@ Hit cast(const Candidates& candidates, const Vector3d& ray) {
   return hit;
 }
 
+/// The hits of a bundle of rays.
+struct BundleHits {
+  Lanes inverse_depth;
+  std::array<const VisibleSurface*, kLanes> surface;
+
+  Hit operator[](std::size_t ray) const { return {inverse_depth[ray], surface[ray]}; }
+  bool is_one_surface() const {
+    return surface[0] != nullptr &&
+           std::all_of(surface.begin(), surface.end(), [&](const VisibleSurface* of) { return of == surface[0]; });
+  }
+};
+
+/// The same as for every ray on its own.
+void cast(const Candidates& candidates, const RayBundle& rays, BundleHits& hits) {
+  hits.inverse_depth.fill(0.0);
+  hits.surface.fill(nullptr);
+  Lanes inverse;
+  for (const VisibleSurface* surface : candidates) {
+    surface->inverse_depths(rays, inverse);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const bool nearer = inverse[i] > hits.inverse_depth[i];
+      hits.inverse_depth[i] = nearer ? inverse[i] : hits.inverse_depth[i];
+      hits.surface[i] = nearer ? surface : hits.surface[i];
+    }
+  }
+}
+
 /// count * count positions in the pixel square [-0.5, 0.5)^2.
 std::vector<Vector2d> regular_grid(int count) {
   std::vector<Vector2d> offsets;
@@ -93,12 +120,15 @@ class TileRenderer {
         supersampling_(supersampling),
         view_(view) {}
 
-  void render(const std::vector<BoxedSurface>& surfaces, int left, int top) const {
+  using PixelCandidates = std::array<std::array<Candidates, kTile>, kTile>;  // for each pixel of a tile
+
+  /// `candidates`: scratch memory
+  void render(const std::vector<BoxedSurface>& surfaces, int left, int top, PixelCandidates& candidates) const {
     const int columns = std::min(kTile, rays_.width() - left), rows = std::min(kTile, rays_.height() - top);
-    std::array<std::array<Candidates, kTile>, kTile> candidates;  // for each pixel
     for (std::size_t j = 0; j < kTile; ++j) {
       for (std::size_t i = 0; i < kTile; ++i) {
         const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
+        candidates[j][i].clear();
         if (x >= rays_.width() || y >= rays_.height()) continue;
         const PixelBox pixel = rays_.footprint({x, y, x + 1, y + 1});
         for (const auto& [surface, box] : surfaces)
@@ -142,17 +172,35 @@ class TileRenderer {
   /// Distance between adjacent rays of the grid at unit depth.
   double spread(int x, int y) const { return 1.0 / (supersampling_ * rays_.focal_length(x, y)); }
 
+  /// Adds the radiance of a bundle's rays in their order.
+  void add_radiance(const BundleHits& hits, const RayBundle& rays, double spread, double& sum) const {
+    Lanes grey;
+    if (hits.is_one_surface()) {
+      hits.surface[0]->radiances(rays, hits.inverse_depth, spread, grey);
+    } else {
+      for (std::size_t i = 0; i < kLanes; ++i) grey[i] = radiance(hits[i], rays[i], spread);
+    }
+    for (const double value : grey) sum += value;
+  }
+
   /// Mean over the grid; stops at a ray that hits another object.
   double coarse(const Candidates& candidates, int x, int y, const void* object, bool& mixed) const {
+    const double spread = this->spread(x, y);
     double sum = 0.0;
-    for (const Vector2d& offset : grid_) {
-      const Vector3d ray = rays_.within(x, y, offset);
+    std::size_t i = 0;
+    for (; !mixed && i + kLanes <= grid_.size(); i += kLanes) {
+      RayBundle rays;
+      BundleHits hits;
+      rays_.within(x, y, &grid_[i], rays);
+      cast(candidates, rays, hits);
+      for (std::size_t k = 0; k < kLanes; ++k) mixed = mixed || hits[k].object() != object;
+      if (!mixed) add_radiance(hits, rays, spread, sum);
+    }
+    for (; !mixed && i < grid_.size(); ++i) {
+      const Vector3d ray = rays_.within(x, y, grid_[i]);
       const Hit hit = cast(candidates, ray);
-      if (hit.object() != object) {
-        mixed = true;
-        return 0.0;
-      }
-      sum += radiance(hit, ray, spread(x, y));
+      mixed = hit.object() != object;
+      sum += radiance(hit, ray, spread);
     }
     return sum / static_cast<double>(grid_.size());
   }
@@ -160,12 +208,25 @@ class TileRenderer {
   double fine(const Candidates& candidates, int x, int y) const {
     const std::uint64_t key = combine(combine(0, x), y);
     const Vector2d shift(uniform(mix(key)), uniform(mix(~key)));
+    const double spread = this->spread(x, y);
+    const auto position = [&](std::size_t i) {
+      const Vector2d moved = fine_[i] + shift;
+      return Vector2d(moved - Vector2d(std::floor(moved.x()) + 0.5, std::floor(moved.y()) + 0.5));
+    };
     double sum = 0.0;
-    for (const Vector2d& offset : fine_) {
-      Vector2d position = offset + shift;
-      position -= Vector2d(std::floor(position.x()) + 0.5, std::floor(position.y()) + 0.5);
-      const Vector3d ray = rays_.within(x, y, position);
-      sum += radiance(cast(candidates, ray), ray, spread(x, y));
+    std::size_t i = 0;
+    for (; i + kLanes <= fine_.size(); i += kLanes) {
+      std::array<Vector2d, kLanes> offsets;
+      for (std::size_t k = 0; k < kLanes; ++k) offsets[k] = position(i + k);
+      RayBundle rays;
+      BundleHits hits;
+      rays_.within(x, y, offsets.data(), rays);
+      cast(candidates, rays, hits);
+      add_radiance(hits, rays, spread, sum);
+    }
+    for (; i < fine_.size(); ++i) {
+      const Vector3d ray = rays_.within(x, y, position(i));
+      sum += radiance(cast(candidates, ray), ray, spread);
     }
     return sum / static_cast<double>(fine_.size());
   }
@@ -193,9 +254,10 @@ Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry
   std::atomic<int> next{0};
   const int count = tiled.columns * tiled.rows;
   const auto work = [&] {
+    TileRenderer::PixelCandidates candidates;
     for (int tile = next++; tile < count; tile = next++)
       renderer.render(tiled.tiles[static_cast<std::size_t>(tile)], tile % tiled.columns * kTile,
-                      tile / tiled.columns * kTile);
+                      tile / tiled.columns * kTile, candidates);
   };
   const int workers = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::vector<std::future<void>> others;

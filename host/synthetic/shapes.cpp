@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/parallel.hpp"
+
 namespace quadedge::synthetic {
 namespace {
 
@@ -21,39 +23,78 @@ std::vector<Vector3d> corners(const Isometry3d& camera_from_box, const Vector3d&
   return result;
 }
 
+/// A plane in a camera frame: directions along it, and its normal divided by its distance.
+struct PlaneNumbers {
+  Vector3d u, v, inverse;
+  double u_offset = 0, v_offset = 0, half_width = 0, half_height = 0;
+};
+
+/// Of a ray (x, y, 1), in one order for single rays and bundles.
+inline double dot(const Vector3d& a, double x, double y) { return a.x() * x + a.y() * y + a.z(); }
+
+QUADEDGE_VECTOR_CLONES
+void hit_rectangle(const PlaneNumbers& plane, const RayBundle& rays, Lanes& inverse) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double x = rays.x[i], y = rays.y[i], hit = dot(plane.inverse, x, y);
+    const double u = dot(plane.u, x, y) - plane.u_offset * hit, v = dot(plane.v, x, y) - plane.v_offset * hit;
+    const bool inside =
+        (hit > 0.0) & (std::abs(u) <= plane.half_width * hit) & (std::abs(v) <= plane.half_height * hit);
+    inverse[i] = inside ? hit : 0.0;
+  }
+}
+
+/// Positions on a plane that its texture is sampled at.
+QUADEDGE_VECTOR_CLONES
+void find_positions(const PlaneNumbers& plane, const RayBundle& rays, const Lanes& inverse, Lanes& u, Lanes& v) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double x = rays.x[i], y = rays.y[i], depth = 1.0 / inverse[i];
+    u[i] = dot(plane.u, x, y) * depth - plane.u_offset;
+    v[i] = dot(plane.v, x, y) * depth - plane.v_offset;
+  }
+}
+
 class VisiblePlane : public VisibleSurface {
  public:
   VisiblePlane(const Isometry3d& camera_from_surface, double half_width, double half_height, const Texture& texture,
                bool elliptic)
-      : half_width_(half_width), half_height_(half_height), texture_(texture), elliptic_(elliptic) {
+      : texture_(texture), elliptic_(elliptic) {
     const Eigen::Matrix3d axes = camera_from_surface.linear();
     const Vector3d centre = camera_from_surface.translation();
-    u_ = axes.col(0);
-    v_ = axes.col(1);
-    u_offset_ = u_.dot(centre);
-    v_offset_ = v_.dot(centre);
-    inverse_ = axes.col(2) / axes.col(2).dot(centre);
-    for (const auto& [u, v] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
-      outline_.push_back(camera_from_surface * Vector3d(u * half_width, v * half_height, 0.0));
+    const Vector3d u = axes.col(0), v = axes.col(1);
+    plane_ = {u, v, axes.col(2) / axes.col(2).dot(centre), u.dot(centre), v.dot(centre), half_width, half_height};
+    inverse_norm_ = plane_.inverse.norm();
+    for (const auto& [across, down] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      outline_.push_back(camera_from_surface * Vector3d(across * half_width, down * half_height, 0.0));
   }
 
   void set_shade(double factor) { shade_ = factor; }
 
   double inverse_depth(const Vector3d& ray) const override {
-    const double inverse = inverse_.dot(ray);
+    const double inverse = dot(plane_.inverse, ray.x(), ray.y());
     if (inverse <= 0.0) return 0.0;
-    const double u = u_.dot(ray) - u_offset_ * inverse, v = v_.dot(ray) - v_offset_ * inverse;  // both / depth
-    const double width = half_width_ * inverse, height = half_height_ * inverse;
+    const double u = dot(plane_.u, ray.x(), ray.y()) - plane_.u_offset * inverse;  // both / depth
+    const double v = dot(plane_.v, ray.x(), ray.y()) - plane_.v_offset * inverse;
+    const double width = plane_.half_width * inverse, height = plane_.half_height * inverse;
     if (std::abs(u) > width || std::abs(v) > height) return 0.0;
     if (elliptic_ && u * u * height * height + v * v * width * width > width * width * height * height) return 0.0;
     return inverse;
   }
+  void inverse_depths(const RayBundle& rays, Lanes& inverse) const override {
+    if (elliptic_) return VisibleSurface::inverse_depths(rays, inverse);
+    hit_rectangle(plane_, rays, inverse);
+  }
 
   double radiance(const Vector3d& ray, double depth, double spread) const override {
-    // On a slanted plane the hits of adjacent rays are farther apart: depth^2 |ray| / distance of the plane, times
-    // their spread.
-    const double footprint = spread * depth * depth * ray.norm() * inverse_.norm();
-    return shade_ * texture_.sample(u_.dot(ray) * depth - u_offset_, v_.dot(ray) * depth - v_offset_, footprint);
+    return shade_ * texture_.sample(dot(plane_.u, ray.x(), ray.y()) * depth - plane_.u_offset,
+                                    dot(plane_.v, ray.x(), ray.y()) * depth - plane_.v_offset,
+                                    footprint(ray, depth, spread));
+  }
+  void radiances(const RayBundle& rays, const Lanes& inverse, double spread, Lanes& grey) const override {
+    Lanes u, v, footprints;
+    find_positions(plane_, rays, inverse, u, v);
+    for (std::size_t i = 0; i < kLanes; ++i) footprints[i] = footprint(rays[i], 1.0 / inverse[i], spread);
+    texture_.sample(u, v, footprints, grey);
+    for (double& value : grey) value *= shade_;
   }
 
   PixelBox pixels(const PinholeCamera& camera) const override {
@@ -72,8 +113,14 @@ class VisiblePlane : public VisibleSurface {
   }
 
  private:
-  Vector3d u_, v_, inverse_;
-  double u_offset_, v_offset_, half_width_, half_height_, shade_ = 1.0;
+  /// On a slanted plane the hits of adjacent rays are farther apart: depth^2 |ray| / distance of the plane, times their
+  /// spread.
+  double footprint(const Vector3d& ray, double depth, double spread) const {
+    return texture_.has_levels() ? spread * depth * depth * ray.norm() * inverse_norm_ : 0.0;
+  }
+
+  PlaneNumbers plane_;
+  double inverse_norm_, shade_ = 1.0;
   const Texture& texture_;
   bool elliptic_;
   std::vector<Vector3d> outline_;

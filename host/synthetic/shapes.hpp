@@ -2,6 +2,7 @@
 /// \file shapes.hpp  Surfaces of the synthetic scenes and their exact intersections with viewing rays.
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -15,14 +16,29 @@ struct PixelBox {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+/// Rays (x, y, 1) that are traced together.
+struct RayBundle {
+  Lanes x, y;
+
+  Eigen::Vector3d operator[](std::size_t ray) const { return {x[ray], y[ray], 1.0}; }
+};
+
 /// A surface in a camera frame. Rays are normalised to (x, y, 1), so that a hit is at depth * ray.
 class VisibleSurface {
  public:
   virtual ~VisibleSurface() = default;
   /// 1 / depth [1/m] of the first hit in front of the camera; 0 if the ray misses.
   virtual double inverse_depth(const Eigen::Vector3d& ray) const = 0;
+  /// The same for all rays of a bundle, to the last bit.
+  virtual void inverse_depths(const RayBundle& rays, Lanes& inverse) const {
+    for (std::size_t i = 0; i < kLanes; ++i) inverse[i] = inverse_depth(rays[i]);
+  }
   /// Radiance [grey levels] at a hit found by inverse_depth(). `spread`: distance between adjacent rays at unit depth.
   virtual double radiance(const Eigen::Vector3d& ray, double depth, double spread) const = 0;
+  /// The same for all rays of a bundle, which hit the surface.
+  virtual void radiances(const RayBundle& rays, const Lanes& inverse, double spread, Lanes& grey) const {
+    for (std::size_t i = 0; i < kLanes; ++i) grey[i] = radiance(rays[i], 1.0 / inverse[i], spread);
+  }
   /// Contains every pixel in which the surface is visible.
   virtual PixelBox pixels(const PinholeCamera& camera) const = 0;
   /// Identifies the object; equal for parts that join smoothly.

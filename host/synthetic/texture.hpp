@@ -1,11 +1,17 @@
 #pragma once
 /// \file texture.hpp  Flat reflectance maps, painted on demand in tiles at the required resolution.
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 namespace quadedge::synthetic {
+
+/// Numbers that are computed together, for example one per ray.
+constexpr std::size_t kLanes = 16;
+using Lanes = std::array<double, kLanes>;
 
 /// A square of texels to paint.
 struct TexelSquare {
@@ -34,6 +40,10 @@ class Texture {
   /// Reflectance [grey levels] at (u, v) [m]; positions outside the map take the value of its border. `footprint`:
   /// distance between adjacent rays on the surface [m]; adjacent levels are blended linearly in its logarithm.
   double sample(double u, double v, double footprint = 0.0) const;
+  /// The same for many positions, to the last bit.
+  void sample(const Lanes& u, const Lanes& v, const Lanes& footprint, Lanes& grey) const;
+  /// Whether the footprint matters.
+  bool has_levels() const { return levels_.size() > 1; }
 
  private:
   static constexpr int kTile = 64;  // texels per tile side
@@ -52,7 +62,21 @@ class Texture {
   };
 
   double sample(const Level& level, double u, double v) const;
+  void sample(const Level& level, const Lanes& u, const Lanes& v, Lanes& grey) const;
+  /// Number of the level, which may lie between two.
+  double level_of(double footprint) const;
   const Tile& tile(const Level& level, int index) const;
+  static int tile_index(const Level& level, unsigned column, unsigned row) {
+    return static_cast<int>(row / kTile) * level.tiles_x + static_cast<int>(column / kTile);
+  }
+  /// Between the texels around (x, y), of which the first is at (column, row).
+  static double interpolate(const float* tile, double x, double y, unsigned column, unsigned row) {
+    const float* p = tile + (row % kTile) * kStride + column % kTile;
+    const double fx = x - static_cast<int>(column), fy = y - static_cast<int>(row);
+    const double top = p[0] + fx * (p[1] - p[0]);
+    const double bottom = p[kStride] + fx * (p[kStride + 1] - p[kStride]);
+    return top + fy * (bottom - top);
+  }
 
   std::unique_ptr<const Painter> painter_;
   double half_width_, half_height_;
