@@ -19,6 +19,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kGuidedMatch = "temporal_match";  // one of its variants is a sequence of other stages
 constexpr double kWorthChanging = 0.97;                 // of the default's time
+constexpr double kHopeless = 2;                         // times the default's time, in each of so many measurements:
+constexpr std::size_t kTrials = 3;
 
 /// The names under which the pipeline profiles the kernels of a stage with variants.
 std::vector<std::string> booked_as(const std::string& stage) {
@@ -26,13 +28,21 @@ std::vector<std::string> booked_as(const std::string& stage) {
   return {stage};
 }
 
-/// One variant with a separate device and pipeline.
+/// One variant with its own pipeline.
 struct Candidate {
-  std::unique_ptr<Device> device;
+  std::shared_ptr<Device> device;
   std::unique_ptr<frontend::Frontend> frontend;
   frontend::FrontendOutput output;
   std::vector<double> times;
 };
+
+/// Whether further measurements of a variant would only confirm that it is slower.
+bool is_hopeless(const std::vector<double>& times, const std::vector<double>& of_default) {
+  const std::size_t both = std::min(times.size(), of_default.size());
+  for (std::size_t i = 0; i < both; ++i)
+    if (!(times[i] > kHopeless * of_default[i])) return false;
+  return both >= kTrials;
+}
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -144,7 +154,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     row.name = variant.name;
     row.median_ms = row.p10_ms = row.p90_ms = row.ratio_to_default = row.ratio_p90 = kNaN;
     Candidate candidate;
-    candidate.device = std::make_unique<Device>(input.open_device());
+    candidate.device = input.device(false);
     row.is_default = opencl::choose_variant(stage, *candidate.device->context(), {}).name == variant.name;
     if (row.is_default) by_default = result.variants.size();
     try {
@@ -158,6 +168,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     } catch (const DeviceError& error) {
       if (row.is_default) throw;
       row.runs = row.agrees = false;
+      input.device(true);
       row.why = first_line(error.what());
     }
     result.variants.push_back(std::move(row));
@@ -178,7 +189,8 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       // In alternating order, so that no variant always follows the same other one.
       const std::size_t i = repetition % 2 == 0 ? k : candidates.size() - 1 - k;
-      if (result.variants[i].agrees) candidates[i].times.push_back(measure_once(stage, input, candidates[i]));
+      if (result.variants[i].agrees && !is_hopeless(candidates[i].times, candidates[by_default].times))
+        candidates[i].times.push_back(measure_once(stage, input, candidates[i]));
     }
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) {

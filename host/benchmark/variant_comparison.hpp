@@ -40,8 +40,9 @@ struct VariantInput {
   const StereoRig& rig;
   const FramePrefetcher::Frame& first;
   const FramePrefetcher::Frame& second;
-  Config config;                        ///< complete; its variants are used by all other stages
-  std::function<Device()> open_device;  ///< with profiling
+  Config config;  ///< complete; its variants are used by all other stages
+  /// The device, with profiling; a new one for the next calls if it has failed.
+  std::function<std::shared_ptr<Device>(bool has_failed)> device;
   int repetitions = 9;
 };
 
@@ -61,7 +62,8 @@ class ReferenceCheck {
   std::unique_ptr<Small> small_;
 };
 
-/// Checks all variants of a stage, then measures them alternately. `progress` is called with the current activity.
+/// Checks all variants of a stage, then measures them alternately; one that takes more than twice the default's time in
+/// each of its first three measurements is not measured again. `progress` is called with the current activity.
 /// \throws DeviceError if the default variant does not run.
 StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
                              const std::function<void(const std::string&)>& progress);

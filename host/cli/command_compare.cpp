@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "benchmark/latency.hpp"
 #include "benchmark/variant_comparison.hpp"
@@ -68,9 +69,9 @@ class CompareCommand : public Command {
     if (repetitions_ < 1) throw UsageError("--repetitions " + std::to_string(repetitions_) + ": expected 1 or more");
     Config config = method_.config();
     report::check_output_file(json_, force_);
-    Device device = method_.open_device(true);
-    if (device.is_reference()) throw UsageError("the reference device has no kernel variants");
-    const DeviceInfo info = device.info();
+    auto device = std::make_shared<Device>(method_.open_device(true));
+    if (device->is_reference()) throw UsageError("the reference device has no kernel variants");
+    const DeviceInfo info = device->info();
     const std::string file = bench::saved_variants_path(info);
     if (save_ && file.empty()) throw UsageError("--save: neither XDG_CONFIG_HOME nor HOME is set");
 
@@ -81,12 +82,15 @@ class CompareCommand : public Command {
     const auto first = source.next(), second = source.next();
     config = with_disparity_range(config, source.rig());
     const bench::ReferenceCheck check(config);
-    if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
+    if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, *device, config);
     std::printf("%s\n\n%-20s %-10s %-8s %12s %9s %9s %7s %7s\n", info.name.c_str(), "stage", "variant", "", "median",
                 "p10", "p90", "ratio", "p90");
 
-    const bench::VariantInput input{source.rig(), *first, *second, config, [&] { return method_.open_device(true); },
-                                    repetitions_};
+    const auto same_device = [&](bool has_failed) {
+      if (has_failed) device = std::make_shared<Device>(method_.open_device(true));
+      return device;
+    };
+    const bench::VariantInput input{source.rig(), *first, *second, config, same_device, repetitions_};
     StatusLine status(quiet_);
     std::vector<bench::StageResult> results;
     for (const auto& stage : stages) {
