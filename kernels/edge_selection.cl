@@ -29,9 +29,11 @@
     const T tangent_x = select((T)1.0f, -ratio, steep), tangent_y = select(-ratio, (T)1.0f, steep);             \
     const EpipolarRows rows = args->rows;                                                                       \
     const T depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;                                   \
-    const T row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;                              \
-    const T by_x = (rows.across_x - row * rows.forward_x) / depth;                                              \
-    const T by_y = (rows.across_y - row * rows.forward_y) / depth;                                              \
+    const T plane = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;                            \
+    const T bend_x = rows.bend_xx * x + rows.bend_xy * y, bend_y = rows.bend_yy * y;                            \
+    const T row = plane - (bend_x * x + bend_y * y);                                                            \
+    const T by_x = (rows.across_x - plane * rows.forward_x) / depth - (bend_x + rows.bend_xx * x);              \
+    const T by_y = (rows.across_y - plane * rows.forward_y) / depth - (2.0f * bend_y + rows.bend_xy * x);       \
     const T rise = fabs(tangent_x * by_x + tangent_y * by_y);                                                   \
     *step = rise;                                                                                               \
     *sine = rise / sqrt((1.0f + ratio * ratio) * (by_x * by_x + by_y * by_y));                                  \

@@ -32,6 +32,16 @@ static inline EpipolarLine epipolar_line(const EpipolarGeometry* g, const float 
     const float ny = (hy + w * ty) / nz - line.y;
     line.s_max = nz > 1e-6f ? sqrt(nx * nx + ny * ny) : 1e5f;
   }
+  // The rectification error moves the line and turns it.
+  const float px = line.x, py = line.y, ex = line.ex, ey = line.ey;
+  const float by_x = g->across[3] * px + g->across[4] * py, by_y = g->across[5] * py;
+  const float across = g->across[0] + (g->across[1] + by_x) * px + (g->across[2] + by_y) * py;
+  const float turn =
+      (g->across[1] + by_x + g->across[3] * px) * ex + (g->across[2] + 2.0f * by_y + g->across[4] * px) * ey;
+  line.x += across * ey;
+  line.y -= across * ex;
+  line.ex += turn * ey;
+  line.ey -= turn * ex;
   return line;
 }
 

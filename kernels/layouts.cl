@@ -89,8 +89,9 @@ typedef struct {
 // epipolar line starts at the point of infinite depth and runs towards nearer points. Positions on the line are
 // measured by s, pixels from the point at infinity; on a rectified rig s is the disparity.
 typedef struct {
-  float h[9];               // K_R R0 K_L^-1, row-major; corrected by the rectification error that the search follows
+  float h[9];               // K_R R0 K_L^-1, row-major; rolled by the rectification error that the search follows
   float t[3];               // K_R T0
+  float across[6];          // that error: px towards (ey, -ex) for 1, x, y, xx, xy, yy of the right pixel
   float epipole[3];         // left epipole, homogeneous: the left line through p runs along epipole.xy - epipole.z p
   float inverse_min_depth;  // 1/m; 0 where max_disparity limits the search
   float max_disparity;      // px
@@ -147,11 +148,12 @@ typedef struct {
 } DetectionArguments;
 
 // Numbers the epipolar lines in the same way in both images of a rig, in pixels of the left camera: the line through
-// (x, y) has number (across . (x, y, 1)) / (forward . (x, y, 1)). On a rectified rig that is y less the principal
-// point's.
+// (x, y) has number (across . (x, y, 1)) / (forward . (x, y, 1)) - bend . (xx, xy, yy). On a rectified rig that is y
+// less the principal point's.
 typedef struct {
   float across_x, across_y, across_1;
   float forward_x, forward_y, forward_1;
+  float bend_xx, bend_xy, bend_yy;
 } EpipolarRows;
 
 enum {

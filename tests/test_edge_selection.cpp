@@ -156,19 +156,20 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
 }
 
 TEST_CASE("edge selection: rows that lie beside the calibrated ones keep their numbers", "[edges]") {
-  const RectificationError error{0.8, 0.5, -0.3};
+  const RectificationError error{0.8, 0.5, -0.3, 0.4, 1, -0.6};
   for (const auto& rig : {rectified_rig(640, 480), general_rig(640, 480)}) {
     const auto number = [](const SelectionArguments& of, const Eigen::Vector2d& p) {
       const auto x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
       const EpipolarRows& rows = of.rows;
       return static_cast<double>((rows.across_x * x + rows.across_y * y + rows.across_1) /
-                                 (rows.forward_x * x + rows.forward_y * y + rows.forward_1));
+                                     (rows.forward_x * x + rows.forward_y * y + rows.forward_1) -
+                                 (rows.bend_xx * x * x + rows.bend_xy * x * y + rows.bend_yy * y * y));
     };
     const SelectionArguments left = selection_arguments(rig, Side::left, error),
                              right = selection_arguments(rig, Side::right, error);
     StereoConfig config;
     config.max_disparity = 20;
-    const EpipolarGeometry moved = corrected(make_epipolar_geometry(rig, config), error, rig.left);
+    const EpipolarGeometry moved = corrected(make_epipolar_geometry(rig, config), error, rig);
     for (const Eigen::Vector2d& p : {Eigen::Vector2d(20, 30), Eigen::Vector2d(330, 200), Eigen::Vector2d(600, 440)}) {
       const EpipolarLine line = epipolar_line(moved, static_cast<float>(p.x()), static_cast<float>(p.y()));
       CHECK(number(right, {line.x, line.y}) == Approx(number(left, p)).margin(0.1));

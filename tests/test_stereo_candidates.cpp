@@ -30,29 +30,32 @@ double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double directi
   return std::abs(std::cos(direction) * along.y() - std::sin(direction) * along.x());
 }
 
-double across(const RectificationError& error, const Vector2d& p, const PinholeCamera& left) {
-  return error.offset + error.slope_x * (p.x() / left.width - 0.5) + error.slope_y * (p.y() / left.height - 0.5);
+/// At a right point.
+double across(const RectificationError& error, const Vector2d& q, const PinholeCamera& right) {
+  return error.at(q.x() / right.width - 0.5, q.y() / right.height - 0.5);
 }
 
 /// Filters 1 to 3 of doc/method.md section 3 by definition, in double precision. Positive: distance inside the limits
 /// in units of single-precision error (2e-3 px, 1e-5 rad).
-/// \param error of a rectified rig
+/// \param error of a rectified rig, without bend_xx, so that the lines stay straight
 double margin(const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe,
               const RectificationError& error, const EdgeSet& left, std::size_t i, const EdgeSet& right,
               std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
-  const Vector2d p(left.x[i], left.y[i]),
-      q = Vector2d(right.x[j], right.y[j]) -
-          Vector2d(-error.slope_x / rig.left.width * (p.y() - rig.left.cy), across(error, p, rig.left));
+  const Vector2d p(left.x[i], left.y[i]);
   if ((rig.right_from_left.linear() * rig.left.ray(p)).z() <= 0) return -1e9;
+  const Vector2d far = at_infinity(rig, p), seen(right.x[j], right.y[j]);
+  const Vector2d q = seen - Vector2d(-error.slope_x / rig.right.width * (far.y() - rig.right.cy),
+                                     across(error, {seen.x(), far.y()}, rig.right));
   const Vector3d t = rig.right_from_left.translation();
   Eigen::Matrix3d cross;
   cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
   const Vector3d line =
       rig.right.matrix().inverse().transpose() * cross * rig.right_from_left.linear() * rig.left.ray(p);
   const double distance = std::abs(line.dot(Vector3d(q.x(), q.y(), 1))) / line.head<2>().norm();
-  const Vector2d far = at_infinity(rig, p), growing = (in_right(rig, p, 1e2) - far).normalized();
-  const double s = (q - far).dot(growing);
+  const Vector2d growing = (in_right(rig, p, 1e2) - far).normalized();
+  const double rise = (error.slope_x + error.bend_xy * (far.y() / rig.right.height - 0.5)) / rig.right.width;
+  const double s = (q - far).dot(growing) - rise * (q.y() - far.y());
   double s_max = config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
   if (probe.step > 0 && i % static_cast<std::size_t>(probe.step) == 0)
     s_max = std::max(s_max, static_cast<double>(probe.max_disparity));
@@ -91,7 +94,7 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left,
                              const EdgeSet& right, const DisparityProbe& probe = {0, 0},
                              const RectificationError& error = {}) {
-  const auto geometry = corrected(make_epipolar_geometry(rig, config), error, rig.left);
+  const auto geometry = corrected(make_epipolar_geometry(rig, config), error, rig);
   const auto lists = reference::stereo_candidates(left, right, geometry, probe);
   const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, error, left, right);
   for_each_variant("stereo_candidates",
@@ -187,12 +190,10 @@ TEST_CASE("epipolar line: corrected by a rectification error it is that of a dis
     moved.right.cx += 0.8 * normal.x();
     moved.right.cy += 0.8 * normal.y();
     moved.right_from_left = Eigen::AngleAxisd(kRoll, Vector3d::UnitZ()) * rig.right_from_left;
-    const double zoom = rig.right.fx / rig.left.fx;
-    RectificationError error{0.8, kRoll * zoom * rig.left.width * normal.y(),
-                             -kRoll * zoom * rig.left.height * normal.x()};
-    error.offset +=
-        error.slope_x * (0.5 - rig.left.cx / rig.left.width) + error.slope_y * (0.5 - rig.left.cy / rig.left.height);
-    const auto wanted = make_epipolar_geometry(moved, config), found = corrected(geometry, error, rig.left);
+    RectificationError error{0.8, kRoll * rig.right.width * normal.y(), -kRoll * rig.right.height * normal.x()};
+    error.offset += error.slope_x * (0.5 - rig.right.cx / rig.right.width) +
+                    error.slope_y * (0.5 - rig.right.cy / rig.right.height);
+    const auto wanted = make_epipolar_geometry(moved, config), found = corrected(geometry, error, rig);
     Random random(3);
     for (int k = 0; k < 200; ++k) {
       const auto x = static_cast<float>(random(0, rig.left.width)), y = static_cast<float>(random(0, rig.left.height));
@@ -202,8 +203,36 @@ TEST_CASE("epipolar line: corrected by a rectification error it is that of a dis
       CHECK(line.y == Approx(there.y).margin(margin));
       CHECK(line.ex * there.ey - line.ey * there.ex == Approx(0).margin(1.1 * kRoll));
     }
-    const auto same = corrected(geometry, {}, rig.left);
+    const auto same = corrected(geometry, {}, rig);
     CHECK(std::equal(std::begin(same.h), std::end(same.h), std::begin(geometry.h)));
+  }
+}
+
+TEST_CASE("epipolar line: an error of the second degree moves it to where the points of the line lie",
+          "[stereo][matching]") {
+  StereoConfig config;
+  config.max_disparity = 40;
+  // Without a roll, so that nothing moves along the lines.
+  const RectificationError error{0.4, 0, 0, 0.6, 5, -0.8};
+  StereoRig vertical = flat_rig(640, 480, 500, 0.2);
+  vertical.right_from_left.translation() = Vector3d(0, -0.2, 0);
+  for (const auto& rig : {flat_rig(640, 480, 500, 0.2), vertical, crooked_rig()}) {
+    const auto geometry = make_epipolar_geometry(rig, config), found = corrected(geometry, error, rig);
+    Random random(5);
+    for (int k = 0; k < 200; ++k) {
+      const auto x = static_cast<float>(random(0, rig.left.width)), y = static_cast<float>(random(0, rig.left.height));
+      const EpipolarLine of_calibration = epipolar_line(geometry, x, y), line = epipolar_line(found, x, y);
+      const double s = random(0, 40);
+      const Vector2d direction(of_calibration.ex, of_calibration.ey), normal(direction.y(), -direction.x()),
+          q = Vector2d(of_calibration.x, of_calibration.y) + s * direction,
+          seen = q + across(error, q, rig.right) * normal;
+      const Vector2d from = seen - Vector2d(line.x, line.y);
+      // The points lie on a curve, the line is its tangent at infinite depth.
+      const double u = s * direction.x() / rig.right.width, v = s * direction.y() / rig.right.height;
+      const double sag = error.bend_xx * u * u + error.bend_xy * u * v + error.bend_yy * v * v;
+      CHECK(from.x() * line.ey - from.y() * line.ex == Approx(sag).margin(0.01));
+      CHECK(from.dot(Vector2d(line.ex, line.ey)) == Approx(s).margin(0.05));
+    }
   }
 }
 
@@ -244,7 +273,7 @@ TEST_CASE("stereo candidates: with a rectification error they lie around the cor
   config.min_depth = 0.7;
   const StereoRig rig = flat_rig(131, 77, 120, 0.12);
   const auto [left, right] = random_scene(rig, 400, config.min_depth, 17);
-  CHECK(check_everywhere(rig, config, left, right, {0, 0}, {0.9, 0.6, -0.4}) > 60);
+  CHECK(check_everywhere(rig, config, left, right, {0, 0}, {0.9, 0.6, -0.4, 0, 2, -1}) > 60);
 }
 
 TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",

@@ -42,10 +42,19 @@ struct MutualScene {
     relaxation.score.push_back(0);
     clusters.first.push_back(clusters.first.back());
   }
-  StereoEdges match() const { return reference::stereo_mutual(clusters, relaxation, left, geometry, config); }
+  StereoEdges match() const { return match(geometry); }
+  StereoEdges match(const EpipolarGeometry& lines) const {
+    return reference::stereo_mutual(clusters, relaxation, left, lines, config);
+  }
 
   void compare_devices() const {
-    const StereoEdges truth = match();
+    const EpipolarGeometry searched = corrected(geometry, {0.9, 0.3, 0, 0, 2, 0}, rig);
+    for (const EpipolarGeometry* lines : {static_cast<const EpipolarGeometry*>(nullptr), &searched})
+      compare_devices(lines);
+  }
+  /// \param searched see StereoMutual::run()
+  void compare_devices(const EpipolarGeometry* searched) const {
+    const StereoEdges truth = match(), seen = match(searched != nullptr ? *searched : geometry);
     for_each_variant("stereo_mutual", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
       INFO(name);
       stages::StereoMutual stage(context, config, variants);
@@ -65,7 +74,7 @@ struct MutualScene {
       stages::DeviceMutual mutual;
       stages::DeviceStereoEdges result;
       StereoEdges found;
-      stage.run(upload(context, left), upload(context, right), right_patches, geometry, device_clusters,
+      stage.run(upload(context, left), upload(context, right), right_patches, geometry, searched, device_clusters,
                 device_relaxation, mutual, result, found);
       REQUIRE(found.left_index == truth.left_index);
       CHECK(found.right_index == truth.right_index);
@@ -79,9 +88,9 @@ struct MutualScene {
         CHECK(found.right_x[i] == Approx(truth.right_x[i]).margin(1e-3));
         CHECK(found.right_y[i] == Approx(truth.right_y[i]).margin(1e-3));
       }
-      // The right patches are sampled at the refined positions.
+      // The right patches are sampled where the edges lie in the image.
       const auto recut =
-          reference::side_patches(right_image.view(), found.right_x, found.right_y, found.right_direction, all.patches);
+          reference::side_patches(right_image.view(), seen.right_x, seen.right_y, seen.right_direction, all.patches);
       const auto apart = rounded_apart(result.right_patches.read(recut.size()), recut);
       CHECK(apart.largest <= 1);
       CHECK(apart.differing <= apart.samples / 98);

@@ -1,12 +1,36 @@
 #include "common/epipolar_geometry.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "common/matching_constants.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
+
+double RectificationError::at(double u, double v) const {
+  return offset + (slope_x + bend_xx * u + bend_xy * v) * u + (slope_y + bend_yy * v) * v;
+}
+
+double RectificationError::largest() const {
+  constexpr int kSteps = 8;
+  double most = 0;
+  for (int row = 0; row <= kSteps; ++row)
+    for (int column = 0; column <= kSteps; ++column)
+      most = std::max(
+          most, std::abs(at(static_cast<double>(column) / kSteps - 0.5, static_cast<double>(row) / kSteps - 0.5)));
+  return most;
+}
+
+RectificationError::Terms RectificationError::in_pixels(int width, int height) const {
+  return {offset - 0.5 * (slope_x + slope_y) + 0.25 * (bend_xx + bend_xy + bend_yy),
+          (slope_x - bend_xx - 0.5 * bend_xy) / width,
+          (slope_y - bend_yy - 0.5 * bend_xy) / height,
+          bend_xx / width / width,
+          bend_xy / width / height,
+          bend_yy / height / height};
+}
 
 namespace {
 
@@ -43,19 +67,19 @@ EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig
   return geometry;
 }
 
-EpipolarGeometry corrected(EpipolarGeometry g, const RectificationError& error, const PinholeCamera& left) {
-  const auto x = static_cast<float>(left.cx), y = static_cast<float>(left.cy);
-  const EpipolarLine middle = epipolar_line(g, x, y);
+EpipolarGeometry corrected(EpipolarGeometry g, const RectificationError& error, const StereoRig& rig) {
+  const EpipolarLine middle = epipolar_line(g, static_cast<float>(rig.left.cx), static_cast<float>(rig.left.cy));
   if (!middle.valid) return g;
   const auto ex = static_cast<double>(middle.ex), ey = static_cast<double>(middle.ey);
-  const auto scale = static_cast<double>(g.h[6] * x + g.h[7] * y + g.h[8]);
-  const RectificationError::Plane plane = error.plane(left.width, left.height);
-  const double roll = -plane.x * ex - plane.y * ey;
-  const double across[3] = {plane.x, plane.y, plane.one},
-               along[3] = {roll * ey, -roll * ex, roll * (left.cy * ex - left.cx * ey)};
+  const RectificationError::Terms terms = error.in_pixels(rig.right.width, rig.right.height);
+  for (std::size_t k = 0; k < terms.size(); ++k) g.across[k] = static_cast<float>(terms[k]);
+  const double x = error.slope_x / rig.right.width, y = error.slope_y / rig.right.height, roll = -x * ex - y * ey;
+  const double along[3] = {roll * ey, -roll * ex, roll * (rig.right.cy * ex - rig.right.cx * ey)};
   for (std::size_t k = 0; k < 3; ++k) {
-    g.h[k] += static_cast<float>(scale * (across[k] * ey + along[k] * ex));
-    g.h[3 + k] += static_cast<float>(scale * (along[k] * ey - across[k] * ex));
+    const double shift = along[0] * static_cast<double>(g.h[k]) + along[1] * static_cast<double>(g.h[3 + k]) +
+                         along[2] * static_cast<double>(g.h[6 + k]);
+    g.h[k] += static_cast<float>(shift * ex);
+    g.h[3 + k] += static_cast<float>(shift * ey);
   }
   return g;
 }
@@ -91,6 +115,14 @@ EpipolarLine epipolar_line(const EpipolarGeometry& g, float x, float y) {
     const float ny = (hy + w * g.t[1]) / nz - line.y;
     line.s_max = nz > 1e-6f ? std::sqrt(nx * nx + ny * ny) : 1e5f;
   }
+  const float px = line.x, py = line.y, ex = line.ex, ey = line.ey;
+  const float by_x = g.across[3] * px + g.across[4] * py, by_y = g.across[5] * py;
+  const float across = g.across[0] + (g.across[1] + by_x) * px + (g.across[2] + by_y) * py;
+  const float turn = (g.across[1] + by_x + g.across[3] * px) * ex + (g.across[2] + 2.0f * by_y + g.across[4] * px) * ey;
+  line.x += across * ey;
+  line.y -= across * ex;
+  line.ex += turn * ey;
+  line.ey -= turn * ex;
   return line;
 }
 
@@ -107,17 +139,30 @@ constexpr float kDirectionSlack = 1.2F;
 
 /// The numbering of the pixel at which a right point would lie without `error`.
 EpipolarRows corrected(EpipolarRows rows, const StereoRig& rig, const RectificationError& error) {
+  const Eigen::Vector2d middle(rig.right.cx, rig.right.cy);
   const Eigen::Vector3d t = rig.right.matrix() * rig.right_from_left.translation();
-  const Eigen::Vector2d along = (t.head<2>() - t.z() * Eigen::Vector2d(rig.right.cx, rig.right.cy)).normalized();
-  const RectificationError::Plane plane = error.plane(rig.right.width, rig.right.height);
+  const Eigen::Vector2d along = (t.head<2>() - t.z() * middle).normalized();
+  const RectificationError::Terms terms = error.in_pixels(rig.right.width, rig.right.height);
+  const auto by = [&](float x, float y) {
+    return static_cast<double>(x) * along.y() - static_cast<double>(y) * along.x();
+  };
   const auto move = [&](float& x, float& y, float& one) {
-    const double by = static_cast<double>(x) * along.y() - static_cast<double>(y) * along.x();
-    x -= static_cast<float>(by * plane.x);
-    y -= static_cast<float>(by * plane.y);
-    one -= static_cast<float>(by * plane.one);
+    const double moved = by(x, y);
+    x -= static_cast<float>(moved * terms[1]);
+    y -= static_cast<float>(moved * terms[2]);
+    one -= static_cast<float>(moved * terms[0]);
   };
   move(rows.across_x, rows.across_y, rows.across_1);
   move(rows.forward_x, rows.forward_y, rows.forward_1);
+  const auto at_middle = [&](float x, float y, float one) {
+    return static_cast<double>(x) * middle.x() + static_cast<double>(y) * middle.y() + static_cast<double>(one);
+  };
+  const double depth = at_middle(rows.forward_x, rows.forward_y, rows.forward_1),
+               row = at_middle(rows.across_x, rows.across_y, rows.across_1) / depth,
+               per_px = (by(rows.across_x, rows.across_y) - row * by(rows.forward_x, rows.forward_y)) / depth;
+  rows.bend_xx = static_cast<float>(per_px * terms[3]);
+  rows.bend_xy = static_cast<float>(per_px * terms[4]);
+  rows.bend_yy = static_cast<float>(per_px * terms[5]);
   return rows;
 }
 
@@ -138,8 +183,15 @@ EpipolarRows epipolar_rows(const StereoRig& rig, Side side) {
   const Eigen::RowVector3d numerator = rig.left.fy * across.transpose() * rays;
   const Eigen::RowVector3d denominator = forward.transpose() * rays;
   const auto value = [](double number) { return static_cast<float>(number); };
-  return {value(numerator.x()),   value(numerator.y()),   value(numerator.z()),
-          value(denominator.x()), value(denominator.y()), value(denominator.z())};
+  return {value(numerator.x()),
+          value(numerator.y()),
+          value(numerator.z()),
+          value(denominator.x()),
+          value(denominator.y()),
+          value(denominator.z()),
+          0,
+          0,
+          0};
 }
 
 SelectionArguments selection_arguments(const StereoRig& rig, Side side, const RectificationError& error) {

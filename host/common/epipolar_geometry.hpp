@@ -2,7 +2,7 @@
 /// \file epipolar_geometry.hpp  Epipolar geometry of a general rig: where the counterpart of a left pixel can lie in
 /// the right image, and the common numbering of the epipolar lines of both. doc/method.md sections 1 and 3.
 
-#include <cmath>
+#include <array>
 
 #include "common/layouts.hpp"
 #include "quadedge/camera.hpp"
@@ -10,34 +10,35 @@
 
 namespace quadedge {
 
-/// Distance of a right point from its epipolar line as a linear function of the left pixel,
-/// offset + slope_x u + slope_y v, where u and v range from -1/2 to 1/2 over the left image [px of the right image].
-/// Positive towards (ey, -ex) for a line of direction (ex, ey): downwards on a rectified rig.
+/// Distance of a right point from its epipolar line as a polynomial of the second degree in u and v, which range from
+/// -1/2 to 1/2 over the right image [px]. Positive towards (ey, -ex) for a line of direction (ex, ey): downwards on a
+/// rectified rig.
 struct RectificationError {
-  double offset = 0, slope_x = 0, slope_y = 0;
+  double offset = 0, slope_x = 0, slope_y = 0, bend_xx = 0, bend_xy = 0, bend_yy = 0;
 
+  double at(double u, double v) const;
   /// Its largest absolute value over the image [px].
-  double largest() const { return std::abs(offset) + 0.5 * (std::abs(slope_x) + std::abs(slope_y)); }
+  double largest() const;
   RectificationError operator-(const RectificationError& other) const {
-    return {offset - other.offset, slope_x - other.slope_x, slope_y - other.slope_y};
+    return {offset - other.offset,   slope_x - other.slope_x, slope_y - other.slope_y,
+            bend_xx - other.bend_xx, bend_xy - other.bend_xy, bend_yy - other.bend_yy};
   }
-  /// The linear function of (x, y, 1) for an image of this size [px].
-  struct Plane {
-    double x, y, one;
-  };
-  Plane plane(int width, int height) const {
-    return {slope_x / width, slope_y / height, offset - 0.5 * (slope_x + slope_y)};
+  RectificationError operator*(double factor) const {
+    return {factor * offset, factor * slope_x, factor * slope_y, factor * bend_xx, factor * bend_xy, factor * bend_yy};
   }
+  /// Its coefficients of 1, x, y, xx, xy, yy for an image of this size, x and y in pixels.
+  using Terms = std::array<double, 6>;
+  Terms in_pixels(int width, int height) const;
 };
 
 /// The search is limited by `max_disparity` if positive, otherwise by `min_depth`.
 /// \throws UsageError if neither is given
 EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config);
 
-/// The geometry whose lines pass through the points that lie beside those of the calibration. A change of `error` along
+/// The geometry whose lines pass through the points that lie beside those of the calibration. A slope of `error` along
 /// the lines is that of a right camera that is rolled about its optical axis, so that points are displaced along the
-/// lines, too: positions on the lines are those without error. \param left the camera that `error` refers to
-EpipolarGeometry corrected(EpipolarGeometry geometry, const RectificationError& error, const PinholeCamera& left);
+/// lines, too: positions on the lines are those without error.
+EpipolarGeometry corrected(EpipolarGeometry geometry, const RectificationError& error, const StereoRig& rig);
 
 /// The same geometry with limits removed, for taps: all disparities, all orientations.
 EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities, bool all_orientations);

@@ -161,8 +161,8 @@ RelaxationTally DeviceFrontend::find_stereo_edges(FrameEdges& current, const Epi
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
   context_.flush();
   relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, witness(rig, coarse));
-  mutual_.run(left_.edges, right_.edges, right_.patches, range_.geometry(), clusters_, relaxed_, owners_, rig,
-              current.edges);
+  mutual_.run(left_.edges, right_.edges, right_.patches, range_.geometry(), corrects_rows() ? &geometry : nullptr,
+              clusters_, relaxed_, owners_, rig, current.edges);
   return relaxed_.host_tally;
 }
 

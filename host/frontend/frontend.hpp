@@ -61,8 +61,8 @@ class Frontend {
   /// hides none.
   void hide(const PixelMask& left);
 
-  /// Takes over the rectification error measured in the current frame, which the search of the next ones corrects.
-  void take(const rig::EpipolarFit& fit) { rectification_.take(fit); }
+  /// Takes over what the current frame shows of the rows, which the search of the next ones corrects.
+  void take(const std::vector<rig::CornerMatch>& matches) { rectification_.take(matches); }
 
   /// Keeps the current rig in a compact form.
   virtual KeptFrameEdges keep() = 0;

@@ -6,7 +6,7 @@
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
-#include "rig/corner_matching.hpp"
+#include "rig/row_model.hpp"
 
 namespace quadedge::frontend {
 
@@ -23,22 +23,20 @@ class RectificationFollower {
   /// Whether the frame, in which `edges` were found, was searched with a suitable error. If not, error() has changed
   /// and the frame is to be searched again; the second answer is always true.
   bool suffices(const StereoFrame& frame, const StereoEdges& edges);
-  /// Takes the error measured in the current frame into account. A frame that is not taken leaves no trace.
-  void take(const rig::EpipolarFit& fit);
+  /// Takes the matches of the current frame into account. A frame that is not taken leaves no trace.
+  void take(const std::vector<rig::CornerMatch>& matches);
 
   /// Of the current frame; zero unless the images show clearly that it matters.
   const RectificationError& error() const { return error_; }
 
  private:
-  /// The measured error, limited, or zero if it is small or uncertain.
-  RectificationError judge(const rig::EpipolarFit& measured) const;
+  /// What a model says, limited, or zero if it is small.
+  RectificationError judge(const rig::RowModel& rows) const;
 
   const StereoRig& rig_;
   double least_;                     ///< no smaller error is corrected [px]
   RectificationError error_, next_;  ///< of the current frame, and of the next one
-  rig::EpipolarFit mean_;            ///< of the frames taken, exponentially weighted
-  double spread_ = 0;                ///< mean difference of a frame from mean_ [px]
-  int frames_ = 0;                   ///< taken with a fit, up to kMemory
+  rig::RowModel rows_;               ///< of the frames taken
   bool is_settled_ = false;          ///< whether a frame has been taken
   bool is_second_search_ = false;
 };

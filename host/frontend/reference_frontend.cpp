@@ -111,7 +111,11 @@ RelaxationTally ReferenceFrontend::find_stereo_edges(FrameEdges& current, const 
   if (coarse) witness = reference::coarse_disparity(now.left.view(), now.right.view(), *coarse);
   relaxation_ = reference::stereo_relaxation(clusters_, left_edges_, geometry, calibration_.left.width,
                                              calibration_.left.height, config_.stereo, witness ? &*witness : nullptr);
-  current.edges = reference::stereo_mutual(clusters_, relaxation_, left_edges_, range_.geometry(), config_.stereo);
+  const auto edges_on = [&](const EpipolarGeometry& lines) {
+    return reference::stereo_mutual(clusters_, relaxation_, left_edges_, lines, config_.stereo);
+  };
+  current.edges = edges_on(range_.geometry());
+  seen_ = corrects_rows() ? edges_on(geometry) : current.edges;
   return relaxation_.tally;
 }
 
@@ -121,7 +125,7 @@ void ReferenceFrontend::finish(FrameEdges& current) {
   now.wide.clear();
   now.left_descriptions = {rows_of(left_described_.patches, edges.left_index, kEdgePatchBytes), {}};
   now.right_descriptions = {
-      reference::side_patches(now.right.view(), edges.right_x, edges.right_y, edges.right_direction, config_.patches),
+      reference::side_patches(now.right.view(), seen_.right_x, seen_.right_y, seen_.right_direction, config_.patches),
       {}};
 }
 

@@ -56,6 +56,7 @@ class ReferenceFrontend : public StagedFrontend {
   reference::CandidateScores scores_;
   reference::StereoClusters clusters_;
   reference::StereoRelaxation relaxation_;
+  StereoEdges seen_;  ///< the stereo edges where they lie in the right image
   FrameEdgesPool<ReferenceFrameEdges> rigs_;
 };
 

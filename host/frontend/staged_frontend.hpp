@@ -59,8 +59,9 @@ class StagedFrontend : public Frontend {
   virtual FrameEdges& own(const FrameEdges& rig) = 0;
 
   EpipolarGeometry corrected_geometry() const {
-    return corrected(range_.geometry(), rectification_.error(), calibration_.left);
+    return corrected(range_.geometry(), rectification_.error(), calibration_);
   }
+  bool corrects_rows() const { return rectification_.error().largest() > 0; }
   /// All edges of a rig that a search for about `wanted` uses.
   static WideSubset about(int wanted, const FrameEdges& rig) {
     return {rig.edges, wide_step(rig.edges.size(), wanted)};

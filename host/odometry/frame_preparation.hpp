@@ -43,8 +43,10 @@ class FramePreparation {
   rig::RigReport judge(const StereoFrame& frame);
   /// Warns of the findings. \returns the reason why the frame cannot be located, if there is one
   std::optional<FrameFault> fault(const rig::RigReport& report);
-  /// Takes over the rectification error of a frame that was located.
-  void adopt(const rig::RigReport& report) { frontend_->take(report.fit); }
+  /// Takes over what a frame that was located shows of the rows.
+  void adopt(const rig::RigReport& report) {
+    if (report.matches != nullptr) frontend_->take(*report.matches);
+  }
   /// Hides pixels of the left image, besides those that the rig masks, from the next frame on.
   void hide(const PixelMask& mask) { frontend_->hide(mask); }
 

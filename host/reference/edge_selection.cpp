@@ -26,9 +26,11 @@ Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& max
   const EpipolarRows& rows = arguments.rows;
   const float depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;
   Crossing result;
-  result.row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;
-  const float by_x = (rows.across_x - result.row * rows.forward_x) / depth,
-              by_y = (rows.across_y - result.row * rows.forward_y) / depth;
+  const float plane = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;
+  const float bend_x = rows.bend_xx * x + rows.bend_xy * y, bend_y = rows.bend_yy * y;
+  result.row = plane - (bend_x * x + bend_y * y);
+  const float by_x = (rows.across_x - plane * rows.forward_x) / depth - (bend_x + rows.bend_xx * x),
+              by_y = (rows.across_y - plane * rows.forward_y) / depth - (2.0F * bend_y + rows.bend_xy * x);
   const float rise = std::abs(tangent_x * by_x + tangent_y * by_y);
   result.step = rise;
   result.sine = rise / std::sqrt((1.0F + ratio * ratio) * (by_x * by_x + by_y * by_y));

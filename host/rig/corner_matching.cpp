@@ -142,7 +142,8 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
                      true,
                      epipolar->normal,
                      epipolar->inverse_depth(along, t_),
-                     -1};
+                     -1,
+                     position};
 }
 
 void CornerMatcher::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& matches) const {
@@ -227,7 +228,9 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
                                   0.3 * scale,
                                   false,
                                   epipolar->normal,
-                                  -1};
+                                  0,
+                                  -1,
+                                  *position};
     return outcome;
   };
   const auto corners = find_corners(views.left);

@@ -25,6 +25,7 @@ struct CornerMatch {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of increasing `across`
   double inverse_depth = 0;                           ///< in the left camera, by `along` [1/m]
   int edge = -1;                                      ///< index of the stereo edge, if it is one
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< where it was found [px]
 };
 
 /// Transformations of the right image relative to the calibration that a search can assume.
@@ -77,7 +78,9 @@ class CornerMatcher {
 };
 
 /// Linear model of the distances from the epipolar lines over the image.
-struct EpipolarFit : RectificationError {
+struct EpipolarFit {
+  /// In the middle of the left image, and its change over the image's width and height [px].
+  double offset = 0, slope_x = 0, slope_y = 0;
   double residual = 0;  ///< median distance from the lines, before the fit [px]
   double scatter = 0;   ///< median distance from the fit [px]
   int samples = 0;

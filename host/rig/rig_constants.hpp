@@ -40,6 +40,13 @@ constexpr std::size_t kMinFitCorners = 12;
 constexpr int kFitRounds = 8;
 constexpr double kMinScale = 0.02;  ///< px
 
+// What all frames show of the rows (row_model.cpp).
+
+constexpr double kRowMemory = 100;             ///< frames
+constexpr double kTermSigmas = 4;              ///< standard deviations below which a term counts as 0
+constexpr double kMeanSquare = 1.0 / 12;       ///< of a coordinate from -1/2 to 1/2
+constexpr double kDeviationOfMedian = 1.4826;  ///< standard deviation of normal errors over their median magnitude
+
 // When the corners are searched for again (rig_monitor.cpp).
 
 constexpr int kSearchPeriod = 50;  ///< frames

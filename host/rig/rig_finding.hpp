@@ -64,7 +64,8 @@ struct RigFinding {
 /// What was measured in a frame, and what is wrong with it.
 struct RigReport {
   RigEvidence evidence;
-  EpipolarFit fit;                   ///< of the patches around stereo edges
+  /// Patches around stereo edges; null without, valid until the next frame is judged.
+  const std::vector<CornerMatch>* matches = nullptr;
   std::vector<RigFinding> findings;  ///< a mismatch is the only one
   /// What to hide of the left image from the next frame on; empty: nothing more, as what was hidden moves.
   std::optional<PixelMask> new_mask;

@@ -225,7 +225,8 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   evidence.epipolar_correction = correction;
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
   corner_matcher_.align(frame, edges, corner_matches_);
-  const EpipolarFit& fit = report.fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height);
+  report.matches = &corner_matches_;
+  const EpipolarFit fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height);
   if (fit.samples > 0) {
     evidence.epipolar_residual = fit.residual;
     evidence.epipolar_offset = fit.offset;

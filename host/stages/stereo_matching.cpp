@@ -228,9 +228,9 @@ StereoMutual::StereoMutual(opencl::Context& context, const StereoConfig& config,
 }
 
 void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches,
-                       const EpipolarGeometry& geometry, const DeviceClusters& clusters,
-                       const DeviceRelaxation& relaxation, DeviceMutual& mutual, DeviceStereoEdges& result,
-                       StereoEdges& edges) {
+                       const EpipolarGeometry& geometry, const EpipolarGeometry* searched,
+                       const DeviceClusters& clusters, const DeviceRelaxation& relaxation, DeviceMutual& mutual,
+                       DeviceStereoEdges& result, StereoEdges& edges) {
   begin();
   const int n = left.host_count;
   const auto left_edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
@@ -244,7 +244,6 @@ void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patche
   arguments.left = left.positions().at;
   arguments.capacity = clusters.stride;
   arguments.mutual_radius = mutual_radius_;
-  arguments.geometry = geometry;
   const opencl::Range range = over(left_edges);
   claim_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed);
   owner_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed, mutual.owner);
@@ -252,10 +251,16 @@ void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patche
   result.reserve(context_, left_edges);
   result.stride = n;
   scan_.run(mutual.keep, n, n, mutual.keep_first, result.total);
-  collect_(range, arguments, mutual.keep_first, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
-           result.left_index, result.right_index, result.packed, result.ncc);
+  const auto collect = [&](const EpipolarGeometry& lines) {
+    arguments.geometry = lines;
+    collect_(range, arguments, mutual.keep_first, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
+             result.left_index, result.right_index, result.packed, result.ncc);
+  };
+  collect(geometry);
   result.read(context_, read_back_, edges);
+  if (searched != nullptr) collect(*searched);
   right_patches.cut(result.positions(Side::right), result.right_patches);
+  if (searched != nullptr) collect(geometry);
 }
 
 }  // namespace quadedge::stages

@@ -204,9 +204,11 @@ class StereoMutual : private Stage {
 
   /// Fills `result`, waits, copies it to `edges`, and enqueues the right patches without waiting for them.
   /// `right_patches` must hold the prepared right image.
+  /// \param geometry lines onto which right points are written \param searched those on which they lie in the image,
+  /// where patches are cut; null: the same
   void run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches, const EpipolarGeometry& geometry,
-           const DeviceClusters& clusters, const DeviceRelaxation& relaxation, DeviceMutual& mutual,
-           DeviceStereoEdges& result, StereoEdges& edges);
+           const EpipolarGeometry* searched, const DeviceClusters& clusters, const DeviceRelaxation& relaxation,
+           DeviceMutual& mutual, DeviceStereoEdges& result, StereoEdges& edges);
 
  private:
   float mutual_radius_;

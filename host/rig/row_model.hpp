@@ -1,0 +1,46 @@
+#pragma once
+/// \file row_model.hpp  What a recording shows of a rig's rows: by how much, and where in the right image, points lie
+/// beside the epipolar lines of the calibration. doc/method.md section 3.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/epipolar_geometry.hpp"
+#include "rig/corner_matching.hpp"
+
+namespace quadedge::rig {
+
+/// A robust least-squares fit of a RectificationError to the matches of all frames so far, of which older ones count
+/// less. Errors that the matches of a frame share do not average out within the frame, so the covariance is that of the
+/// frames' contributions.
+class RowModel {
+ public:
+  /// \param right the camera in which the matches lie
+  explicit RowModel(const PinholeCamera& right) : width_(right.width), height_(right.height) {}
+
+  /// Adds the matches of a frame; too few change nothing.
+  void add(const std::vector<CornerMatch>& matches);
+
+  /// The terms that are certain, each shrunk by its uncertainty; all zero before the first frame.
+  RectificationError error() const;
+
+ private:
+  static constexpr int kTerms = 6;
+  using Terms = Eigen::Matrix<double, kTerms, 1>;
+  using Normal = Eigen::Matrix<double, kTerms, kTerms>;
+
+  /// 1, u, v, u^2, uv, v^2 at a match, less the mean of the squares over the image.
+  Terms row_of(const CornerMatch& match) const;
+  /// Median distance of the matches from the model [px].
+  double scatter(const std::vector<CornerMatch>& matches);
+
+  int width_, height_;
+  Normal normal_ = Normal::Zero(), shared_ = Normal::Zero();  ///< `shared`: sum of the squared contributions of frames
+  Terms right_side_ = Terms::Zero();
+  Terms terms_ = Terms::Zero();    ///< all of them
+  double variance_ = 0;            ///< of a match, mean over the frames [px^2]
+  double frames_ = 0;              ///< that count
+  std::vector<double> distances_;  ///< kept for its memory
+};
+
+}  // namespace quadedge::rig
