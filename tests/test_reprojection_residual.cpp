@@ -7,6 +7,7 @@
 #include "quadedge/camera.hpp"
 #include "reprojection_jacobian.hpp"
 
+using namespace quadedge;
 using namespace quadedge::pose;
 
 TEST_CASE("The reprojection residual's analytic Jacobian is its derivative", "[pose][reprojection_residual]") {

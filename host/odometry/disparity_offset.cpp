@@ -38,8 +38,28 @@ DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
 void DisparityOffset::update(double correction, double variance, int frames) {
   if (!(variance_ > 0) || !(variance > 0)) return;
   value_ += correction;
-  variance_ = variance + frames * drift_ * drift_;
-  rig_ = with_disparity_offset(calibration_, value_);
+  variance_ = variance + frames * drift_ * drift_ + (has_jumped() ? kJumpSigma * kJumpSigma : 0);
+  rig_ = rig_at(frame_);
+}
+
+void DisparityOffset::start_frame(int frame) {
+  const bool follows_jump = jump(frame_) != 0;
+  frame_ = frame;
+  if (follows_jump || jump(frame) != 0) set_jump(0);
+}
+
+void DisparityOffset::set_jump(double jump) {
+  if (jump == 0) {
+    jumps_.erase(frame_);
+  } else {
+    jumps_[frame_] = jump;
+  }
+  rig_ = rig_at(frame_);
+}
+
+double DisparityOffset::jump(int frame) const {
+  const auto found = jumps_.find(frame);
+  return found == jumps_.end() ? 0 : found->second;
 }
 
 }  // namespace quadedge::odometry

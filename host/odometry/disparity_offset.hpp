@@ -1,6 +1,8 @@
 #pragma once
 /// \file disparity_offset.hpp  Online estimate of the common offset of all disparities.
 
+#include <map>
+
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
@@ -21,8 +23,19 @@ class DisparityOffset {
   /// `frames` have passed since the last measurement.
   void update(double correction, double variance, int frames);
 
-  /// The rig with its right principal point corrected by the offset, without undistortion tables.
+  /// Begins a frame, which is assumed not to have jumped.
+  void start_frame(int frame);
+  /// The disparities of the frame are larger by `jump` px than those of the rig at other times, because its right image
+  /// is displaced: rig() is that of the frame.
+  void set_jump(double jump);
+  /// Of a frame; 0 for most.
+  double jump(int frame) const;
+  bool has_jumped() const { return !jumps_.empty(); }
+
+  /// The rig of the current frame with its right principal point corrected by the offset, without undistortion tables.
   const StereoRig& rig() const { return rig_; }
+  /// That of an earlier frame.
+  StereoRig rig_at(int frame) const { return with_disparity_offset(calibration_, value_ - jump(frame)); }
   double value() const { return value_; }  ///< added to disparities [px]
   double variance() const {
     return variance_;
@@ -33,6 +46,8 @@ class DisparityOffset {
   StereoRig rig_;
   double drift_;
   double value_, variance_;
+  int frame_ = 0;                ///< the current one
+  std::map<int, double> jumps_;  ///< of the frames that have jumped
 };
 
 }  // namespace quadedge::odometry

@@ -52,7 +52,8 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
 }
 
 const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& rig) const {
-  return rig.measured_edges(calibration(), kMinEpipolarAngle);
+  if (!offset_.has_jumped()) return rig.measured_edges(calibration(), kMinEpipolarAngle);
+  return rig.measured_edges(offset_.rig_at(rig.frame), kMinEpipolarAngle);
 }
 
 PoseConfig limits_of_proposals(const Config& config) {

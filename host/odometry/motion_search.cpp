@@ -39,9 +39,11 @@ bool cannot_compete(const MotionStep& step, const MotionStep* known) {
 
 }  // namespace
 
-MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
+MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset,
+                           DisparityOffset* jumps)
     : config_(config),
       frontend_(frontend),
+      jumps_(jumps),
       fits_(config, offset),
       proposals_(config, frontend, fits_),
       evidence_(config, offset),
@@ -53,6 +55,7 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   Selection selection;
   for (Effort effort = Effort::prediction;; effort = selection.needed) {
     attempt_all(effort, query, candidates);
+    if (effort == Effort::prediction) follow_jump(query, candidates);
     verdicts = verdicts_on(candidates, query);
     selection = choose(verdicts, candidates, query);
     if (query.is_near_prediction || selection.needed <= effort) break;
@@ -70,6 +73,28 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   found->ambiguity = selection.ambiguity;
   found->refusal = decide(selection, query.accepts_ambiguous);
   return found;
+}
+
+/// If the matches near the prediction show that the right image is displaced, the prediction is tried again with the
+/// displacement, which is kept if more of the image is explained then.
+void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates) {
+  if (jumps_ == nullptr || candidates.empty() || jumps_->jump(query.current->frame) != 0) return;
+  const MotionStep& step = *candidates.front().proposed;
+  const auto jump = jump_meter_.measure(fits_.measured(*step.base), fits_.measured(*query.current), step.matches,
+                                        step.has_motion() ? step.motion.current_from_previous : *query.prediction);
+  // The base is measured with its own displacement, the current frame without one.
+  if (!jump || !jump->is_certain(jumps_->has_jumped() ? kLaterJump : kFirstJump)) return;
+  jumps_->set_jump(jump->shift);
+  Candidates displaced;
+  attempt_all(Effort::prediction, query, displaced);
+  const auto area = [](const Candidates& of) {
+    return of.front().is_confirmed() ? of.front().confirmed->explained.area : 0;
+  };
+  if (area(displaced) > area(candidates)) {
+    candidates = std::move(displaced);
+  } else {
+    jumps_->set_jump(0);
+  }
 }
 
 /// Tries the hypotheses of a level of effort that have not been tried. They come in an order in which each has what it

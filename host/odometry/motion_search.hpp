@@ -5,6 +5,7 @@
 
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "odometry/image_jump.hpp"
 #include "odometry/motion_evidence.hpp"
 #include "odometry/motion_proposals.hpp"
 #include "odometry/motion_selection.hpp"
@@ -18,7 +19,9 @@ namespace quadedge::odometry {
 class MotionSearch : public MotionFinder {
  public:
   /// Refers to the front end and the offset, which must outlive the object.
-  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
+  /// \param jumps the same offset, where displaced images are noted; null: none are looked for
+  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset,
+               DisparityOffset* jumps = nullptr);
 
   StepHandle find(const MotionQuery& query) override;
   void remember(const MotionStep& found) override { record_.remember(found); }
@@ -53,6 +56,7 @@ class MotionSearch : public MotionFinder {
   };
 
   static bool is_close_to_another(Hypothesis hypothesis);
+  void follow_jump(const MotionQuery& query, Candidates& candidates);
   void attempt_all(Effort effort, const MotionQuery& query, Candidates& candidates);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
@@ -67,6 +71,8 @@ class MotionSearch : public MotionFinder {
 
   Config config_;
   frontend::Frontend& frontend_;
+  DisparityOffset* jumps_;
+  JumpMeter jump_meter_;
   MotionFits fits_;
   MotionProposals proposals_;
   MotionEvidence evidence_;

@@ -1,5 +1,6 @@
 /// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
 #include <cmath>
+#include <cstdio>
 #include <tbb/task_group.h>
 #include <utility>
 
@@ -47,9 +48,9 @@ void add_message(const std::string& message, FrameResult& result) {
 }
 
 std::unique_ptr<odometry::MotionFinder> make_search(const Config& config, frontend::Frontend& frontend,
-                                                    const odometry::DisparityOffset& offset) {
+                                                    odometry::DisparityOffset& offset) {
   if (config.is_paper()) return std::make_unique<odometry::PaperSearch>(config, frontend, offset);
-  return std::make_unique<odometry::MotionSearch>(config, frontend, offset);
+  return std::make_unique<odometry::MotionSearch>(config, frontend, offset, &offset);
 }
 
 /// The configuration, if it and the rig are valid. \throws DataError, UsageError.
@@ -237,6 +238,7 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
 /// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
 /// the motion since the lost frame is tried.
 odometry::StepHandle StereoOdometry::Implementation::search() {
+  offset_.start_frame(current_->frame);
   odometry::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
@@ -354,6 +356,11 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     preparation_.warn(rig::warning(*large));
   result.ambiguous_motion = step.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
+  if (const double jump = offset_.jump(current_->frame); jump != 0) {
+    char text[64];
+    std::snprintf(text, sizeof text, "the right image is displaced by %+.1f px", jump);
+    add_message(text, result);
+  }
   if (step.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;
   result.diagnostics.search = step.matches.search;
