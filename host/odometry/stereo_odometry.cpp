@@ -109,6 +109,7 @@ class StereoOdometry::Implementation {
   void return_to_earlier(FrameResult& result);
   void start_segment(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
+  void report(const odometry::MotionStep& step, const pose::PoseAndOffset& learned, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
 
   StereoRig rig_;  ///< the cameras in which edges are detected
@@ -326,6 +327,27 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
                                         ", whose place relative to the earlier ones is a prediction"});
 }
 
+/// States what was found of the motion, beside the pose. \param learned what the fit learned of the disparity offset
+void StereoOdometry::Implementation::report(const odometry::MotionStep& step, const pose::PoseAndOffset& learned,
+                                            FrameResult& result) {
+  result.status = FrameStatus::tracked;
+  result.counts.inliers = step.motion.inliers;
+  result.disparity_offset = offset_.value() + learned.offset;
+  result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
+  if (const auto large = rig::judge_disparity_offset(offset_.value() + step.motion.offset))
+    preparation_.warn(rig::warning(*large));
+  result.ambiguous_motion = step.ambiguity.exists();
+  result.diagnostics.moving_ratio = step.verdict.moving_ratio;
+  if (const double jump = offset_.jump(current_->frame); jump != 0) {
+    char text[64];
+    std::snprintf(text, sizeof text, "the right image is displaced by %+.1f px", jump);
+    add_message(text, result);
+  }
+  if (step.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.ambiguity), result);
+  result.diagnostics.base_frame = step.base->frame;
+  result.diagnostics.search = step.matches.search;
+}
+
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
 /// becomes the key rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
@@ -347,23 +369,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   fitness.rotation = Eigen::AngleAxisd(current_from_key.transform.linear()).angle();
   fitness.frames = current_->frame - state_.key.frame();
 
-  result.status = FrameStatus::tracked;
-  result.counts.inliers = step.motion.inliers;
   const pose::PoseAndOffset learned = step.motion.learned.value_or(pose::PoseAndOffset());
-  result.disparity_offset = offset_.value() + learned.offset;
-  result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
-  if (const auto large = rig::judge_disparity_offset(offset_.value() + step.motion.offset))
-    preparation_.warn(rig::warning(*large));
-  result.ambiguous_motion = step.ambiguity.exists();
-  result.diagnostics.moving_ratio = step.verdict.moving_ratio;
-  if (const double jump = offset_.jump(current_->frame); jump != 0) {
-    char text[64];
-    std::snprintf(text, sizeof text, "the right image is displaced by %+.1f px", jump);
-    add_message(text, result);
-  }
-  if (step.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.ambiguity), result);
-  result.diagnostics.base_frame = step.base->frame;
-  result.diagnostics.search = step.matches.search;
+  report(step, learned, result);
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
   result.relative_covariance = pose::in_other_order(current_from_key.covariance);

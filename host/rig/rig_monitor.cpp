@@ -70,12 +70,12 @@ bool finds_few_corners(const CornerSearch& search, const RigEvidence& evidence) 
 /// Fraction of the aligned corners that lie on their lines, although the fit to all puts these corners off them. Where
 /// curves cross one another, corners are no points of the scene and agree on a distance that is none of the rig's.
 double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, const PinholeCamera& left) {
-  const RectificationError::Plane plane = fit.plane(left.width, left.height);
   int aligned = 0, contradicting = 0;
   for (const CornerMatch& match : search.found) {
     if (!match.is_aligned) continue;
     ++aligned;
-    const double fitted = plane.x * match.left.x() + plane.y * match.left.y() + plane.one;
+    const double fitted = fit.offset + fit.slope_x * (match.left.x() / left.width - 0.5) +
+                          fit.slope_y * (match.left.y() / left.height - 0.5);
     contradicting += std::abs(match.across) < kOnLine && std::abs(fitted) > kOffLine ? 1 : 0;
   }
   return aligned > 0 ? static_cast<double>(contradicting) / aligned : 0;
