@@ -432,7 +432,7 @@ def test_what_a_run_would_refuse_is_refused_at_once(room, frames, bag_command, t
             bag.image(f"/stereo/{side}/image_raw", 5, frames[0].left)
     done = bag_command(bag.path, "-o", tmp_path / "out")
     assert done.returncode == 3 and "a baseline above zero" in done.stderr
-    assert f"{bag.path}: /stereo/left/camera_info" in done.stderr and "/tmp/tmp" not in done.stderr
+    assert f"{bag.path}: /stereo/right/camera_info" in done.stderr and "/tmp/tmp" not in done.stderr
 
 
 def test_the_layout_of_realsense_viewer_and_given_topics(room, frames, tmp_path):
