@@ -83,7 +83,9 @@ cl::Program Context::build(const std::string& source, const std::string& options
     } catch (const cl::Error&) {
       log = "(the driver gives no log)";
     }
+    const bool is_error_of_source = log.find("error:") != std::string::npos;
     throw DeviceError("building the kernels of " + what + " failed: " + status_name(error.err()) + " on " + name_ +
+                      (is_error_of_source ? "" : "; can the driver write its files? (disk space, `ulimit -f`)") +
                       "\noptions: " + options + "\n" + log);
   }
   return program;
