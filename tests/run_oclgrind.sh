@@ -7,16 +7,17 @@ tests="$1" kernels="$2"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 status=0
-# Single-threaded: with several threads, the instruction counter of oclgrind 21.10, which is needed below to see which
-# kernels ran, occasionally corrupts the heap.
-oclgrind --check-api --data-races --inst-counts --num-threads 1 --log "$folder/log" "$tests" "[oclgrind]" \
-  >"$folder/out" || status=$?
+# Single-threaded, and the instructions are counted in a run of their own, which only shows which kernels ran: the
+# counter of oclgrind 21.10 corrupts the heap with several threads and in tests that are tagged [uncounted], and what
+# that run says of memory and results is not to be believed.
+oclgrind --check-api --data-races --num-threads 1 --log "$folder/log" "$tests" "[oclgrind]" >"$folder/out" || status=$?
 grep -avE "^Instructions executed|^ +[0-9,]+ - |^$" "$folder/out" || true
 if [ -s "$folder/log" ]; then
   echo "oclgrind reports:"
   head -100 "$folder/log"
   exit 1
 fi
+oclgrind --inst-counts --num-threads 1 "$tests" "[oclgrind]~[uncounted]" >"$folder/out" 2>&1 || true
 cat "$kernels"/*.cl | tr '\n' ' ' |
   grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +|[A-Z_]+ +)?void +[a-z_0-9]+' |
   sed 's/.* //' | sort -u >"$folder/all"

@@ -101,10 +101,9 @@ TEST_CASE("smoothing: the noise of recorded images is known from that of undisto
   CHECK(frontend::measured_noise_ratio({}) == 1);
 }
 
-TEST_CASE("smoothing: begins where 1.25 times the limit of noise exceeds the contrast, and ends at a fifth less",
-          "[smoothing]") {
+TEST_CASE("smoothing: begins where the limit of noise exceeds the contrast, and ends at a fifth less", "[smoothing]") {
   frontend::NoiseGate gate({}, EdgesConfig{});
-  const double limit = std::sqrt(8 * 3.14159265358979) * 4 / 5 / 1.25;  // noise whose limit is a gradient of 0.8
+  const double limit = std::sqrt(8 * 3.14159265358979) * 4 / 5;  // noise whose limit is a gradient of 1
   CHECK_FALSE(gate.judge(0, 0));
   CHECK_FALSE(gate.judge(0.99 * limit, 1));
   CHECK(gate.judge(1.01 * limit, 1));

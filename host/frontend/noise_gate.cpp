@@ -10,8 +10,8 @@ namespace quadedge::frontend {
 namespace {
 
 constexpr double kSmoothingVariance = 4.0;  ///< that smoothing adds along either axis [px^2]
-/// The gate opens where the limit of noise exceeds the gradient divided by this, since dark pixels, whose noise is cut
-/// off at black, lower the estimate by up to a third; and it closes at a noise lower by this factor.
+/// The gate opens where the limit of noise exceeds the gradient that a fifth of the images exceeds, so that fewer edges
+/// than that would be left, and closes at a noise lower by this factor.
 constexpr double kHold = 1.25;
 
 /// Variance of the response of [1 -2 1] to noise of variance 1, interpolated `fraction` of a pixel from its samples.
@@ -53,7 +53,7 @@ NoiseGate::NoiseGate(const StereoRig& rig, const EdgesConfig& config)
 bool NoiseGate::judge(double noise, double gradient) {
   const double recorded = noise / ratio_;
   smoothed_noise_ = smoothed_ * recorded;
-  is_open_ = (is_open_ ? kHold * kHold : kHold) * per_noise_ * recorded > gradient;
+  is_open_ = (is_open_ ? kHold : 1) * per_noise_ * recorded > gradient;
   return is_open_;
 }
 

@@ -8,9 +8,11 @@
 namespace quadedge::frontend {
 namespace {
 
-constexpr double kLeast = 0.5;    // of stereo.epipolar_distance, from which the search loses candidates
-constexpr double kLargest = 3;    // px; beyond, matches do not show the error any more
-constexpr double kReleased = 2;   // an error in use is kept down to a limit this many times smaller
+constexpr double kLeast = 0.5;   // of stereo.epipolar_distance, from which the search loses candidates
+constexpr double kLargest = 3;   // px; beyond, matches do not show the error any more
+constexpr double kReleased = 2;  // an error in use is kept down to a limit this many times smaller
+/// An error that leaves more of the distances than this unexplained is another one: of synchronisation, or of the lens.
+constexpr double kUnexplained = 0.55;
 constexpr double kChange = 0.05;  // px; smaller ones are not followed, so that disparities stay comparable
 
 }  // namespace
@@ -45,7 +47,7 @@ void RectificationFollower::take(const std::vector<rig::CornerMatch>& matches) {
 RectificationError RectificationFollower::judge(const rig::RowModel& rows) const {
   const RectificationError error = rows.error();
   const double largest = error.largest(), released = next_.largest() > 0 ? kReleased : 1;
-  if (released * largest < least_) return {};
+  if (released * largest < least_ || rows.unexplained() > std::min(1.0, released * kUnexplained)) return {};
   return error * std::min(1.0, kLargest / largest);
 }
 

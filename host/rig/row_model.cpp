@@ -48,7 +48,13 @@ void RowModel::add(const std::vector<CornerMatch>& matches) {
   frames_ = kKept * frames_ + 1;
   const double deviation = kDeviationOfMedian * scatter(matches);
   variance_ += (deviation * deviation - variance_) / frames_;
+  distances_.clear();
+  for (const CornerMatch& match : matches) distances_.push_back(std::abs(match.across));
+  const double distance = kDeviationOfMedian * upper_median(distances_);
+  whole_variance_ += (distance * distance - whole_variance_) / frames_;
 }
+
+double RowModel::unexplained() const { return whole_variance_ > 0 ? std::sqrt(variance_ / whole_variance_) : 1; }
 
 RectificationError RowModel::error() const {
   if (frames_ == 0) return {};

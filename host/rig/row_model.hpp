@@ -23,6 +23,8 @@ class RowModel {
 
   /// The terms that are certain, each shrunk by its uncertainty; all zero before the first frame.
   RectificationError error() const;
+  /// Distance of the matches from the model, in units of their distance from the lines; 1 before the first frame.
+  double unexplained() const;
 
  private:
   static constexpr int kTerms = 6;
@@ -39,6 +41,7 @@ class RowModel {
   Terms right_side_ = Terms::Zero();
   Terms terms_ = Terms::Zero();    ///< all of them
   double variance_ = 0;            ///< of a match, mean over the frames [px^2]
+  double whole_variance_ = 0;      ///< the same without the model
   double frames_ = 0;              ///< that count
   std::vector<double> distances_;  ///< kept for its memory
 };
