@@ -1,13 +1,29 @@
 #pragma once
-/// \file edge_images.hpp  8-bit test images with edges at known positions: pixel coverage by supersampling.
+/// \file edge_images.hpp  Test images: noise, and 8-bit edges at known positions, by the coverage of pixels.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include "quadedge/image.hpp"
+
+/// Normal noise around `level`, both in grey levels, rounded and clipped as by a camera.
+inline quadedge::Image noisy_image(int width, int height, double level, double sigma,
+                                   int max_value = quadedge::kMaxValue8, unsigned seed = 1) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal(level, sigma);
+  quadedge::Image image(width, height, max_value);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double value = normal(generator) * max_value / quadedge::kMaxValue8;
+      image.set(x, y, static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(max_value))));
+    }
+  }
+  return image;
+}
 
 /// Points of the plane with `inside(x, y)` have grey level `bright`, all others `dark`. 256 samples per pixel on a
 /// lattice without rows or columns, so that nearly upright edges are rendered as finely as oblique ones.

@@ -109,7 +109,7 @@ TEST_CASE("dataset: TartanAir's poses are those of the camera, z forward", "[dat
   write_text(folder / "pose_left.txt", "0 0 0 0 0 0 1\n1 0.5 0 0 0 0 1\n2 1 0.25 0 0 0 1\n");
   const Dataset dataset = open_dataset(folder / ".");
   CHECK(dataset.format == "tartanair");
-  CHECK(dataset.rig.left.fx == 320);
+  CHECK(dataset.rig.left.fx == 32);  // 320 px for 640, a field of view of 90 degrees
   CHECK(dataset.rig.left.cx == 32);
   CHECK(dataset.rig.baseline() == Approx(0.25));
   REQUIRE(dataset.truth.size() == kFrames);

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "devices.hpp"
+#include "odometry/earlier_rigs.hpp"
 #include "odometry/odometry_constants.hpp"
-#include "odometry/tracking_state.hpp"
 #include "odometry/view_change.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/synthetic.hpp"

@@ -17,20 +17,6 @@ using namespace quadedge;
 
 namespace {
 
-/// Normal noise around `level`, rounded and clipped as by a camera.
-Image noisy_image(int width, int height, double level, double sigma, int max_value = kMaxValue8, unsigned seed = 1) {
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal(level, sigma);
-  Image image(width, height, max_value);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double value = normal(generator) * max_value / kMaxValue8;
-      image.set(x, y, static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(max_value))));
-    }
-  }
-  return image;
-}
-
 /// The image with its differences from `middle` scaled, at another bit depth.
 Image flattened(const Image& image, double contrast, int max_value, double middle = 128) {
   Image result(image.width, image.height, max_value);

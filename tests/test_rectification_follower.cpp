@@ -69,6 +69,12 @@ TEST_CASE("rectification follower: an error that is small, uncertain or measured
   CHECK(next_after(rare, {0.6, 0, 0, 0, 0, 0}, 30, 0.15, 10).largest() == 0);
 }
 
+TEST_CASE("rectification follower: an error that explains little of the distances is another fault", "[frontend]") {
+  auto explained = follower(), unexplained = follower();
+  CHECK(next_after(explained, {0.6, 0, 0, 0, 0, 0}, 30, 0.3).offset == Approx(0.6).margin(0.05));
+  CHECK(next_after(unexplained, {0.6, 0, 0, 0, 0, 0}, 30, 1.5).largest() == 0);
+}
+
 TEST_CASE("rectification follower: no distance above 3 px is corrected", "[frontend]") {
   auto followed = follower();
   const RectificationError error = next_after(followed, {4, 1, -1, 0, 0, 0});

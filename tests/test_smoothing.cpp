@@ -4,28 +4,22 @@
 
 #include "common/threshold_limits.hpp"
 #include "devices.hpp"
+#include "edge_images.hpp"
 #include "frontend/noise_gate.hpp"
 #include "frontends.hpp"
 #include "opencl/variants.hpp"
+#include "quadedge/odometry.hpp"
 #include "reference/edge_threshold.hpp"
 #include "reference/smoothing.hpp"
 #include "reference/undistortion.hpp"
 #include "stages/images.hpp"
 
 using namespace quadedge;
+using Catch::Matchers::Contains;
 
 namespace {
 
-/// A grey image with white noise.
-Image noisy(int width, int height, double level, double sigma, int max_value = kMaxValue8, unsigned seed = 1) {
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal(level, sigma);
-  Image image(width, height, max_value);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      image.set(x, y, static_cast<int>(std::clamp(std::round(normal(generator)), 0.0, 1.0 * max_value)));
-  return image;
-}
+constexpr double kGrey = 255.0 / 65535;  ///< of a step of 16 bits
 
 /// The image as a camera sees it in a fraction of the light, with its noise.
 Image in_the_dark(const Image& image, double light, double noise, unsigned seed) {
@@ -56,11 +50,11 @@ TEST_CASE("smoothing: a single bright pixel becomes the binomial kernel, and its
 TEST_CASE("smoothing: a flat image and its border are unchanged, white noise falls as its gradients do",
           "[smoothing]") {
   for (const int grey : {0, 77, 255}) {
-    const Image smoothed = reference::smoothed(noisy(19, 12, grey, 0).view());
-    CHECK(smoothed.pixels == noisy(19, 12, grey, 0).pixels);
+    const Image smoothed = reference::smoothed(noisy_image(19, 12, grey, 0).view());
+    CHECK(smoothed.pixels == noisy_image(19, 12, grey, 0).pixels);
   }
   // A Gaussian of variance 4 leaves 1 / (sqrt(4 pi) 2) of white noise along two axes, the square of that along one.
-  const Image smoothed = reference::smoothed(noisy(640, 480, 30000, 2000, 65535).view());
+  const Image smoothed = reference::smoothed(noisy_image(640, 480, 30000 * kGrey, 2000 * kGrey, 65535).view());
   double sum = 0, squares = 0;
   for (int y = 0; y < smoothed.height; ++y) {
     for (int x = 0; x < smoothed.width; ++x) {
@@ -75,7 +69,8 @@ TEST_CASE("smoothing: a flat image and its border are unchanged, white noise fal
 
 TEST_CASE("smoothing: the noise of smoothed images is predicted from that of the recorded ones", "[smoothing]") {
   const EdgesConfig config;
-  const Image image = noisy(640, 480, 30000, 2000, 65535), smoothed = reference::smoothed(image.view());
+  const Image image = noisy_image(640, 480, 30000 * kGrey, 2000 * kGrey, 65535),
+              smoothed = reference::smoothed(image.view());
   reference::EdgeThreshold before(config), after(config);
   before.next({image.view()});
   after.next({smoothed.view()});
@@ -85,7 +80,7 @@ TEST_CASE("smoothing: the noise of smoothed images is predicted from that of the
 }
 
 TEST_CASE("smoothing: the noise of recorded images is known from that of undistorted ones", "[smoothing]") {
-  const Image recorded = noisy(640, 480, 30000, 2000, 65535);
+  const Image recorded = noisy_image(640, 480, 30000 * kGrey, 2000 * kGrey, 65535);
   UndistortionTable table{600, 440, {}, {}};
   for (int y = 0; y < table.height; ++y) {
     for (int x = 0; x < table.width; ++x) {  // all fractions of a pixel occur
@@ -120,7 +115,7 @@ TEST_CASE("smoothing: every device and variant equals the reference exactly", "[
       for (const int max_value : {255, 4095, 65535}) {
         stages::Smoothing stage(*device.context(), {{"smoothing", variant.name}}, max_value);
         for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {129, 66}}) {
-          const Image image = noisy(width, height, 0.5 * max_value, 0.4 * max_value, max_value);
+          const Image image = noisy_image(width, height, 128, 102, max_value);
           opencl::Buffer<cl_uchar> pixels;
           pixels.write(*device.context(), image.pixels);
           stage.run(width, height, pixels);
@@ -172,4 +167,8 @@ TEST_CASE(
     CHECK(find(device, bright.config, {&bright, &dark}).is_smoothed);
     CHECK_FALSE(find(device, bright.config, {&dark, &bright}).is_smoothed);
   }
+  Device device("reference");
+  StereoOdometry odometry(bright.rig, device, bright.config);
+  CHECK_THAT(odometry.track(bright.frame(0)).message, !Contains("smoothed"));
+  CHECK_THAT(odometry.track(dark.frame(1)).message, Contains("smoothed"));
 }

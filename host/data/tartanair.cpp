@@ -59,12 +59,13 @@ Dataset read_tartanair(const fs::path& folder, const DatasetOptions&, Findings& 
     for (std::size_t i = 0; i < left.size(); ++i)
       add_frame(dataset, static_cast<std::int64_t>(i) * kPeriodNs, left[i], right[i], findings);
   });
-  constexpr double kFocalLength = 320, kBaseline = 0.25, kNearestDepth = 0.5;  // px; m
+  constexpr double kBaseline = 0.25, kNearestDepth = 0.5;  // m
   set_sizes_from_first_frame(dataset);
   const PinholeCamera size = dataset.rig.left;
-  dataset.rig = rectified_rig(kFocalLength, 0.5 * size.width, 0.5 * size.height, 0.5 * size.width, kBaseline);
+  const double focal_length = 0.5 * size.width;  // a field of view of 90 degrees, also of resized images
+  dataset.rig = rectified_rig(focal_length, 0.5 * size.width, 0.5 * size.height, 0.5 * size.width, kBaseline);
   set_sizes_from_first_frame(dataset);
-  dataset.rig.max_disparity = kFocalLength * kBaseline / kNearestDepth;
+  dataset.rig.max_disparity = focal_length * kBaseline / kNearestDepth;
   const fs::path truth = folder / names->poses;
   if (fs::exists(truth)) {
     dataset.truth_file = truth.string();

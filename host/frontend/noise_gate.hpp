@@ -10,8 +10,8 @@ namespace quadedge::frontend {
 /// interpolation removes much of what its operator responds to. 1 for an empty table.
 double measured_noise_ratio(const UndistortionTable& table);
 
-/// Is open for frames whose noise hides their edges: the limit of noise comes near the gradient that a fifth of the
-/// images exceeds. Once open, it closes at a somewhat smaller noise.
+/// Is open for frames whose noise hides their edges: the limit of noise exceeds the gradient that a fifth of the images
+/// exceeds. Once open, it closes at a fifth less noise.
 class NoiseGate {
  public:
   NoiseGate(const StereoRig& rig, const EdgesConfig& config);

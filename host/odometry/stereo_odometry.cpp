@@ -10,6 +10,7 @@
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "odometry/earlier_rigs.hpp"
 #include "odometry/frame_preparation.hpp"
 #include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
@@ -206,9 +207,10 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   result.counts.edges_left = counts.edges_left;
   result.counts.edges_right = counts.edges_right;
   result.counts.stereo_edges = static_cast<int>(current_->edges.size());
+  if (frontend().is_smoothed()) add_message("smoothed, as noise hides the edges", result);
   if (counts.dropped_edges == 0) return;
   result.diagnostics.overflow = true;
-  result.message = std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped";
+  add_message(std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped", result);
 }
 
 /// Hides a part of the image from the next frame on. The last motion may have been that of this part.
