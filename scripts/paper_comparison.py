@@ -35,7 +35,6 @@ EXTENSIONS = {
     "prior of the alignment": (["--stereo.refine_prior_sigma", "100"], None),
     "scoring by area": (["--pose.scoring_cell", "0"], None),
     "global search": (["--temporal.wide_edges", "0"], None),
-    "second and third guided search": (["--temporal.rounds", "1"], None),
     "Student-t weights": (["--pose.student_dof", "1000000"], None),
     "budget of edges": (["--edges.budget", "0"], None),
     "Newton step": (["--edges.newton_max", "0"], None),
