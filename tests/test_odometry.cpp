@@ -337,6 +337,30 @@ TEST_CASE("odometry: a wrong principal point of the right camera is warned of", 
   CHECK(kinds.count(WarningKind::large_disparity_offset) == 1);
 }
 
+TEST_CASE("odometry: right images that are displaced from frame to frame are followed, with one warning",
+          "[odometry][rig][device]") {
+  RenderedScene displaced = room();
+  const int by[] = {0, 0, 0, 3, -2, 1, 0, -3};
+  for (std::size_t i = 0; i < displaced.right.size(); ++i) {
+    const Image from = displaced.right[i];
+    Image& to = displaced.right[i];
+    for (int y = 0; y < from.height; ++y)
+      for (int x = 0; x < from.width; ++x)
+        to.set(x, y, from.pixels[static_cast<std::size_t>(y * from.width + std::clamp(x + by[i], 0, from.width - 1))]);
+  }
+  const auto results = track(displaced, all_devices().front(), displaced.config),
+             sound = track(room(), all_devices().front(), room().config);
+  int warned = 0;
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    CAPTURE(i);
+    check_pose(results[i].world_from_left, room().world_from_left[0].inverse() * room().world_from_left[i], 0.02, 0.3);
+    CHECK((results[i].message.find("displaced") != std::string::npos) == (by[i] != 0));
+    for (const Warning& warning : results[i].warnings) warned += warning.kind == WarningKind::displaced_images ? 1 : 0;
+    CHECK(sound[i].warnings.empty());
+  }
+  CHECK(warned == 1);
+}
+
 TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry][device]") {
   const RenderedScene off = room_with_rows_off_by(0.8);
   auto several = track(room(), all_devices().front(), room().config);

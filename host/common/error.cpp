@@ -34,6 +34,8 @@ const char* to_string(WarningKind kind) {
     case WarningKind::repeated_images: return "repeated_images";
     case WarningKind::large_disparity_offset: return "large_disparity_offset";
     case WarningKind::static_region: return "static_region";
+    case WarningKind::displaced_images: return "displaced_images";
+    case WarningKind::changed_rig: return "changed_rig";
   }
   return "unknown";
 }

@@ -42,8 +42,10 @@ void DisparityOffset::update(double correction, double variance, int frames) {
   rig_ = rig_at(frame_);
 }
 
-void DisparityOffset::start_frame(int frame) {
+void DisparityOffset::start_frame(int frame, const std::function<bool(int)>& is_base) {
   const bool follows_jump = jump(frame_) != 0;
+  for (auto jump = jumps_.begin(); jump != jumps_.end();)
+    jump = is_base(jump->first) ? std::next(jump) : jumps_.erase(jump);
   frame_ = frame;
   if (follows_jump || jump(frame) != 0) set_jump(0);
 }
@@ -53,6 +55,7 @@ void DisparityOffset::set_jump(double jump) {
     jumps_.erase(frame_);
   } else {
     jumps_[frame_] = jump;
+    has_jumped_ = true;
   }
   rig_ = rig_at(frame_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// \file disparity_offset.hpp  Online estimate of the common offset of all disparities.
 
+#include <functional>
 #include <map>
 
 #include "quadedge/camera.hpp"
@@ -23,14 +24,14 @@ class DisparityOffset {
   /// `frames` have passed since the last measurement.
   void update(double correction, double variance, int frames);
 
-  /// Begins a frame, which is assumed not to have jumped.
-  void start_frame(int frame);
+  /// Begins a frame, which is assumed not to have jumped. Forgets the jumps of frames that it is not measured against.
+  void start_frame(int frame, const std::function<bool(int)>& is_base);
   /// The disparities of the frame are larger by `jump` px than those of the rig at other times, because its right image
   /// is displaced: rig() is that of the frame.
   void set_jump(double jump);
   /// Of a frame; 0 for most.
   double jump(int frame) const;
-  bool has_jumped() const { return !jumps_.empty(); }
+  bool has_jumped() const { return has_jumped_; }  ///< any frame
 
   /// The rig of the current frame with its right principal point corrected by the offset, without undistortion tables.
   const StereoRig& rig() const { return rig_; }
@@ -48,6 +49,7 @@ class DisparityOffset {
   double value_, variance_;
   int frame_ = 0;                ///< the current one
   std::map<int, double> jumps_;  ///< of the frames that have jumped
+  bool has_jumped_ = false;
 };
 
 }  // namespace quadedge::odometry

@@ -43,4 +43,8 @@ const KeyRig* EarlierRigs::find(const frontend::FrameEdgesHandle& rig) const {
   return nullptr;
 }
 
+bool EarlierRigs::holds(int frame) const {
+  return std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.rig.frame() == frame; });
+}
+
 }  // namespace quadedge::odometry

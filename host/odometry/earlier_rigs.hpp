@@ -20,6 +20,7 @@ class EarlierRigs {
   std::vector<const KeyRig*> nearest(const Eigen::Isometry3d& world_from_left) const;
   /// The key rig with these edges; null if it is not among them.
   const KeyRig* find(const frontend::FrameEdgesHandle& rig) const;
+  bool holds(int frame) const;
 
  private:
   struct Kept {

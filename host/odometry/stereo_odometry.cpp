@@ -241,7 +241,10 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
 /// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
 /// the motion since the lost frame is tried.
 odometry::StepHandle StereoOdometry::Implementation::search() {
-  offset_.start_frame(current_->frame);
+  offset_.start_frame(current_->frame, [&](int frame) {
+    return frame == state_.base.rig->frame || frame == state_.key.frame() ||
+           (state_.lost && frame == state_.lost->rig->frame) || earlier_.holds(frame);
+  });
   odometry::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
@@ -344,6 +347,9 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, co
     char text[64];
     std::snprintf(text, sizeof text, "the right image is displaced by %+.1f px", jump);
     add_message(text, result);
+    preparation_.warn({WarningKind::displaced_images,
+                       std::string(text) + " along the epipolar lines and followed, also in later frames: do the "
+                                           "cameras swing, or are the images cut or stabilised one by one?"});
   }
   if (step.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;

@@ -61,6 +61,8 @@ enum class WarningKind {
   repeated_images,          ///< both images are those of the previous frame, byte for byte
   large_disparity_offset,   ///< the disparities have a larger common offset than rectification leaves
   static_region,            ///< a part of the image does not move while the rest does, such as a vehicle's bonnet
+  displaced_images,         ///< single right images are displaced along the epipolar lines
+  changed_rig,              ///< one of the cameras has turned since the recording began
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);
