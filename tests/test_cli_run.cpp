@@ -294,27 +294,63 @@ TEST_CASE("run: frames finished before a broken image stay on disk", "[cli][devi
   CHECK(run_program({"check", folder / "room"}).code == 3);
 }
 
-TEST_CASE("run: --offset-file carries the disparity offset from one run to the next", "[cli][device]") {
+TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the next", "[cli][device]") {
   const TemporaryFolder folder;
-  const std::string file = folder / "offset.toml";
-  const auto run = [&] {
-    return run_program({"run", small_sequence(), "-o", folder / "out", "--force", "--quiet", "--offset-file", file});
+  const std::string file = folder / "rig.toml";
+  // A right camera that is rolled by 0.3 degrees, of which the calibration does not know.
+  REQUIRE(run_program({"check", small_sequence(), "--write-calibration", folder / "sound.yaml", "--quiet"}).code == 0);
+  const std::vector<std::string> synth = {"synth",   folder / "rolled",  "--frames", "4",      "--size",
+                                          "320x200", "--right-rotation", "0,0,0.3",  "--quiet"};
+  REQUIRE(run_program(synth).code == 0);
+  const auto run = [&](const std::string& option) {
+    return run_program({"run", folder / "rolled", "--calibration", folder / "sound.yaml", "-o", folder / "out",
+                        "--force", "--quiet", option, file});
   };
   const auto value = [&](const std::string& name, const std::string& key) {
     double number = std::nan("");
-    for (const auto& line : read_lines(folder / name)) std::sscanf(line.c_str(), (key + " = %lf").c_str(), &number);
+    for (const auto& line : read_lines(folder / name))
+      std::sscanf(line.c_str(), (key.find('%') == std::string::npos ? key + " = %lf" : key).c_str(), &number);
     return number;
   };
-  REQUIRE(run().code == 0);
-  const double learned = value("offset.toml", "pose.disparity_offset");
-  const double sigma = value("offset.toml", "pose.disparity_offset_sigma");
+  const auto first_edges = [&] {  // stereo edges of the first frame of the last run
+    const auto rows = read_lines(folder / "out/frames.csv");
+    const auto names = quadedge::report::csv_fields(rows[0]);
+    const auto column = std::find(names.begin(), names.end(), "stereo_edges") - names.begin();
+    return std::stoi(quadedge::report::csv_fields(rows[1])[static_cast<std::size_t>(column)]);
+  };
+  REQUIRE(run("--rig-file").code == 0);
+  const double learned = value("rig.toml", "pose.disparity_offset");
+  const double sigma = value("rig.toml", "pose.disparity_offset_sigma");
+  const int edges = first_edges();
   CHECK(std::abs(learned) < 0.3);
   CHECK((sigma > 0 && sigma < 0.3));  // less than is assumed at the start
-  REQUIRE(run().code == 0);
+  const auto old_name = run("--offset-file");
+  REQUIRE(old_name.code == 0);
+  CHECK_THAT(old_name.err, Contains("--offset-file is called --rig-file now"));
   CHECK(value("out/config.toml", "disparity_offset") == learned);
-  CHECK(value("offset.toml", "pose.disparity_offset_sigma") < sigma);
-  dataset_files::write_text(file, "pose.disparity_ofset = 1\n");
-  const auto refused = run();
-  CHECK(refused.code == 2);
-  CHECK_THAT(refused.err, Contains(file + ": found another file, expected one that an earlier run"));
+  CHECK(value("rig.toml", "pose.disparity_offset_sigma") < sigma);
+  CHECK(first_edges() >= edges);
+  CHECK(value("rig.toml", "rows.sums = [%lf") > 7);  // frames of both runs
+
+  const std::string whole = read_text(file);
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    dataset_files::write_text(file, text);
+    const auto result = run("--rig-file");
+    CHECK(result.code == 2);
+    CHECK_THAT(result.err, Contains(file) && Contains(message));
+    CHECK(read_text(file) == text);
+  };
+  const auto changed = [&](const std::string& key, const std::string& by) {
+    const std::size_t at = whole.find(key), end = whole.find_first_of(",\n]", at + key.size());
+    return whole.substr(0, at) + key + by + whole.substr(end);
+  };
+  refused("pose.disparity_ofset = 1\n", "found another file, expected one that an earlier run");
+  refused(changed("left = [", "640"), "another calibration: found left = [640, ");
+  refused(changed("rows.sums = [", "inf"), "rows.sums: expected 3 finite numbers");
+  refused(changed("rows.sums = [", "-1"), "found rows that no run has learned");
+  refused(changed("pose.disparity_offset = ", "nan"), "disparity_offset");
+  // As of release 0.1.
+  dataset_files::write_text(file, "pose.disparity_offset = 0.125\npose.disparity_offset_sigma = 0.1\n");
+  CHECK(run("--rig-file").code == 0);
+  CHECK(value("out/config.toml", "disparity_offset") == 0.125);
 }

@@ -55,6 +55,17 @@ TEST_CASE("rectification follower: an error that the images show clearly is foll
   CHECK((next_after(followed, {0.92, 0.4, -0.3, 0, 3, 0}, 5) - before).largest() == 0);
 }
 
+TEST_CASE("rectification follower: what an earlier recording has shown holds from the first frame on", "[frontend]") {
+  const RectificationError error{0.6, 0.4, -0.3, 0, 3, 0};
+  auto earlier = follower(), later = follower();
+  next_after(earlier, error, 20);
+  later.start_from(earlier.rows().sums());
+  later.start_frame();
+  CHECK((later.error() - error).largest() < 0.1);
+  const Image grey(640, 480);
+  CHECK(later.suffices({0, grey.view(), grey.view()}, {}));
+}
+
 TEST_CASE("rectification follower: a single frame shows a large error", "[frontend]") {
   const RectificationError error{0, 0, 0, 0, 6, 0};
   auto followed = follower();

@@ -33,8 +33,9 @@ class RunCommand : public Command {
                  "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
     options.output("--save-map", run_.saved_map,
                    "write the places of the recording for `quadedge localise`; implies --loops");
-    options.output("--offset-file", run_.offset_file,
-                   "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end");
+    options.output("--rig-file", run_.rig_file,
+                   "rows and disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the "
+                   "end");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.points.declare(options);

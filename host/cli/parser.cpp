@@ -42,8 +42,10 @@ const CLI::Validator kDecimal(
     "");
 
 /// Names that options had in the last release, without dashes, and their names now. The old ones still work.
-const std::map<std::string, std::string> kRenamed = {
-    {"map", "points"}, {"map-colmap", "points-colmap"}, {"map-min-views", "points-min-views"}};
+const std::map<std::string, std::string> kRenamed = {{"map", "points"},
+                                                     {"map-colmap", "points-colmap"},
+                                                     {"map-min-views", "points-min-views"},
+                                                     {"offset-file", "rig-file"}};
 
 /// The name now of an option called `name`; a warning about an old one.
 std::string name_now(const std::string& name) {

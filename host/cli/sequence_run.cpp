@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "benchmark/variants_file.hpp"
 #include "cli/console.hpp"
 #include "cli/points_output.hpp"
+#include "cli/rig_file.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "data/toml_file.hpp"
 #include "opencl/context.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
@@ -57,12 +56,13 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
 }
 
 /// Builds the pipeline and reports it: where the driver keeps no kernels from an earlier run this takes a while.
-std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet,
+std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet, const RigFile& known,
                                                report::RunRecord& run) {
   StatusLine status(quiet);
   const bool builds = !device.is_reference();
   if (builds) status.show("building kernels for " + device.info().name);
   auto odometry = std::make_unique<StereoOdometry>(rig, device, run.config);
+  known.start(*odometry);
   run.config = odometry->config();
   run.kernel_build_ms = odometry->kernel_build_ms();
   char text[64];
@@ -112,11 +112,11 @@ Device open_tested_device(const MethodOptions& method, report::RunRecord& run) {
 
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  const Interruption& interruption, PointsOutput& points, report::RunRecord& run) {
+                  const Interruption& interruption, PointsOutput& points, RigFile& known, report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
   bench::add_saved_variants(device, run.config);
-  const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
+  const auto pipeline = start_odometry(source.rig(), device, options.quiet, known, run);
   StereoOdometry& odometry = *pipeline;
   std::optional<LoopOutput> loops;
   if (options.loops) loops.emplace(odometry);
@@ -144,6 +144,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().result.stamp_ns)
         odometry.restart();
       record.result = odometry.track(frame->view());
+      known.learn(odometry, record.result);
       files.add(record.result);
       report_doubts(record.result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
@@ -241,33 +242,13 @@ void write_segments(const std::string& folder, const Trajectory& trajectory) {
     write_tum(folder + "/" + report::kSegmentFile + std::to_string(segment.front().segment) + ".txt", segment);
 }
 
-/// Reads a file that write_offset() has written. \throws UsageError for any other file, which would be overwritten
-Config read_offset(const std::string& file, const Config& config) {
-  const auto entries = data::read_toml(file);
-  if (entries.size() != 2 || entries[0].key != "pose.disparity_offset" ||
-      entries[1].key != "pose.disparity_offset_sigma") {
-    throw UsageError(file + ": found another file, expected one that an earlier run with --offset-file has written");
-  }
-  return read_config(file, config);
-}
-
-/// The disparity offset as the last frame that was located left it, as a configuration file.
-void write_offset(const std::string& file, const report::RunRecord& run) {
-  const auto last = std::find_if(run.frames.rbegin(), run.frames.rend(),
-                                 [](const auto& frame) { return frame.result.disparity_offset_sigma > 0; });
-  if (last == run.frames.rend()) return;
-  data::write_atomically(
-      file, "# Disparity offset of a stereo rig, learned by `quadedge run --offset-file`\npose.disparity_offset = " +
-                data::toml_text(last->result.disparity_offset) +
-                "\npose.disparity_offset_sigma = " + data::toml_text(last->result.disparity_offset_sigma) + "\n");
-}
-
 /// Writes what depends on all frames: accuracy, report.json and the trace.
-void write_results(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
+void write_results(const FrameSource& source, const SequenceRunOptions& options, const RigFile& known,
+                   report::RunRecord& run) {
   write_segments(options.output, tracked_poses(run));
   evaluate(source, options, run);
   data::write_atomically(options.output + "/report.json", report::report_json(run));
-  if (!options.offset_file.empty()) write_offset(options.offset_file, run);
+  known.write();
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
 }
 
@@ -289,20 +270,19 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
-  std::error_code unreadable;  // reading it says why
-  if (std::filesystem::exists(options.offset_file, unreadable) || unreadable)
-    run.config = read_offset(options.offset_file, run.config);
-  const std::vector<std::string> files = {options.trace, options.offset_file, options.saved_map, options.points.ply};
+  RigFile known(options.rig_file, source.rig());
+  run.config = known.with_offset(run.config);
+  const std::vector<std::string> files = {options.trace, options.rig_file, options.saved_map, options.points.ply};
   report::check_beside_results(files, options.output, run.input.path);
   options.points.check_beside(files);
   const report::FolderLock lock = report::prepare_output_folder(options.output, options.force);
   report::check_output_file(options.trace, options.force);
-  report::check_output_file(options.offset_file, true);
+  report::check_output_file(options.rig_file, true);
   report::check_output_file(options.saved_map, options.force);
   options.points.check(options.force);
   PointsOutput points(options.points, run.config);
   try {
-    track_frames(source, method, options, interruption, points, run);
+    track_frames(source, method, options, interruption, points, known, run);
   } catch (const DataError& error) {
     if (run.frames.empty()) throw;
     run.ended_early = error.what();
@@ -311,7 +291,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
                       points.write();
                       run.points = points.facts();
                     },
-                    [&] { write_results(source, options, run); }});
+                    [&] { write_results(source, options, known, run); }});
   }
   if (run.frames.empty()) end_if_interrupted(interruption, source);
   points.write();
@@ -322,7 +302,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
     run.ended_early = "interrupted after " + (knows_all ? std::to_string(run.frames.size()) + " of " : "") +
                       data::counted(knows_all ? run.input.frames : static_cast<int>(run.frames.size()), "frame");
   }
-  write_results(source, options, run);
+  write_results(source, options, known, run);
   if (interruption.signal() != 0) end_by_signal(interruption, source, options, run);
   return run;
 }

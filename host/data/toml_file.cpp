@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -63,6 +64,11 @@ void set_value(TomlEntry& entry, const toml::node& node) {
     std::vector<std::string> texts;
     for (const auto& element : *array) texts.push_back(element.ref<std::string>());
     entry.value = std::move(texts);
+  } else if (array != nullptr &&
+             std::all_of(array->begin(), array->end(), [](const auto& e) { return e.is_number(); })) {
+    std::vector<double> numbers;
+    for (const auto& element : *array) numbers.push_back(*element.value<double>());
+    entry.value = std::move(numbers);
   }
 }
 
@@ -163,6 +169,14 @@ void assign(const TomlEntry& entry, std::vector<std::string>& value) {
   }
 }
 
+void assign(const TomlEntry& entry, std::vector<double>& value) {
+  const auto* numbers = std::get_if<std::vector<double>>(&entry.value);
+  if (numbers == nullptr || numbers->size() != value.size() ||
+      !std::all_of(numbers->begin(), numbers->end(), [](double number) { return std::isfinite(number); }))
+    refuse(entry, std::to_string(value.size()) + " finite numbers in brackets");
+  value = *numbers;
+}
+
 std::string toml_text(double value) {
   char text[40];  // toml++ writes 17 digits even if fewer read back as the same number
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
@@ -175,10 +189,13 @@ std::string toml_text(const std::string& value) {
   text << toml::toml_formatter(toml::value<std::string>(value), toml::format_flags::none);
   return text.str();
 }
-std::string toml_text(const std::vector<std::string>& value) {
+template <class T>
+std::string array_text(const std::vector<T>& value) {
   std::string text;
-  for (const auto& element : value) text += (text.empty() ? "" : ", ") + toml_text(element);
+  for (const T& element : value) text += (text.empty() ? "" : ", ") + toml_text(element);
   return "[" + text + "]";
 }
+std::string toml_text(const std::vector<std::string>& value) { return array_text(value); }
+std::string toml_text(const std::vector<double>& value) { return array_text(value); }
 
 }  // namespace quadedge::data

@@ -15,8 +15,9 @@ struct TomlEntry {
   std::size_t line = 0;  ///< from 1
   std::string key;       ///< including its tables: "stereo.ncc_min"
   std::string found;     ///< the value, for messages: "the boolean true"
-  /// std::monostate for types that no option uses: dates, arrays of anything except strings.
-  std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::string>> value;
+  /// std::monostate for types that no option uses: dates, arrays of anything except strings or numbers.
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<double>>
+      value;
 };
 
 /// All keys of a file, in the order of its lines. \throws UsageError for a file that cannot be read, is longer than 1
@@ -38,6 +39,8 @@ void assign(const TomlEntry& entry, std::uint64_t& value);
 void assign(const TomlEntry& entry, bool& value);
 void assign(const TomlEntry& entry, std::string& value);
 void assign(const TomlEntry& entry, std::vector<std::string>& value);
+/// As many finite numbers as `value` has.
+void assign(const TomlEntry& entry, std::vector<double>& value);
 
 /// A value in TOML notation, on one line; numbers read back as the same value.
 std::string toml_text(double value);
@@ -46,5 +49,6 @@ std::string toml_text(std::uint64_t value);
 std::string toml_text(bool value);
 std::string toml_text(const std::string& value);
 std::string toml_text(const std::vector<std::string>& value);
+std::string toml_text(const std::vector<double>& value);
 
 }  // namespace quadedge::data

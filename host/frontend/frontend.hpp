@@ -63,6 +63,7 @@ class Frontend {
 
   /// Takes over what the current frame shows of the rows, which the search of the next ones corrects.
   void take(const std::vector<rig::CornerMatch>& matches) { rectification_.take(matches); }
+  RectificationFollower& rectification() { return rectification_; }
 
   /// Keeps the current rig in a compact form.
   virtual KeptFrameEdges keep() = 0;

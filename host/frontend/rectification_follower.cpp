@@ -44,6 +44,12 @@ void RectificationFollower::take(const std::vector<rig::CornerMatch>& matches) {
   if ((wanted - next_).largest() > kChange) next_ = wanted;
 }
 
+void RectificationFollower::start_from(const rig::RowModel::Sums& known) {
+  rows_ = rig::RowModel(rig_.right, known);
+  is_settled_ = known.frames > 0;
+  next_ = judge(rows_);
+}
+
 RectificationError RectificationFollower::judge(const rig::RowModel& rows) const {
   const RectificationError error = rows.error();
   const double largest = error.largest(), released = next_.largest() > 0 ? kReleased : 1;

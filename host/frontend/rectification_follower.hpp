@@ -26,6 +26,10 @@ class RectificationFollower {
   /// Takes the matches of the current frame into account. A frame that is not taken leaves no trace.
   void take(const std::vector<rig::CornerMatch>& matches);
 
+  /// Begins with what earlier recordings with the rig have shown.
+  void start_from(const rig::RowModel::Sums& known);
+  const rig::RowModel& rows() const { return rows_; }
+
   /// Of the current frame; zero unless the images show clearly that it matters.
   const RectificationError& error() const { return error_; }
 

@@ -9,6 +9,11 @@
 
 namespace quadedge::rig {
 
+RowModel::RowModel(const PinholeCamera& right, const Sums& sums)
+    : width_(right.width), height_(right.height), sums_(sums) {
+  if (sums.frames > 0) terms_ = sums.normal.ldlt().solve(sums.right_side);
+}
+
 RowModel::Terms RowModel::row_of(const CornerMatch& match) const {
   const double u = match.right.x() / width_ - 0.5, v = match.right.y() / height_ - 0.5;
   Terms row;
@@ -25,8 +30,8 @@ double RowModel::scatter(const std::vector<CornerMatch>& matches) {
 void RowModel::add(const std::vector<CornerMatch>& matches) {
   if (matches.size() < kMinFitCorners) return;
   constexpr double kKept = 1 - 1.0 / kRowMemory;
-  const Normal before = kKept * normal_;
-  const Terms sums_before = kKept * right_side_;
+  const Normal before = kKept * sums_.normal;
+  const Terms sums_before = kKept * sums_.right_side;
   Terms contribution = Terms::Zero();
   for (int round = 0; round < kFitRounds; ++round) {
     const double scale = std::max(2 * scatter(matches), kMinScale);
@@ -39,27 +44,29 @@ void RowModel::add(const std::vector<CornerMatch>& matches) {
       right_side += weight * match.across * row;
     }
     if (round == 0) contribution = right_side - normal * terms_;
-    normal_ = before + normal;
-    right_side_ = sums_before + right_side;
-    terms_ = normal_.ldlt().solve(right_side_);
+    sums_.normal = before + normal;
+    sums_.right_side = sums_before + right_side;
+    terms_ = sums_.normal.ldlt().solve(sums_.right_side);
   }
-  shared_ *= kKept * kKept;
-  if (frames_ > 0) shared_ += contribution * contribution.transpose();
-  frames_ = kKept * frames_ + 1;
+  sums_.shared *= kKept * kKept;
+  if (sums_.frames > 0) sums_.shared += contribution * contribution.transpose();
+  sums_.frames = kKept * sums_.frames + 1;
   const double deviation = kDeviationOfMedian * scatter(matches);
-  variance_ += (deviation * deviation - variance_) / frames_;
+  sums_.variance += (deviation * deviation - sums_.variance) / sums_.frames;
   distances_.clear();
   for (const CornerMatch& match : matches) distances_.push_back(std::abs(match.across));
   const double distance = kDeviationOfMedian * upper_median(distances_);
-  whole_variance_ += (distance * distance - whole_variance_) / frames_;
+  sums_.whole_variance += (distance * distance - sums_.whole_variance) / sums_.frames;
 }
 
-double RowModel::unexplained() const { return whole_variance_ > 0 ? std::sqrt(variance_ / whole_variance_) : 1; }
+double RowModel::unexplained() const {
+  return sums_.whole_variance > 0 ? std::sqrt(sums_.variance / sums_.whole_variance) : 1;
+}
 
 RectificationError RowModel::error() const {
-  if (frames_ == 0) return {};
-  Normal normal = normal_, spread = shared_ + variance_ * normal_;
-  Terms right_side = right_side_, terms = Terms::Zero();
+  if (sums_.frames == 0) return {};
+  Normal normal = sums_.normal, spread = sums_.shared + sums_.variance * sums_.normal;
+  Terms right_side = sums_.right_side, terms = Terms::Zero();
   for (int dropped = 0; dropped < kTerms; ++dropped) {
     const Normal inverse = normal.inverse();
     terms = inverse * right_side;

@@ -15,8 +15,21 @@ namespace quadedge::rig {
 /// frames' contributions.
 class RowModel {
  public:
+  static constexpr int kTerms = 6;
+  using Terms = Eigen::Matrix<double, kTerms, 1>;
+  using Normal = Eigen::Matrix<double, kTerms, kTerms>;
+  /// All that is known; may be kept between recordings.
+  struct Sums {
+    Normal normal = Normal::Zero(), shared = Normal::Zero();  ///< `shared`: squared contributions of frames
+    Terms right_side = Terms::Zero();
+    double variance = 0;        ///< of a match, mean over the frames [px^2]
+    double whole_variance = 0;  ///< the same without the model
+    double frames = 0;          ///< that count
+  };
+
   /// \param right the camera in which the matches lie
-  explicit RowModel(const PinholeCamera& right) : width_(right.width), height_(right.height) {}
+  explicit RowModel(const PinholeCamera& right) : RowModel(right, Sums()) {}
+  RowModel(const PinholeCamera& right, const Sums& sums);
 
   /// Adds the matches of a frame; too few change nothing.
   void add(const std::vector<CornerMatch>& matches);
@@ -25,24 +38,17 @@ class RowModel {
   RectificationError error() const;
   /// Distance of the matches from the model, in units of their distance from the lines; 1 before the first frame.
   double unexplained() const;
+  const Sums& sums() const { return sums_; }
 
  private:
-  static constexpr int kTerms = 6;
-  using Terms = Eigen::Matrix<double, kTerms, 1>;
-  using Normal = Eigen::Matrix<double, kTerms, kTerms>;
-
   /// 1, u, v, u^2, uv, v^2 at a match, less the mean of the squares over the image.
   Terms row_of(const CornerMatch& match) const;
   /// Median distance of the matches from the model [px].
   double scatter(const std::vector<CornerMatch>& matches);
 
   int width_, height_;
-  Normal normal_ = Normal::Zero(), shared_ = Normal::Zero();  ///< `shared`: sum of the squared contributions of frames
-  Terms right_side_ = Terms::Zero();
+  Sums sums_;
   Terms terms_ = Terms::Zero();    ///< all of them
-  double variance_ = 0;            ///< of a match, mean over the frames [px^2]
-  double whole_variance_ = 0;      ///< the same without the model
-  double frames_ = 0;              ///< that count
   std::vector<double> distances_;  ///< kept for its memory
 };
 
