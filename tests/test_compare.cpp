@@ -85,6 +85,15 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   CHECK(Json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
 }
 
+TEST_CASE("compare: a stage that only copies the input has no time", "[cli][bench][device]") {
+  const TemporaryFolder folder;  // the built-in sequence has no distortion
+  const auto result = run_program(compare_arguments({"--stage", "undistortion", "--json", folder / "compare.json"}));
+  INFO(result.err << result.out);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("this input never runs the stage"));
+  CHECK(Json::parse(read_text(folder / "compare.json"))["stages"][0]["variants"][0]["median_ms"].is_null());
+}
+
 TEST_CASE("compare: run uses saved variants, and the command line and --config override them", "[cli][bench][device]") {
   const TemporaryFolder folder;
   const Device device;

@@ -68,7 +68,8 @@ void print_benchmark(const bench::BenchRecord& record) {
                 report::percentile(record.edges_ms, 0.9));
   }
   std::printf("start-up          %.0f ms\n", run.start_ms);
-  std::printf("kernel build      %.0f ms of it\n", run.kernel_build_ms);
+  std::printf("kernel build      %.0f ms of it, without what the driver generates where a kernel runs first\n",
+              run.kernel_build_ms);
   std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n",
               run.host_peak_mb, record.frames_mb, run.device_peak_mb);
   std::printf("queue per frame   %.1f launches, %.1f writes of %.2f MB, %.2f MB read back, %.1f waits\n",

@@ -221,8 +221,8 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   std::printf("counts    ");
   for (const auto& [name, value] : report::count_medians(run.frames)) std::printf(" %s %.0f", name.c_str(), value);
   std::printf(" (medians)\n");
-  std::printf("start      %s, including %s of kernel builds\n", milliseconds(run.start_ms).c_str(),
-              milliseconds(run.kernel_build_ms).c_str());
+  std::printf("start      %s, %s of it building programs; some drivers finish a kernel where it runs first\n",
+              milliseconds(run.start_ms).c_str(), milliseconds(run.kernel_build_ms).c_str());
   std::printf("memory     host %.0f MB, device %.0f MB (peaks)\n", run.host_peak_mb, run.device_peak_mb);
   if (!run.kernel_times.empty()) {
     std::printf("\nkernel times of the profiling pass [ms]\n%-22s %12s %12s\n", "", "median", "p90");

@@ -66,7 +66,7 @@ std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& dev
   run.config = odometry->config();
   run.kernel_build_ms = odometry->kernel_build_ms();
   char text[64];
-  std::snprintf(text, sizeof text, "kernels ready after %.1f s", run.kernel_build_ms / 1000);
+  std::snprintf(text, sizeof text, "programs built in %.1f s", run.kernel_build_ms / 1000);
   if (builds) status.show(text, true);
   return odometry;
 }

@@ -173,7 +173,7 @@ class StereoOdometry {
   std::size_t device_bytes() const;
   /// Chosen kernel variant of each stage.
   std::map<std::string, std::string> variants() const;
-  /// Time spent building kernels [ms].
+  /// Time spent building programs [ms]; not what a driver generates where a kernel runs first.
   double kernel_build_ms() const;
 
  private:
