@@ -46,10 +46,13 @@ typedef struct __attribute__((packed)) {
 #define STORE(value, pointer) (((global packed16*)(pointer))->lanes = (value))
 #define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
 
-// Lanes of a comparison as bits, lane k at bit k. Compilers do not see that AVX-512 has them as bits already.
+// Lanes of a comparison as bits, lane k at bit k. Compilers see neither that AVX-512 has them as bits
+// already nor that AVX gathers them.
 static inline uint lane_bits(const int16 lanes) {
 #ifdef __AVX512DQ__
   return (uint)__builtin_ia32_cvtd2mask512(lanes);
+#elif defined(__AVX__)
+  return (uint)(__builtin_ia32_movmskps256(as_float8(lanes.lo)) | __builtin_ia32_movmskps256(as_float8(lanes.hi)) << 8);
 #else
   const int16 bits = lanes & (int16)(1, 1 << 1, 1 << 2, 1 << 3, 1 << 4, 1 << 5, 1 << 6, 1 << 7, 1 << 8, 1 << 9, 1 << 10,
                                      1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15);
