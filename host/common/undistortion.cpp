@@ -57,8 +57,7 @@ void sample_row(const ImageView& image, const SampleRow& row, int first, int cou
 
 Eigen::Vector2d PinholeView::recorded_position(const Eigen::Vector2d& position) const {
   if (table_.empty()) return position;
-  return {static_cast<double>(bilinear(table_, table_.source_x, position.x(), position.y())),
-          static_cast<double>(bilinear(table_, table_.source_y, position.x(), position.y()))};
+  return source(table_, position.x(), position.y()).cast<double>();
 }
 
 float PinholeView::at(double x, double y) const {
@@ -127,10 +126,10 @@ void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
   for (int y = 0; y < smaller.height; ++y) {
     for (int x = 0; x < smaller.width; ++x) {
       const double from_x = (x + 0.5) * factor - 0.5, from_y = (y + 0.5) * factor - 0.5;
-      smaller.source_x.push_back(table.empty() ? static_cast<float>(from_x)
-                                               : bilinear(table, table.source_x, from_x, from_y));
-      smaller.source_y.push_back(table.empty() ? static_cast<float>(from_y)
-                                               : bilinear(table, table.source_y, from_x, from_y));
+      const Eigen::Array2f from =
+          table.empty() ? Eigen::Array2d(from_x, from_y).cast<float>().eval() : source(table, from_x, from_y);
+      smaller.source_x.push_back(from.x());
+      smaller.source_y.push_back(from.y());
     }
   }
   table = std::move(smaller);

@@ -36,18 +36,23 @@ std::vector<double> box_sums(const std::vector<double>& values, int width, int h
   return sums;
 }
 
-/// Adds the products of the patch around `corner` with the patches centred at `columns` consecutive pixels of row `y`,
-/// starting at column `x`.
+/// Products of the patch around `corner` with the patches centred at `columns` consecutive pixels of row `y`, starting
+/// at column `x`. Those of kAtOnce columns are added up in registers; the last ones overlap those before.
 QUADEDGE_VECTOR_CLONES
-void add_products(const GreyPlane& from, const Eigen::Vector2i& corner, const GreyPlane& to, int x, int y, int columns,
-                  float* products) {
+void multiply(const GreyPlane& from, const Eigen::Vector2i& corner, const GreyPlane& to, int x, int y, int columns,
+              float* products) {
   const float mean = from.mean[from.index(corner.x(), corner.y())];
-  for (int v = -kPatchHalf; v <= kPatchHalf; ++v) {
-    for (int u = -kPatchHalf; u <= kPatchHalf; ++u) {
-      const float weight = from.grey[from.index(corner.x() + u, corner.y() + v)] - mean;
-      const float* const row = &to.grey[to.index(x + u, y + v)];
-      for (int i = 0; i < columns; ++i) products[i] += weight * row[i];
+  for (int first = 0; first < columns; first += kAtOnce) {
+    const int begin = std::max(0, std::min(first, columns - kAtOnce));
+    float sums[kAtOnce] = {};
+    for (int v = -kPatchHalf; v <= kPatchHalf; ++v) {
+      for (int u = -kPatchHalf; u <= kPatchHalf; ++u) {
+        const float weight = from.grey[from.index(corner.x() + u, corner.y() + v)] - mean;
+        const float* const row = &to.grey[to.index(x + u, y + v)] + begin;
+        for (int i = 0; i < kAtOnce; ++i) sums[i] += weight * row[i];
+      }
     }
+    std::copy_n(sums, std::min(kAtOnce, columns), products + begin);
   }
 }
 
@@ -126,7 +131,7 @@ std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to,
   std::vector<float> correlation(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F);
   for (int y = y_low; y <= y_high; ++y) {
     float* const out = &correlation[static_cast<std::size_t>(y - y_low) * static_cast<std::size_t>(columns)];
-    add_products(from, corner, to, x_low, y, columns, out);
+    multiply(from, corner, to, x_low, y, columns, out);
     for (int i = 0; i < columns; ++i) {
       const float norm = to.norm[to.index(x_low + i, y)];
       out[i] = norm > 0 ? out[i] / (from.norm[here] * norm) : 0.0F;

@@ -9,10 +9,12 @@
 
 namespace quadedge::rig {
 
+constexpr int kAtOnce = 32;  ///< columns whose correlations are computed together, also beyond a narrow box
+
 /// A small grey image of floats with the patch statistics that normalised correlation needs.
 struct GreyPlane {
   int width = 0, height = 0;
-  std::vector<float> grey;  ///< height x width, row-major
+  std::vector<float> grey;  ///< height x width, row-major, then kAtOnce zeros
   std::vector<float> mean;  ///< of the patch around every pixel
   std::vector<float> norm;  ///< of its deviations from the mean; 0 if the patch is flat or leaves the image
 
@@ -28,7 +30,7 @@ void measure_patches(GreyPlane& plane);
 template <class Value>
 GreyPlane sample_plane(int width, int height, const Value& value) {
   GreyPlane plane{width, height, {}, {}, {}};
-  plane.grey.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  plane.grey.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + kAtOnce);
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       plane.grey[plane.index(x, y)] = 0.25F * (value(x - 0.25, y - 0.25) + value(x + 0.25, y - 0.25) +
