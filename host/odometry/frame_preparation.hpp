@@ -31,7 +31,7 @@ struct FrameFault {
 /// The front end of a rig, the check of its calibration and the warnings about its recording.
 class FramePreparation {
  public:
-  /// \param recorded the cameras of the images \param rig those in which edges are detected
+  /// \param recorded the cameras of the images \param rig those in which edges are detected; must outlive the object
   FramePreparation(const StereoRig& recorded, const StereoRig& rig, Device& device, const Config& config);
 
   /// \throws DataError for images that do not fit the rig

@@ -42,6 +42,7 @@ struct CornerSearch {
 /// For any rig and for recorded images with or without distortion. Runs on the host, on a small number of corners.
 class CornerMatcher {
  public:
+  /// \param rig must outlive the object
   explicit CornerMatcher(const StereoRig& rig);
 
   /// Aligns patches of about 240 stereo edges in both image directions, starting from the cascade's match. Detects
@@ -72,7 +73,7 @@ class CornerMatcher {
   std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& corner_at,
                                     Eigen::Vector2d at) const;
 
-  StereoRig rig_;
+  const StereoRig& rig_;
   Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: maps left pixels to the right pixels of points at infinity
   Eigen::Vector3d t_;  ///< K_R T0
 };

@@ -49,7 +49,7 @@ class Synchronisation {
 /// match or their distance from the lines has grown, while the images do not match the calibration, and periodically.
 class RigMonitor {
  public:
-  /// \param auto_mask whether reports hold masks
+  /// \param rig must outlive the object \param auto_mask whether reports hold masks
   explicit RigMonitor(const StereoRig& rig, bool auto_mask = false);
 
   /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
@@ -70,7 +70,7 @@ class RigMonitor {
   std::optional<RigFinding> find_repeated_images(const StereoFrame& frame);
   bool needs_search(const RigEvidence& evidence) const;
 
-  StereoRig rig_;
+  const StereoRig& rig_;
   bool auto_mask_;
   CornerMatcher corner_matcher_;
   Synchronisation synchronisation_;
