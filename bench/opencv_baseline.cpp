@@ -3,7 +3,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 
 namespace quadedge::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "cli/frame_source.hpp"
-#include "cli/scene_options.hpp"
+#include "cli/source_options.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
 #include "quadedge/error.hpp"

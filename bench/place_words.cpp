@@ -1,4 +1,4 @@
-/// \file place_words.cpp  Makes the table of words of host/places/place_signature.hpp from rendered scenes: a
+/// \file place_words.cpp  Makes the table of words of host/places/place_store.hpp from rendered scenes: a
 /// projection on the principal axes of their wide descriptors, and words by k-means. The same table on every run.
 ///
 ///   place_words > host/places/place_words.inc
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "odometry/latest_frame.hpp"
-#include "places/place_signature.hpp"
+#include "places/place_store.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/synthetic.hpp"
 

@@ -9,7 +9,7 @@ foreach(name fast default dense paper)
 endforeach()
 file(CONFIGURE OUTPUT ${preset_source} @ONLY CONTENT [[
 // Generated from config/*.toml; do not edit.
-#include "data/presets.hpp"
+#include "data/toml_file.hpp"
 
 namespace quadedge::data {
 const std::vector<Preset>& presets() {

@@ -3,7 +3,7 @@
 // Needs similarity.cl. In: candidate lists; patches of both sets of edges, with the patch number of every edge, and
 // their SIFT descriptors in the order of the edges.
 // Out per candidate: NCC, SIFT distance and state; per row the number of survivors. One work-item = one row.
-// Reference: host/reference/candidate_filters.cpp.
+// Reference: host/reference/candidates.cpp.
 
 kernel void candidate_filters(const FilterArguments args, global const int* first, global const int* target,
                               global const char* patches_a, global const int* patch_of_a, global const uchar* sift_a,

@@ -5,7 +5,7 @@
 // image (NaN: none), the point index of the current stereo edges of that side. Row r belongs to base edge r * row_step.
 // Out: candidate lists in compressed rows, targets are current stereo edges in the order of the point index.
 // One work-item = one row. Two launches: count, then (after an exclusive scan) fill.
-// Reference: host/reference/temporal_candidates.cpp.
+// Reference: host/reference/temporal_matching.cpp.
 
 static inline int visit_near(const float3 predicted, const PointIndex* index, const float radius,
                              const float orientation, global int* target, const int room) {

@@ -3,7 +3,7 @@
 // In: recorded image (source_width x source_height) as corners (pixel_corners.cl), so that a pixel takes one gather and
 // compilers vectorise; a table with the position in it of every pinhole pixel.
 // Out: pinhole image (count pixels, packed). One work-item = one pixel. Bilinear, border replicated, rounded half up.
-// Reference: host/reference/undistortion.cpp.
+// Reference: host/reference/images.cpp.
 kernel void undistort(global const uint* corners, const int source_width, const int source_height,
                       global const float* source_x, global const float* source_y, global uchar* image,
                       const int count) {

@@ -9,7 +9,7 @@
 #include "opencl/variants.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
-#include "reference/patches.hpp"
+#include "reference/edge_descriptions.hpp"
 #include "stages/edge_descriptions.hpp"
 
 /// `count` positions in the image and up to `beyond` px outside it, with all directions.

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "common/threshold_limits.hpp"
+#include "common/filter_limits.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "reference/edge_detection.hpp"

@@ -137,21 +137,23 @@ def stages(tree: Tree) -> list[str]:
 
 
 def check_twins(tree: Tree, show: bool = True) -> list[str]:
-    """Kernel, reference and test of a stage have its name, and a class opens it, except for those in the table."""
+    """Kernel and test of a stage have its name, a class opens it, and a header of the plain C++ names its kernel as its
+    twin, except for those in the table."""
     excused = {(row[0].strip("`"), what.strip()) for row in tree.table("twins") for what in row[1].split(",")}
-    places = {"kernel": "kernels/{}.cl", "class": 'Stage(context, "{}"', "reference": "host/reference/{}.hpp",
+    places = {"kernel": "kernels/{}.cl", "class": 'Stage(context, "{}"', "reference": "kernels/{}.cl",
               "test": "tests/test_{}.cpp"}
-    classes = "".join(tree.text(name) for name in tree.files if name.startswith("host/stages/"))
+    texts = {what: "".join(tree.text(name) for name in tree.files if name.startswith(folder))
+             for what, folder in (("class", "host/stages/"), ("reference", "host/reference/"))}
     findings = []
     if show:
         print(f"{'stage':22}" + "".join(f"{what:11}" for what in places))
     for stage in stages(tree):
         row = f"{stage:22}"
         for what, pattern in places.items():
-            there = pattern.format(stage) in (classes if what == "class" else tree.files)
+            there = pattern.format(stage) in texts.get(what, tree.files)
             row += f"{'yes' if there else ('-' if (stage, what) in excused else 'MISSING'):11}"
             if not there and (stage, what) not in excused:
-                findings.append(f"{pattern.format(stage)} is missing: the {what} of the stage {stage}")
+                findings.append(f"the stage {stage} has no {what} ({pattern.format(stage)})")
             if there and (stage, what) in excused:
                 findings.append(f"doc/design.md section 8 says that {stage} has no {what}, but there is one")
         if show:

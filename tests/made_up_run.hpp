@@ -6,8 +6,8 @@
 #include <string>
 
 #include "dataset_files.hpp"
+#include "report/batch_summary.hpp"
 #include "report/json.hpp"
-#include "report/member_results.hpp"
 #include "report/result_rows.hpp"
 
 /// True pose on the made-up path, ten frames per second.

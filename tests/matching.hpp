@@ -15,7 +15,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
-#include "reference/candidate_filters.hpp"
+#include "reference/candidates.hpp"
 #include "stages/candidates.hpp"
 #include "stages/device_edges.hpp"
 #include "stages/images.hpp"

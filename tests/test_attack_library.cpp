@@ -8,7 +8,7 @@
 #include <limits>
 #include <sys/stat.h>
 
-#include "benchmark/variants_file.hpp"
+#include "benchmark/variant_comparison.hpp"
 #include "calibration_files.hpp"
 #include "data/float_map.hpp"
 #include "devices.hpp"

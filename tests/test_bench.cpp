@@ -2,7 +2,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/bench_comparison.hpp"
 #include "benchmark/bench_record.hpp"
 #include "benchmark/latency.hpp"
 #include "frontends.hpp"

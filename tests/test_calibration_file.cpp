@@ -7,7 +7,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

@@ -8,8 +8,8 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/synthetic.hpp"
-#include "synthetic/disturbance.hpp"
 #include "synthetic/path.hpp"
+#include "synthetic/render.hpp"
 #include "synthetic/scenes.hpp"
 
 using namespace quadedge;

@@ -1,8 +1,7 @@
 #include <numeric>
 
 #include "matching.hpp"
-#include "reference/patches.hpp"
-#include "reference/sift.hpp"
+#include "reference/edge_descriptions.hpp"
 #include "stages/candidates.hpp"
 
 using namespace quadedge;

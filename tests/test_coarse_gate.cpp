@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "frontend/coarse_gate.hpp"
+#include "frontend/range_follower.hpp"
 
 using namespace quadedge;
 using frontend::CoarseGate;

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/variant_comparison.hpp"
-#include "benchmark/variants_file.hpp"
 #include "devices.hpp"
 #include "frontend/compare_frontends.hpp"
 #include "frontends.hpp"

@@ -8,7 +8,6 @@
 
 #include "frontends.hpp"
 #include "opencl/buffer.hpp"
-#include "opencl/read_back.hpp"
 #include "quadedge/error.hpp"
 #include "stages/device_edges.hpp"
 

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "report/canvas.hpp"
-#include "report/draw_matches.hpp"
+#include "report/drawing.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

@@ -8,7 +8,7 @@
 #include "frontends.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/edge_mask.hpp"
+#include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 
 using namespace quadedge;

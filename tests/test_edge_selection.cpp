@@ -11,7 +11,7 @@
 #include "edge_images.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/edge_selection.hpp"
+#include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 
 using namespace quadedge;

@@ -10,7 +10,7 @@
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/edge_threshold.hpp"
+#include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 
 using namespace quadedge;

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "data/float_map.hpp"
-#include "data/image_codecs.hpp"
+#include "data/image_file.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/image.hpp"

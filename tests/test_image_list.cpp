@@ -2,7 +2,6 @@
 
 #include "data/file_list.hpp"
 #include "data/image_list.hpp"
-#include "data/stamps.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"

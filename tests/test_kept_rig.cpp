@@ -4,7 +4,7 @@
 #include "devices.hpp"
 #include "frontends.hpp"
 #include "odometry/motion_search.hpp"
-#include "reference/patches.hpp"
+#include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;
 using namespace matching;

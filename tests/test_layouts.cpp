@@ -4,7 +4,7 @@
 
 #include "devices.hpp"
 #include "kernel_programs.hpp"
-#include "opencl/argument_structs.hpp"
+#include "opencl/kernel.hpp"
 #include "opencl/kernel_sources.hpp"
 
 using namespace quadedge;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "edge_images.hpp"
-#include "paper/temporal.hpp"
+#include "paper/cascades.hpp"
 #include "quadedge/camera.hpp"
 
 using namespace quadedge;

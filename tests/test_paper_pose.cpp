@@ -4,7 +4,6 @@
 #include "generated_quads.hpp"
 #include "odometry/paper_search.hpp"
 #include "paper/consensus.hpp"
-#include "paper/one_quad.hpp"
 #include "pose/two_quads.hpp"
 
 using namespace quadedge;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "data/presets.hpp"
+#include "data/toml_file.hpp"
 #include "program.hpp"
 #include "quadedge/config.hpp"
 

@@ -7,7 +7,7 @@
 #include "describing.hpp"
 #include "kernel_programs.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/patches.hpp"
+#include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;
 

@@ -3,7 +3,7 @@
 #include "kernel_programs.hpp"
 #include "matching.hpp"
 #include "opencl/kernel.hpp"
-#include "reference/photometric.hpp"
+#include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;
 using namespace matching;

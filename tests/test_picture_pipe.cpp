@@ -3,7 +3,7 @@
 #include <thread>
 #include <unistd.h>
 
-#include "data/picture_pipe.hpp"
+#include "data/stream_reader.hpp"
 #include "own_camera.hpp"
 #include "quadedge/error.hpp"
 

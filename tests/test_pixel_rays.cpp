@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "common/lens_mapping.hpp"
-#include "data/eth3d_slam_writer.hpp"
+#include "data/eth3d_slam.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "synthetic/lenses.hpp"
-#include "synthetic/pixel_rays.hpp"
 #include "synthetic/render.hpp"
 #include "synthetic/scenes.hpp"
 #include "temporary_folder.hpp"

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "frontends.hpp"
-#include "places/place_signature.hpp"
+#include "places/place_store.hpp"
 
 using namespace quadedge;
 using namespace matching;

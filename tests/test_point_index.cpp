@@ -3,7 +3,7 @@
 #include <set>
 
 #include "matching.hpp"
-#include "reference/point_index.hpp"
+#include "reference/temporal_matching.hpp"
 #include "stages/temporal_matching.hpp"
 
 using namespace quadedge;

@@ -1,7 +1,7 @@
 /// \file test_presets.cpp  The files of config/ as presets.
 #include <catch2/catch.hpp>
 
-#include "data/presets.hpp"
+#include "data/toml_file.hpp"
 #include "dataset_files.hpp"
 #include "program.hpp"
 #include "quadedge/config.hpp"

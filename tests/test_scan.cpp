@@ -3,7 +3,7 @@
 
 #include "devices.hpp"
 #include "opencl/variants.hpp"
-#include "reference/scan.hpp"
+#include "reference/candidates.hpp"
 #include "stages/stage.hpp"
 
 using namespace quadedge;

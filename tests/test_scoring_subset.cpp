@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "pose/scoring_subset.hpp"
+#include "pose/sampling_order.hpp"
 
 using namespace quadedge::pose;
 

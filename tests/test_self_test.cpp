@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "devices.hpp"
-#include "frontend/stage_rows.hpp"
+#include "frontend/compare_frontends.hpp"
 #include "opencl/variants.hpp"
 #include "program.hpp"
 #include "quadedge/self_test.hpp"

@@ -7,7 +7,7 @@
 #include "edge_images.hpp"
 #include "kernel_programs.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/sift.hpp"
+#include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;
 

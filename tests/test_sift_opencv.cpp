@@ -6,7 +6,7 @@
 
 #include "describing.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/sift.hpp"
+#include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;
 

@@ -2,16 +2,15 @@
 #include <cmath>
 #include <random>
 
-#include "common/threshold_limits.hpp"
+#include "common/filter_limits.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "frontend/noise_gate.hpp"
 #include "frontends.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/odometry.hpp"
-#include "reference/edge_threshold.hpp"
-#include "reference/smoothing.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/edge_detection.hpp"
+#include "reference/images.hpp"
 #include "stages/images.hpp"
 
 using namespace quadedge;

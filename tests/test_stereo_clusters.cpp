@@ -1,6 +1,6 @@
 #include "matching.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/stereo_clusters.hpp"
+#include "reference/stereo_matching.hpp"
 #include "stages/stereo_matching.hpp"
 
 using namespace quadedge;

@@ -1,8 +1,8 @@
 #include "describing.hpp"
 #include "matching.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/patches.hpp"
-#include "reference/stereo_mutual.hpp"
+#include "reference/edge_descriptions.hpp"
+#include "reference/stereo_matching.hpp"
 #include "stages/stereo_matching.hpp"
 
 using namespace quadedge;

@@ -3,9 +3,8 @@
 
 #include "common/matching_constants.hpp"
 #include "matching.hpp"
-#include "reference/patches.hpp"
-#include "reference/photometric.hpp"
-#include "reference/stereo_refinement.hpp"
+#include "reference/edge_descriptions.hpp"
+#include "reference/stereo_matching.hpp"
 #include "stages/stereo_matching.hpp"
 
 using namespace quadedge;

@@ -3,7 +3,7 @@
 #include "common/disparity_range.hpp"
 #include "matching.hpp"
 #include "quadedge/camera.hpp"
-#include "reference/stereo_relaxation.hpp"
+#include "reference/stereo_matching.hpp"
 #include "stages/stereo_matching.hpp"
 
 using namespace quadedge;

@@ -1,7 +1,6 @@
 #include <filesystem>
 
 #include "data/find_sequences.hpp"
-#include "data/source_line.hpp"
 #include "own_camera.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/stereo_source.hpp"

@@ -5,8 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "synthetic/cladding.hpp"
-#include "synthetic/dead_leaves.hpp"
+#include "synthetic/reflectance.hpp"
 #include "synthetic/render.hpp"
 
 using namespace quadedge;

@@ -1,7 +1,7 @@
 #include "common/filter_limits.hpp"
 #include "matching.hpp"
-#include "reference/patches.hpp"
-#include "reference/temporal_match.hpp"
+#include "reference/edge_descriptions.hpp"
+#include "reference/temporal_matching.hpp"
 #include "stages/temporal_matching.hpp"
 
 using namespace quadedge;

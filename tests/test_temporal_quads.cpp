@@ -1,5 +1,5 @@
 #include "matching.hpp"
-#include "reference/temporal_quads.hpp"
+#include "reference/temporal_matching.hpp"
 #include "stages/temporal_matching.hpp"
 
 using namespace quadedge;

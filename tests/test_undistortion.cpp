@@ -2,7 +2,7 @@
 
 #include "devices.hpp"
 #include "opencl/variants.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 #include "stages/images.hpp"
 
 using namespace quadedge;

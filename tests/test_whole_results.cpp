@@ -4,7 +4,7 @@
 #include "dataset_files.hpp"
 #include "made_up_run.hpp"
 #include "quadedge/error.hpp"
-#include "report/member_results.hpp"
+#include "report/batch_summary.hpp"
 #include "report/result_rows.hpp"
 #include "temporary_folder.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "describing.hpp"
 #include "matching.hpp"
-#include "reference/wide_description.hpp"
+#include "reference/edge_descriptions.hpp"
 #include "stages/edge_descriptions.hpp"
 
 using namespace quadedge;

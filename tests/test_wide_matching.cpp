@@ -1,6 +1,6 @@
 #include "matching.hpp"
-#include "reference/wide_description.hpp"
-#include "reference/wide_matching.hpp"
+#include "reference/edge_descriptions.hpp"
+#include "reference/temporal_matching.hpp"
 #include "stages/temporal_matching.hpp"
 
 using namespace quadedge;

@@ -1,6 +1,6 @@
 #pragma once
-/// \file latency.hpp  Measures frames whose images are in host memory (doc/design.md section 5: latency and kernel time
-/// are measured in separate passes).
+/// \file latency.hpp  Measures frames whose images are in host memory (doc/design.md section 5: latency and kernel
+/// time are measured in separate passes).
 
 #include <functional>
 #include <vector>

@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/batch_plan.hpp"
-#include "cli/batch_run.hpp"
+#include "cli/batch.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/page_maker.hpp"
+#include "cli/processes.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"

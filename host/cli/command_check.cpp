@@ -6,7 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/source_options.hpp"
-#include "data/check_tree.hpp"
+#include "data/find_sequences.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"

@@ -7,8 +7,6 @@
 
 #include "benchmark/latency.hpp"
 #include "benchmark/variant_comparison.hpp"
-#include "benchmark/variants_file.hpp"
-#include "cli/bench_options.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"

@@ -1,9 +1,9 @@
 /// \file command_demo.cpp  quadedge demo: the built-in sequence, run and evaluated.
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/rendering_status.hpp"
-#include "cli/scene_options.hpp"
+#include "cli/frame_source.hpp"
 #include "cli/sequence_run.hpp"
+#include "cli/source_options.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
-#include "cli/self_test_verdict.hpp"
+#include "cli/method_options.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/device.hpp"
 

@@ -8,7 +8,7 @@
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 #include "report/drawing.hpp"
 #include "report/output_folder.hpp"
 #include "report/result_rows.hpp"

@@ -1,12 +1,12 @@
 /// \file command_localise.cpp  quadedge localise: frames of a recording in a map of another.
 #include <cstdio>
 
-#include "benchmark/variants_file.hpp"
+#include "benchmark/variant_comparison.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
-#include "cli/interruption.hpp"
 #include "cli/method_options.hpp"
+#include "cli/processes.hpp"
 #include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"

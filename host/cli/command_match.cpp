@@ -9,7 +9,7 @@
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 #include "report/drawing.hpp"
 #include "report/output_folder.hpp"
 #include "report/result_rows.hpp"

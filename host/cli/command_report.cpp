@@ -5,7 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/page_maker.hpp"
+#include "cli/processes.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 #include "report/comparison.hpp"

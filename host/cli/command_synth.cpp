@@ -5,8 +5,8 @@
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
-#include "cli/scene_options.hpp"
-#include "data/eth3d_slam_writer.hpp"
+#include "cli/source_options.hpp"
+#include "data/eth3d_slam.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 

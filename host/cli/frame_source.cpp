@@ -5,7 +5,7 @@
 
 #include "cli/calibration_check.hpp"
 #include "cli/console.hpp"
-#include "data/user_folder.hpp"
+#include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
@@ -71,6 +71,12 @@ void set_size(SyntheticOptions& options, const std::string& size) {
   options.focal *= static_cast<double>(width) / options.width;
   options.width = width;
   options.height = height;
+}
+
+bool RenderingStatus::show(const data::RenderedFrames& frames) {
+  if (!progress_) progress_.emplace(quiet_, "frames");
+  if (frames.rendered() > 0) progress_->update("rendering", frames.ready(), frames.sequence().frames());
+  return interruption_ == nullptr || interruption_->signal() == 0;
 }
 
 }  // namespace quadedge::cli

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/console.hpp"
+#include "cli/processes.hpp"
 #include "data/rendered_frames.hpp"
 #include "quadedge/dataset.hpp"
 #include "report/run_record.hpp"
@@ -49,5 +51,21 @@ class FrameSource {
 
 /// Reads "WIDTHxHEIGHT" into the options. \throws UsageError.
 void set_size(SyntheticOptions& options, const std::string& size);
+
+// What the user sees of rendering ahead.
+
+/// "rendering 12/60 ..." while frames are rendered; silent while they are read.
+class RenderingStatus {
+ public:
+  /// `interruption` may be null; else its signal ends the rendering.
+  RenderingStatus(bool quiet, const Interruption* interruption) : quiet_(quiet), interruption_(interruption) {}
+  /// Returns false after a signal.
+  bool show(const data::RenderedFrames& frames);
+
+ private:
+  bool quiet_;
+  const Interruption* interruption_;
+  std::optional<Progress> progress_;  ///< its time begins with the first frame
+};
 
 }  // namespace quadedge::cli

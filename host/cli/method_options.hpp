@@ -1,6 +1,9 @@
 #pragma once
-/// \file method_options.hpp  Options that all computing commands share: the device and every constant of the method.
+/// \file method_options.hpp  Options that all computing commands share: the device, tested once, and every
+/// constant of the method.
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +13,22 @@
 #include "quadedge/self_test.hpp"
 
 namespace quadedge::cli {
+
+/// Edges per image that `bench` and `compare` have of the built-in sequence: half of what the paper reports, whose
+/// edges are half a pixel apart.
+constexpr int kBenchEdges = 25'000;
+
+// Verdicts of the self-test, kept for every device, driver and program.
+
+/// What was found when this program tested the device with these variants, with this driver; nothing where it has not
+/// been, or where the file is damaged or cannot be read.
+std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device,
+                                           const std::map<std::string, std::string>& variants);
+
+/// Keeps a verdict in $XDG_CACHE_HOME/quadedge/self_tests (~/.cache without it). Where that cannot be written, the next
+/// start tests again.
+void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
+                  const SelfTestResult& result);
 
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {

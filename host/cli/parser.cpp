@@ -12,10 +12,9 @@
 #include <utility>
 
 #include "cli/console.hpp"
-#include "cli/terminal.hpp"
 #include "common/nearest_word.hpp"
-#include "data/presets.hpp"
 #include "data/text.hpp"
+#include "data/toml_file.hpp"
 #include "quadedge/error.hpp"
 #include "report/config_toml.hpp"
 #include "report/output_folder.hpp"

@@ -8,7 +8,7 @@
 #include "data/atomic_file.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "quadedge/error.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 #include "report/drawing.hpp"
 #include "report/output_folder.hpp"
 #include "report/result_rows.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "benchmark/variants_file.hpp"
+#include "benchmark/variant_comparison.hpp"
 #include "cli/console.hpp"
 #include "cli/points_output.hpp"
 #include "cli/rig_file.hpp"
@@ -14,7 +14,7 @@
 #include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/images.hpp"
 #include "report/config_toml.hpp"
 #include "report/drawing.hpp"
 #include "report/json.hpp"

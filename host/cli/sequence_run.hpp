@@ -6,9 +6,9 @@
 #include <string>
 
 #include "cli/frame_source.hpp"
-#include "cli/interruption.hpp"
 #include "cli/method_options.hpp"
 #include "cli/points_output.hpp"
+#include "cli/processes.hpp"
 #include "quadedge/error.hpp"
 #include "report/run_record.hpp"
 

@@ -1,13 +1,15 @@
 #pragma once
-/// \file filter_limits.hpp  Search areas of the temporal matching; derived limits of the filters, for stereo and for
-/// each kind of temporal search, and the selection of quads. Shared by kernels, reference and evaluation.
+/// \file filter_limits.hpp  Limits derived from the configuration: of the gradients that noise causes, of search
+/// areas, and of the filters.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "common/layouts.hpp"
 #include "common/matching_constants.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/tap.hpp"
@@ -76,6 +78,34 @@ inline FilterLimits temporal_limits(const TemporalConfig& config, const Temporal
 inline QuadChoice quad_choice(const TemporalConfig& config, const TemporalSearch& search) {
   return {static_cast<float>(config.distance_weight) / (search.radius * search.radius), static_cast<float>(kClusterGap),
           static_cast<float>(kClusterOrientation)};
+}
+
+// Gradients caused by noise and quantisation. doc/method.md section 1.
+
+constexpr double kMaxGrey = 255;  ///< grey level at which a camera saturates, at any bit depth
+
+/// Maximum of the automatic threshold [grey levels/px], used at normal contrast.
+constexpr double kThresholdMax = 2.0;
+
+/// The threshold is lowered until the gradient exceeds it in this fraction of the image, which images of normal
+/// contrast reach at the maximum.
+constexpr double kThresholdArea = 0.2;
+
+/// Limits below: standard deviations of the gradient of noise, which its local maxima hardly ever exceed, and
+/// quantisation steps of an edge, as edges of a single step are not fixed to any surface.
+constexpr double kThresholdNoise = 5.0, kThresholdSteps = 2.0;
+
+/// Lower limits of an automatic threshold [grey levels per px].
+struct ThresholdLimits {
+  double per_noise;  ///< per grey level of the noise's standard deviation
+  double per_step;   ///< per grey level between adjacent values of the recorded image
+};
+
+/// White noise of standard deviation 1 has gradients of 1 / (sqrt(8 pi) sigma^2) along either axis; a step of height 1
+/// has a gradient of 1 / (sqrt(2 pi) sigma).
+inline ThresholdLimits threshold_limits(const EdgesConfig& config) {
+  return {kThresholdNoise / (std::sqrt(8.0 * kPi) * config.sigma * config.sigma),
+          kThresholdSteps / (std::sqrt(2.0 * kPi) * config.sigma)};
 }
 
 }  // namespace quadedge

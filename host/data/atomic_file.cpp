@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <unistd.h>
@@ -67,5 +68,22 @@ void write_atomically(const std::string& path, std::string_view bytes) {
   if (!closed) give_up("close the file", errno);
   if (replace && std::rename(name.c_str(), target.c_str()) != 0) give_up("rename the finished file", errno);
 }
+
+namespace {
+
+std::string user_folder(const char* variable, const char* below_home) {
+  const char* base = std::getenv(variable);
+  if (base != nullptr && base[0] == '/')
+    return std::string(base) + "/quadedge";  // the specification requires relative paths to be ignored
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && home[0] != '\0') return std::string(home) + below_home + "/quadedge";
+  return {};
+}
+
+}  // namespace
+
+std::string configuration_folder() { return user_folder("XDG_CONFIG_HOME", "/.config"); }
+
+std::string cache_folder() { return user_folder("XDG_CACHE_HOME", "/.cache"); }
 
 }  // namespace quadedge::data

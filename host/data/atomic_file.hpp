@@ -1,5 +1,5 @@
 #pragma once
-/// \file atomic_file.hpp  Writes output files completely or not at all.
+/// \file atomic_file.hpp  Output files, written completely or not at all, and the folders of a user.
 
 #include <string>
 #include <string_view>
@@ -13,5 +13,13 @@ void check_writable(const std::string& path);
 /// failure leaves an existing file unchanged. Devices and pipes are written directly. \throws DataError with the
 /// system's reason
 void write_atomically(const std::string& path, std::string_view bytes);
+
+// Folders for a user's configuration and cache (XDG Base Directory Specification).
+
+/// $XDG_CONFIG_HOME/quadedge, or ~/.config/quadedge if that is not set; empty if neither is known.
+std::string configuration_folder();
+
+/// $XDG_CACHE_HOME/quadedge, or ~/.cache/quadedge if that is not set; empty if neither is known.
+std::string cache_folder();
 
 }  // namespace quadedge::data

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "data/image_list.hpp"
 #include "data/layout.hpp"
-#include "data/stamps.hpp"
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"

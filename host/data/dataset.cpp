@@ -5,8 +5,8 @@
 #include "common/disparity_range.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/image_file.hpp"
+#include "data/image_list.hpp"
 #include "data/layout.hpp"
-#include "data/stamps.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 

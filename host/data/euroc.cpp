@@ -10,7 +10,6 @@
 #include "data/calibrations/forms.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
-#include "data/stamps.hpp"
 #include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
 

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <csetjmp>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <vector>
 
-#include "data/image_codecs.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -148,3 +152,209 @@ Image decode_grey_image(std::string_view bytes, const std::string& name) {
 }
 
 }  // namespace quadedge
+
+// libjpeg's header needs what stands before it.
+#include <jpeglib.h>
+#include <png.h>
+#include <zlib.h>
+
+// Errors of both libraries end in a jump, since their C frames pass no exception. The functions that are jumped back to
+// have no variables with destructors.
+namespace quadedge::data {
+namespace {
+
+struct JpegErrors {
+  jpeg_error_mgr manager;  ///< first: libjpeg hands out its address
+  std::jmp_buf end;
+  char reason[JMSG_LENGTH_MAX];
+};
+
+[[noreturn]] void on_jpeg_error(j_common_ptr state) {
+  auto* errors = reinterpret_cast<JpegErrors*>(state->err);
+  errors->manager.format_message(state, errors->reason);
+  std::longjmp(errors->end, 1);
+}
+
+/// Level -1 warns of damaged data, the others trace.
+void on_jpeg_message(j_common_ptr state, int level) {
+  if (level < 0) on_jpeg_error(state);
+}
+
+jpeg_error_mgr* managed(JpegErrors& errors) {
+  jpeg_error_mgr* manager = jpeg_std_error(&errors.manager);
+  manager->error_exit = on_jpeg_error;
+  manager->emit_message = on_jpeg_message;
+  return manager;
+}
+
+/// Reads the header, and the samples into `picture` unless it is null.
+bool read_jpeg(jpeg_decompress_struct& decoder, JpegErrors& errors, std::string_view bytes, cv::Mat* picture) {
+  if (setjmp(errors.end) != 0) return false;
+  jpeg_create_decompress(&decoder);
+  jpeg_mem_src(&decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  jpeg_read_header(&decoder, TRUE);
+  if (picture == nullptr) return true;
+  decoder.out_color_space = decoder.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_start_decompress(&decoder);
+  picture->create(static_cast<int>(decoder.output_height), static_cast<int>(decoder.output_width),
+                  CV_8UC(decoder.output_components));
+  while (decoder.output_scanline < decoder.output_height) {
+    JSAMPROW row = picture->ptr(static_cast<int>(decoder.output_scanline));
+    jpeg_read_scanlines(&decoder, &row, 1);
+  }
+  jpeg_finish_decompress(&decoder);
+  return true;
+}
+
+ImageSize open_jpeg(std::string_view bytes, cv::Mat* picture) {
+  JpegErrors errors{};
+  jpeg_decompress_struct decoder{};
+  decoder.err = managed(errors);
+  const bool done = read_jpeg(decoder, errors, bytes, picture);
+  const ImageSize size{static_cast<int>(decoder.image_width), static_cast<int>(decoder.image_height)};
+  jpeg_destroy_decompress(&decoder);
+  if (!done) throw std::runtime_error(errors.reason);
+  return size;
+}
+
+bool write_jpeg(jpeg_compress_struct& encoder, JpegErrors& errors, const cv::Mat& picture, int quality,
+                unsigned char** bytes, unsigned long* size) {
+  if (setjmp(errors.end) != 0) return false;
+  jpeg_create_compress(&encoder);
+  jpeg_mem_dest(&encoder, bytes, size);
+  encoder.image_width = static_cast<JDIMENSION>(picture.cols);
+  encoder.image_height = static_cast<JDIMENSION>(picture.rows);
+  encoder.input_components = picture.channels();
+  encoder.in_color_space = picture.channels() == 3 ? JCS_RGB : JCS_GRAYSCALE;
+  jpeg_set_defaults(&encoder);
+  jpeg_set_quality(&encoder, quality, TRUE);
+  jpeg_start_compress(&encoder, TRUE);
+  while (encoder.next_scanline < encoder.image_height) {
+    JSAMPROW row = const_cast<JSAMPROW>(picture.ptr(static_cast<int>(encoder.next_scanline)));
+    jpeg_write_scanlines(&encoder, &row, 1);
+  }
+  jpeg_finish_compress(&encoder);
+  return true;
+}
+
+constexpr std::size_t kLongestReason = 160;
+using PngReason = char[kLongestReason];
+
+[[noreturn]] void on_png_error(png_structp png, png_const_charp text) {
+  std::snprintf(static_cast<char*>(png_get_error_ptr(png)), kLongestReason, "%s", text);
+  png_longjmp(png, 1);
+}
+
+void on_png_warning(png_structp, png_const_charp) {}
+
+void take_bytes(png_structp png, png_bytep target, std::size_t count) {
+  auto& rest = *static_cast<std::string_view*>(png_get_io_ptr(png));
+  if (count > rest.size()) png_error(png, "the file ends early");
+  std::memcpy(target, rest.data(), count);
+  rest.remove_prefix(count);
+}
+
+void put_bytes(png_structp png, png_bytep source, std::size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(source), count);
+}
+
+void flush_nothing(png_structp) {}
+
+bool read_png(png_structp png, png_infop info, cv::Mat* picture) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  // Samples of 16 bits are big-endian in the file.
+  png_read_png(png, info, PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_STRIP_ALPHA | PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
+  const auto width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+  const int depth = png_get_bit_depth(png, info) == 16 ? CV_16U : CV_8U;
+  picture->create(static_cast<int>(height), static_cast<int>(width), CV_MAKETYPE(depth, png_get_channels(png, info)));
+  for (png_uint_32 y = 0; y < height; ++y)
+    std::memcpy(picture->ptr(static_cast<int>(y)), png_get_rows(png, info)[y], png_get_rowbytes(png, info));
+  return true;
+}
+
+/// Settings for speed rather than size, those of cv::imencode().
+bool write_png(png_structp png, png_infop info, const cv::Mat& picture, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_compression_level(png, Z_BEST_SPEED);
+  png_set_compression_strategy(png, Z_RLE);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.cols), static_cast<png_uint_32>(picture.rows),
+               picture.depth() == CV_16U ? 16 : 8, picture.channels() == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_rows(png, info, rows);
+  png_write_png(png, info, PNG_TRANSFORM_BGR | PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
+  return true;
+}
+
+}  // namespace
+
+ImageSize jpeg_size(std::string_view bytes) { return open_jpeg(bytes, nullptr); }
+
+cv::Mat decode_jpeg(std::string_view bytes) {
+  cv::Mat picture;
+  open_jpeg(bytes, &picture);
+  return picture;
+}
+
+std::string encode_jpeg(const cv::Mat& picture, int quality) {
+  cv::Mat rgb = picture;
+  if (picture.channels() == 3) cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
+  JpegErrors errors{};
+  jpeg_compress_struct encoder{};
+  encoder.err = managed(errors);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  const bool done = write_jpeg(encoder, errors, rgb, quality, &bytes, &size);
+  jpeg_destroy_compress(&encoder);
+  const std::string result = done ? std::string(reinterpret_cast<const char*>(bytes), size) : std::string();
+  std::free(bytes);
+  if (!done) throw std::runtime_error(errors.reason);
+  return result;
+}
+
+cv::Mat decode_png(std::string_view bytes) {
+  PngReason reason{};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, reason, on_png_error, on_png_warning);
+  png_infop info = png_create_info_struct(png);
+  png_set_read_fn(png, &bytes, take_bytes);
+  cv::Mat picture;
+  const bool done = read_png(png, info, &picture);
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!done) throw std::runtime_error(reason);
+  return picture;
+}
+
+std::string encode_png(const cv::Mat& picture) {
+  std::string bytes;
+  PngReason reason{};
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, reason, on_png_error, on_png_warning);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &bytes, put_bytes, flush_nothing);
+  std::vector<png_bytep> rows;
+  for (int y = 0; y < picture.rows; ++y) rows.push_back(const_cast<png_bytep>(picture.ptr(y)));
+  const bool done = write_png(png, info, picture, rows.data());
+  png_destroy_write_struct(&png, &info);
+  if (!done) throw std::runtime_error(reason);
+  return bytes;
+}
+
+void from_big_endian(cv::Mat& samples) {
+  if (samples.depth() != CV_16U) return;
+  for (int y = 0; y < samples.rows; ++y) {
+    auto* words = samples.ptr<std::uint16_t>(y);
+    const std::uint8_t* bytes = samples.ptr(y);
+    for (int i = 0; i < samples.cols * samples.channels(); ++i)
+      words[i] = static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
+  }
+}
+
+Image grey_image(const cv::Mat& samples, int max_value) {
+  cv::Mat grey = samples;
+  if (samples.channels() == 3) cv::cvtColor(samples, grey, cv::COLOR_RGB2GRAY);
+  Image image(samples.cols, samples.rows, max_value);
+  const cv::Mat target(image.height, image.width, max_value > kMaxValue8 ? CV_16UC1 : CV_8UC1, image.pixels.data());
+  cv::min(grey, max_value, target);
+  return image;
+}
+
+}  // namespace quadedge::data

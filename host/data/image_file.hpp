@@ -1,7 +1,10 @@
 #pragma once
-/// \file image_file.hpp  Sizes of images, from their files' headers.
+/// \file image_file.hpp  Sizes of images from their files' headers; PNG and JPEG in memory, by libpng and libjpeg;
+/// samples of images.
 
+#include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 
 #include "quadedge/image.hpp"
 
@@ -33,5 +36,32 @@ bool is_other_image_name(const std::string& name);
 /// What is expected in place of TIFF and BMP.
 inline constexpr const char* kConverted =
     "PNG, JPEG, PGM or PPM; `mogrify -format png *` of ImageMagick converts others, at their full depth";
+
+// PNG and JPEG in memory, by libpng and libjpeg; samples of images.
+
+/// Columns, rows and largest value by the header of a JPEG. \throws std::runtime_error with libjpeg's reason
+ImageSize jpeg_size(std::string_view bytes);
+
+/// height x width samples of 8 bits: one channel for grey images, three (R, G, B) for colour, on the recorded pixel
+/// grid whatever EXIF says. Most decoders fill what they cannot read with grey and go on; here libjpeg's warnings are
+/// errors. \throws std::runtime_error with libjpeg's reason
+cv::Mat decode_jpeg(std::string_view bytes);
+
+/// height x width samples of 8 or 16 bits: one channel for grey images, three (R, G, B) for colour and palettes. Alpha
+/// is dropped, fewer than 8 bits become 8. \throws std::runtime_error with libpng's reason
+cv::Mat decode_png(std::string_view bytes);
+
+/// Encodes a picture of 8 bits, grey or B, G, R; `quality` is libjpeg's, 0 to 100. \throws std::runtime_error
+std::string encode_jpeg(const cv::Mat& picture, int quality);
+
+/// Encodes a picture of 8 or 16 bits, grey or B, G, R. \throws std::runtime_error with libpng's reason
+std::string encode_png(const cv::Mat& picture);
+
+/// Brings 16-bit samples as PNM files have them into the machine's byte order; leaves 8-bit samples as they are.
+void from_big_endian(cv::Mat& samples);
+
+/// Grey image of samples of 8 bits (`max_value` up to 255) or 16 bits, one channel or R, G, B, which become luminance.
+/// Samples above `max_value` are limited to it: pixels may exceed the largest value of the header.
+Image grey_image(const cv::Mat& samples, int max_value);
 
 }  // namespace quadedge::data

@@ -2,14 +2,180 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <map>
 #include <set>
 
+#include "common/numeric.hpp"
 #include "data/layout.hpp"
-#include "data/stamps.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
+namespace {
+
+constexpr std::int64_t kShortestPeriod = 1'000'000, kLongestPeriod = 5'000'000'000;  // ns: 1000 and 0.2 Hz
+
+bool are_digits(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+bool is_integer_stamp(const std::string& text) {
+  constexpr std::size_t kFewestDigits = 10, kMostDigits = 19;
+  return are_digits(text) && text[0] != '0' && text.size() >= kFewestDigits && text.size() <= kMostDigits;
+}
+
+bool are_decimal_seconds(const std::string& text) {
+  const std::size_t point = text.find('.');
+  return point != std::string::npos && are_digits(text.substr(0, point)) && are_digits(text.substr(point + 1));
+}
+
+/// Nanoseconds per unit of integer stamps; 0 if no unit gives a plausible rate.
+std::int64_t unit_of(const std::vector<std::int64_t>& numbers, std::size_t digits) {
+  const std::int64_t by_length = digits >= 18 ? 1 : digits >= 15 ? 1'000 : 1'000'000;
+  std::vector<std::int64_t> candidates = {by_length, 1, 1'000, 1'000'000};
+  const std::int64_t step = usual_period(numbers);
+  if (step == 0) return digits == 19 || digits == 16 || digits == 13 ? by_length : 0;
+  for (const std::int64_t unit : candidates) {
+    constexpr std::int64_t kLargest = INT64_MAX;
+    if (step > kLongestPeriod / unit || step < (kShortestPeriod + unit - 1) / unit) continue;
+    if (*std::max_element(numbers.begin(), numbers.end()) <= kLargest / unit) return unit;
+  }
+  return *std::max_element(numbers.begin(), numbers.end()) <= INT64_MAX / by_length ? by_length : 1;
+}
+
+std::optional<std::vector<std::int64_t>> integer_stamps(const std::vector<std::string>& words,
+                                                        const std::string& file) {
+  if (!std::all_of(words.begin(), words.end(), is_integer_stamp)) return std::nullopt;
+  std::vector<std::int64_t> numbers;
+  std::size_t digits = 0;
+  for (const std::string& word : words) {
+    numbers.push_back(parse_nanoseconds(word, file, static_cast<int>(numbers.size()) + 1));
+    digits = std::max(digits, word.size());
+  }
+  std::vector<std::int64_t> sorted = numbers;
+  std::sort(sorted.begin(), sorted.end());
+  const std::int64_t unit = unit_of(sorted, digits);
+  if (unit == 0) return std::nullopt;
+  for (std::int64_t& number : numbers) number *= unit;
+  return numbers;
+}
+
+/// Days since 1970-01-01 in the Gregorian calendar.
+std::int64_t days_since_epoch(int year, int month, int day) {
+  const int shifted = year - (month <= 2 ? 1 : 0), era = shifted / 400, of_era = shifted % 400;
+  const int of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  return std::int64_t{era} * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
+}
+
+/// "2011-09-26 13:02:25.967790592", as UTC. \throws DataError
+std::int64_t dated_stamp(const std::vector<std::string>& words, const std::string& file, int line) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, end = 0;
+  const bool is_date = std::sscanf(words[0].c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 &&
+                       words[0].size() == static_cast<std::size_t>(end);
+  const bool is_time = is_date && std::sscanf(words[1].c_str(), "%2d:%2d:%n", &hour, &minute, &end) == 2;
+  if (!is_time || year < 1970 || month < 1 || month > 12 || day < 1 || day > 31 || hour > 23 || minute > 59)
+    fail(file, line, in_quotes(words[0] + " " + words[1]), "YYYY-MM-DD HH:MM:SS.fraction");
+  const std::int64_t minutes = (days_since_epoch(year, month, day) * 24 + hour) * 60 + minute;
+  return minutes * 60'000'000'000 + parse_seconds(words[1].substr(static_cast<std::size_t>(end)), file, line);
+}
+
+}  // namespace
+
+std::optional<std::vector<std::int64_t>> stamps_of_names(const std::vector<std::string>& stems,
+                                                         const std::string& folder) {
+  if (!std::all_of(stems.begin(), stems.end(), are_decimal_seconds)) return integer_stamps(stems, folder);
+  std::vector<std::int64_t> stamps;
+  for (const std::string& stem : stems) stamps.push_back(parse_seconds(stem, folder, 1));
+  return stamps;
+}
+
+TimeRows read_time_rows(const std::string& file, bool restarts) {
+  TimeRows rows;
+  const std::vector<Line> lines = table_lines(file);
+  if (lines.empty()) fail(file, "no timestamps", "one in seconds on every line");
+  std::vector<std::string> words_of_times;
+  for (const Line& line : lines) {
+    const auto words = split(line.text, ", \t\r");
+    if (words.size() == 2 && words[0].find('-') != std::string::npos) {
+      rows.stamps_ns.push_back(dated_stamp(words, file, line.number));
+    } else if (words.size() == 1) {
+      words_of_times.push_back(words[0]);
+    } else if (words.size() <= 3) {
+      rows.names.push_back(words[0]);
+      words_of_times.push_back(words[1]);
+    } else {
+      fail(file, line.number, in_quotes(line.text), "one time in seconds, or \"name seconds exposure\"");
+    }
+  }
+  if (words_of_times.size() + rows.stamps_ns.size() != lines.size() ||
+      (!words_of_times.empty() && !rows.stamps_ns.empty()) ||
+      (!rows.names.empty() && rows.names.size() != lines.size()))
+    fail(file, "rows of different forms", "one time in seconds, or \"name seconds exposure\", in every row");
+  if (auto stamps = integer_stamps(words_of_times, file); stamps && !words_of_times.empty()) {
+    rows.stamps_ns = std::move(*stamps);
+  } else {
+    for (std::size_t i = 0; i < words_of_times.size(); ++i)
+      rows.stamps_ns.push_back(parse_seconds(words_of_times[i], file, lines[i].number));
+  }
+  for (std::size_t i = 1; i < rows.stamps_ns.size(); ++i) {
+    const std::int64_t step = rows.stamps_ns[i] - rows.stamps_ns[i - 1];
+    if (step > 0 || (step < 0 && restarts)) continue;
+    fail(file, lines[i].number,
+         "timestamp " + format_seconds(rows.stamps_ns[i]) + " after " + format_seconds(rows.stamps_ns[i - 1]),
+         "increasing timestamps");
+  }
+  return rows;
+}
+
+StampPairs pair_stamps(const std::vector<std::int64_t>& left_ns, const std::vector<std::int64_t>& right_ns,
+                       std::int64_t tolerance_ns) {
+  using Indexed = std::vector<std::pair<std::int64_t, std::size_t>>;
+  const auto in_order = [](const std::vector<std::int64_t>& stamps) {
+    Indexed indexed;
+    for (std::size_t i = 0; i < stamps.size(); ++i) indexed.emplace_back(stamps[i], i);
+    std::sort(indexed.begin(), indexed.end());
+    return indexed;
+  };
+  const auto nearest = [](const Indexed& stamps, std::int64_t stamp) {
+    auto after = std::lower_bound(stamps.begin(), stamps.end(), std::make_pair(stamp, std::size_t{0}));
+    const bool takes_before =
+        after == stamps.end() || (after != stamps.begin() && stamp - std::prev(after)->first <= after->first - stamp);
+    return takes_before ? std::prev(after) : after;
+  };
+  StampPairs result;
+  const Indexed left = in_order(left_ns), right = in_order(right_ns);
+  std::vector<std::int64_t> sorted;
+  for (const auto& entry : left) sorted.push_back(entry.first);
+  const std::int64_t half = (usual_period(sorted) - 1) / 2;
+  const std::int64_t tolerance = tolerance_ns > 0 ? tolerance_ns : half > 0 ? half : INT64_MAX;
+  for (auto entry = left.begin(); entry != left.end() && !right.empty(); ++entry) {
+    const auto partner = nearest(right, entry->first);
+    const std::int64_t difference = std::abs(partner->first - entry->first);
+    if (nearest(left, partner->first) != entry || difference > tolerance) continue;
+    result.pairs.emplace_back(entry->second, partner->second);
+    result.largest_difference_ns = std::max(result.largest_difference_ns, difference);
+  }
+  std::sort(result.pairs.begin(), result.pairs.end());
+  return result;
+}
+
+std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns) {
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i) periods.push_back(stamps_ns[i] - stamps_ns[i - 1]);
+  return periods.empty() ? 0 : upper_median(periods);
+}
+
+std::string rate_complaint(const std::vector<std::int64_t>& stamps_ns) {
+  const std::int64_t period = usual_period(stamps_ns);
+  if (period <= 0 || (period >= kShortestPeriod && period <= kLongestPeriod)) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the timestamps have a rate of %.4g Hz, expected 0.2 to 1000 Hz: another unit? --fps N or --times FILE "
+                "replaces them",
+                1e9 / static_cast<double>(period));
+  return text;
+}
+
 namespace {
 
 bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }

@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "data/calibrations/forms.hpp"
+#include "data/image_list.hpp"
 #include "data/layout.hpp"
-#include "data/stamps.hpp"
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"

@@ -7,7 +7,6 @@
 
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
-#include "data/stamps.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {

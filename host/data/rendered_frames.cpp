@@ -11,7 +11,7 @@
 #include "common/bounded_folder.hpp"
 #include "data/atomic_file.hpp"
 #include "data/content_hash.hpp"
-#include "data/image_codecs.hpp"
+#include "data/image_file.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 

@@ -7,11 +7,9 @@
 #include <unistd.h>
 
 #include "data/calibrations/forms.hpp"
+#include "data/find_sequences.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
-#include "data/picture_pipe.hpp"
-#include "data/source_line.hpp"
-#include "data/stamps.hpp"
 #include "data/stream_reader.hpp"
 #include "data/text.hpp"
 #include "data/video_file.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-/// \file stream_reader.hpp  What videos and pipes have in common: the part that is read, timestamps, and the split of
-/// pictures with both views.
+/// \file stream_reader.hpp  Stereo pairs from a stream: what videos and pipes have in common, and the pipe of
+/// binary PGM or PPM images.
 
 #include <atomic>
 #include <cstdint>
@@ -69,5 +69,13 @@ class StreamOfReaders : public PairStream {
   int queue_;
   mutable std::unique_ptr<StreamReader> begun_;
 };
+
+// Stereo pairs from a pipe of binary PGM or PPM images.
+
+/// A stream of the pairs read from a file descriptor, which remains owned by the caller. The format is netpbm's: images
+/// in direct succession, as written by `ffmpeg -f image2pipe -c:v pgm` and `cat *.pgm`, with 8 bits or, with two bytes
+/// per value, up to 16. Only one reader can be opened. It throws DataError for invalid images, images that differ in
+/// size or depth from the first of their camera, incomplete images, and a left image without a right one.
+std::shared_ptr<StreamOfReaders> make_picture_pipe(int descriptor, const StreamOptions& options);
 
 }  // namespace quadedge::data

@@ -199,3 +199,19 @@ std::string toml_text(const std::vector<std::string>& value) { return array_text
 std::string toml_text(const std::vector<double>& value) { return array_text(value); }
 
 }  // namespace quadedge::data
+
+namespace quadedge::data {
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const auto& preset : presets()) names.push_back(preset.name);
+  return names;
+}
+
+std::vector<TomlEntry> read_preset(const std::string& name) {
+  for (const auto& preset : presets())
+    if (preset.name == name) return read_toml_text(preset.text, "preset " + name);
+  throw UsageError("there is no preset '" + name + "'" + did_you_mean(name, preset_names()));
+}
+
+}  // namespace quadedge::data

@@ -1,6 +1,6 @@
 #pragma once
 /// \file toml_file.hpp  TOML files as lists of keys with values. Only toml_file.cpp includes toml++. Error messages
-/// state file, line, key, what was found and what was expected.
+/// state file, line, key, what was found and what was expected. Presets are such files, embedded in the program.
 
 #include <cstdint>
 #include <string>
@@ -50,5 +50,20 @@ std::string toml_text(bool value);
 std::string toml_text(const std::string& value);
 std::string toml_text(const std::vector<std::string>& value);
 std::string toml_text(const std::vector<double>& value);
+
+// Presets: named configuration files of config/, embedded in the program.
+
+struct Preset {
+  std::string name;
+  std::string text;  ///< TOML
+};
+
+/// By the number of edges.
+const std::vector<Preset>& presets();
+
+std::vector<std::string> preset_names();
+
+/// The entries of a preset; messages refer to it as "preset NAME". \throws UsageError for an unknown name
+std::vector<TomlEntry> read_preset(const std::string& name);
 
 }  // namespace quadedge::data

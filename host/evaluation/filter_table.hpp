@@ -12,7 +12,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/tap.hpp"
-#include "reference/point_index.hpp"
+#include "reference/temporal_matching.hpp"
 
 namespace quadedge::evaluation {
 

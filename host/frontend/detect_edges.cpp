@@ -3,8 +3,6 @@
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
-#include "reference/edge_mask.hpp"
-#include "reference/edge_threshold.hpp"
 #include "stages/edge_detection.hpp"
 #include "stages/images.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 /// \file device_frontend.hpp  The front end on an OpenCL device.
 
-#include "frontend/coarse_gate.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/noise_gate.hpp"
 #include "frontend/range_follower.hpp"

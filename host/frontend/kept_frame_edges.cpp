@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "reference/patches.hpp"
+#include "reference/edge_descriptions.hpp"
 
 namespace quadedge::frontend {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/filter_limits.hpp"
 #include "common/layouts.hpp"
-#include "common/threshold_limits.hpp"
 
 namespace quadedge::frontend {
 namespace {

@@ -8,8 +8,8 @@
 #include "common/disparity_range.hpp"
 #include "frontend/prediction.hpp"
 #include "paper/grid_edges.hpp"
-#include "reference/edge_mask.hpp"
-#include "reference/undistortion.hpp"
+#include "reference/edge_detection.hpp"
+#include "reference/images.hpp"
 
 namespace quadedge::frontend {
 namespace {

@@ -2,9 +2,8 @@
 /// \file paper_frontend.hpp  The front end of the paper's method (doc/paper.md), in plain C++ on all processors.
 
 #include "frontend/frontend.hpp"
-#include "paper/stereo.hpp"
-#include "paper/temporal.hpp"
-#include "reference/edge_threshold.hpp"
+#include "paper/cascades.hpp"
+#include "reference/edge_detection.hpp"
 
 namespace quadedge::frontend {
 

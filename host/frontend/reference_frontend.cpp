@@ -6,17 +6,11 @@
 #include "common/disparity_range.hpp"
 #include "common/epipolar_geometry.hpp"
 #include "frontend/global_search.hpp"
+#include "reference/edge_descriptions.hpp"
 #include "reference/edge_detection.hpp"
-#include "reference/edge_mask.hpp"
-#include "reference/edge_selection.hpp"
-#include "reference/patches.hpp"
-#include "reference/sift.hpp"
-#include "reference/smoothing.hpp"
-#include "reference/stereo_mutual.hpp"
-#include "reference/temporal_match.hpp"
-#include "reference/undistortion.hpp"
-#include "reference/wide_description.hpp"
-#include "reference/wide_matching.hpp"
+#include "reference/images.hpp"
+#include "reference/stereo_matching.hpp"
+#include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
 namespace {

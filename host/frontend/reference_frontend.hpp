@@ -4,12 +4,10 @@
 
 #include "frontend/noise_gate.hpp"
 #include "frontend/staged_frontend.hpp"
-#include "reference/candidate_filters.hpp"
-#include "reference/edge_threshold.hpp"
-#include "reference/stereo_candidates.hpp"
-#include "reference/stereo_clusters.hpp"
-#include "reference/stereo_relaxation.hpp"
-#include "reference/temporal_match.hpp"
+#include "reference/candidates.hpp"
+#include "reference/edge_detection.hpp"
+#include "reference/stereo_matching.hpp"
+#include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
 

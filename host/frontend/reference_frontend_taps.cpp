@@ -1,8 +1,7 @@
 /// \file reference_frontend_taps.cpp  Passes data of the reference to a tap after each filter, from the candidate lists
 /// on.
 #include "frontend/reference_frontend.hpp"
-#include "reference/point_index.hpp"
-#include "reference/temporal_candidates.hpp"
+#include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
 namespace {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "common/disparity_range.hpp"
-#include "frontend/coarse_gate.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/range_follower.hpp"
 

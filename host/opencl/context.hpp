@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "opencl/device_limits.hpp"
-#include "opencl/fork_guard.hpp"
 #include "opencl/program_cache.hpp"
+#include "opencl/status.hpp"
 #include "quadedge/device.hpp"
 
 namespace quadedge::opencl {

@@ -1,12 +1,46 @@
 #pragma once
 /// \file kernel.hpp  Kernels with a C++ signature, which tests and the self-test compare with the built program.
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
+#include "common/layouts.hpp"
 #include "opencl/buffer.hpp"
 #include "opencl/context.hpp"
 #include "opencl/status.hpp"
+
+// The structures of kernels/layouts.cl as kernel arguments.
+
+/// Every structure of kernels/layouts.cl; tests/test_layouts.cpp verifies that the list is complete.
+#define QUADEDGE_KERNEL_STRUCTS(VISIT) \
+  VISIT(PackedPositions)               \
+  VISIT(PackedPointIndex)              \
+  VISIT(EpipolarGeometry)              \
+  VISIT(AlignmentSettings)             \
+  VISIT(ThresholdArguments)            \
+  VISIT(DetectionArguments)            \
+  VISIT(EpipolarRows)                  \
+  VISIT(SelectionArguments)            \
+  VISIT(PatchArguments)                \
+  VISIT(SiftArguments)                 \
+  VISIT(DisparityProbe)                \
+  VISIT(StereoCandidateArguments)      \
+  VISIT(FilterLimits)                  \
+  VISIT(FilterArguments)               \
+  VISIT(StereoRefinementArguments)     \
+  VISIT(StereoClusterArguments)        \
+  VISIT(CoarseDisparityArguments)      \
+  VISIT(StereoRelaxationArguments)     \
+  VISIT(StereoMutualArguments)         \
+  VISIT(PointIndexArguments)           \
+  VISIT(TemporalCandidateArguments)    \
+  VISIT(QuadChoice)                    \
+  VISIT(TemporalMatchArguments)        \
+  VISIT(TemporalAgreementArguments)    \
+  VISIT(TemporalBestArguments)         \
+  VISIT(WideSelection)                 \
+  VISIT(WideMatchingArguments)
 
 namespace quadedge::opencl {
 
@@ -50,6 +84,13 @@ template <>
 struct TypeName<cl_ushort> {
   static constexpr const char* value = "ushort";
 };
+#define QUADEDGE_DESCRIBE(NAME)                 \
+  template <>                                   \
+  struct TypeName<NAME> {                       \
+    static constexpr const char* value = #NAME; \
+  };
+QUADEDGE_KERNEL_STRUCTS(QUADEDGE_DESCRIBE)
+#undef QUADEDGE_DESCRIBE
 
 /// The type that a kernel argument is expected to have in the built program.
 struct ArgumentType {

@@ -13,7 +13,7 @@
 #include "odometry/odometry_constants.hpp"
 #include "odometry/tracking_state.hpp"
 #include "odometry/view_change.hpp"
-#include "places/saved_places.hpp"
+#include "places/place_store.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"

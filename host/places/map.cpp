@@ -14,7 +14,6 @@
 #include "odometry/view_change.hpp"
 #include "places/place_store.hpp"
 #include "places/pose_graph.hpp"
-#include "places/saved_places.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"

@@ -1,10 +1,61 @@
 #include "places/place_store.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "quadedge/error.hpp"
+
 namespace quadedge::places {
+namespace {
+
+constexpr float kWideNorm = 512;  ///< of a wide descriptor
+
+constexpr std::array<float, kWideBytes + kWordNumbers*(kWideBytes + kWords)> kTable = {
+#include "places/place_words.inc"
+};
+
+}  // namespace
+
+const PlaceWords& place_words() {
+  static const PlaceWords words = [] {
+    PlaceWords table;
+    const float* next = kTable.data();
+    const auto take = [&](auto& matrix) {
+      matrix = Eigen::Map<const std::decay_t<decltype(matrix)>>(next);
+      next += matrix.size();
+    };
+    take(table.mean);
+    take(table.projection);
+    take(table.words);
+    return table;
+  }();
+  return words;
+}
+
+Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& rig) {
+  const std::vector<std::uint8_t> wide = frontend::unpack_wide(rig);
+  const Eigen::Map<const Eigen::Matrix<std::uint8_t, kWideBytes, Eigen::Dynamic>> bytes(
+      wide.data(), kWideBytes, static_cast<Eigen::Index>(rig.edges.size()));
+  return (bytes.cast<float>() / kWideNorm).cwiseSqrt();
+}
+
+PlaceSignature place_signature(const frontend::KeptFrameEdges& rig) {
+  const PlaceWords& table = place_words();
+  const Eigen::Matrix<float, kWordNumbers, Eigen::Dynamic> projected =
+      table.projection * (rooted_descriptors(rig).colwise() - table.mean);
+  const Eigen::Matrix<float, kWords, 1> half_squares = 0.5F * table.words.colwise().squaredNorm().transpose();
+  PlaceSignature signature = PlaceSignature::Zero();
+  for (Eigen::Index i = 0; i < projected.cols(); ++i) {
+    Eigen::Index word = 0;
+    (table.words.transpose() * projected.col(i) - half_squares).maxCoeff(&word);
+    signature.segment<kWordNumbers>(word * kWordNumbers) += projected.col(i) - table.words.col(word);
+  }
+  for (int word = 0; word < kWords; ++word) signature.segment<kWordNumbers>(word * kWordNumbers).stableNormalize();
+  signature.stableNormalize();
+  return signature;
+}
 
 PlaceStore::Rounded PlaceStore::rounded(const PlaceSignature& signature) {
   Rounded result;
@@ -51,6 +102,21 @@ std::vector<PlaceStore::Similar> PlaceStore::most_similar(const PlaceSignature& 
     heap.pop_back();
   }
   return found;
+}
+
+void check_map_config(const Config& config) {
+  if (config.temporal.wide_edges == 0) throw UsageError("a map needs the global search: temporal.wide_edges above 0");
+  if (config.temporal.sift_max > 0)
+    throw UsageError("a map keeps no SIFT descriptors: expected temporal.sift_max of 0");
+}
+
+std::vector<std::pair<std::string, std::string>> descriptor_settings(const Config& config) {
+  constexpr std::array<const char*, 3> kKeys = {"edges.sigma", "edges.direction_at", "patches.offset"};
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const Constant& constant : constants())
+    if (std::find(kKeys.begin(), kKeys.end(), constant.key()) != kKeys.end())
+      settings.emplace_back(constant.key(), constant.text(config));
+  return settings;
 }
 
 }  // namespace quadedge::places

@@ -1,16 +1,46 @@
 #pragma once
-/// \file place_store.hpp  Kept key rigs, and those most similar to a given one (doc/method.md section 10).
+/// \file place_store.hpp  Kept key rigs: their signatures, those most similar to a given one, and what a map file
+/// holds (doc/method.md section 10).
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "common/layouts.hpp"
 #include "frontend/kept_frame_edges.hpp"
-#include "places/place_signature.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
 
 namespace quadedge::places {
+
+// A rig as one short vector, for finding rigs of the same place (doc/method.md section 10).
+
+constexpr int kWordNumbers = 16;  ///< numbers of a descriptor after its projection
+constexpr int kWords = 16;
+
+/// Unit length; similar places have a large scalar product.
+using PlaceSignature = Eigen::Matrix<float, kWords * kWordNumbers, 1>;
+
+/// Table of words and the projection that precedes it. bench/place_words.cpp makes it from rendered scenes.
+struct PlaceWords {
+  Eigen::Matrix<float, kWideBytes, 1> mean;
+  Eigen::Matrix<float, kWordNumbers, kWideBytes> projection;
+  Eigen::Matrix<float, kWordNumbers, kWords> words;
+};
+const PlaceWords& place_words();
+
+/// Wide descriptors of a kept rig as columns: square roots of their values.
+Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& rig);
+
+/// Vector of locally aggregated descriptors: for every word the sum of the differences from it of all descriptors
+/// nearest to it, each sum of unit length.
+PlaceSignature place_signature(const frontend::KeptFrameEdges& rig);
 
 /// A rig is compared with this number of places, the most similar ones; one without a known place with up to
 /// kCandidateBatches times as many. If it is found, those of them that see other places are compared as well, in case
@@ -56,5 +86,25 @@ class PlaceStore {
   std::vector<Place> places_;     ///< oldest first
   std::vector<Rounded> rounded_;  ///< their signatures
 };
+
+// What a map file holds (doc/method.md section 10).
+
+struct SavedPlaces {
+  StereoRig rig;  ///< without undistortion tables and masks
+  /// 1 if the recorded images had lens distortion, so that `rig` does not describe them.
+  std::uint8_t is_undistorted = 0;
+  /// Disparity offset that the odometry has learned [px], and its variance [px^2].
+  double offset = 0, offset_variance = 0;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< descriptor_settings() of the recording
+  PlaceStore store{std::numeric_limits<std::size_t>::max()};  ///< Place::node is an index of `poses`
+  std::vector<Eigen::Isometry3d> poses;                       ///< map_from_left of every place [m]
+};
+
+/// \throws UsageError if `temporal.wide_edges` is 0 or a filter in time uses SIFT, because kept rigs have no images.
+void check_map_config(const Config& config);
+
+/// Keys and values of the constants that edges, patches and descriptors depend on, which have to be equal for all rigs
+/// of a map and the frames located in it.
+std::vector<std::pair<std::string, std::string>> descriptor_settings(const Config& config);
 
 }  // namespace quadedge::places

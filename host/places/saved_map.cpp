@@ -7,7 +7,7 @@
 
 #include "common/calibration.hpp"
 #include "odometry/disparity_offset.hpp"
-#include "places/saved_places.hpp"
+#include "places/place_store.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
 

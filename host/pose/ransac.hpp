@@ -11,7 +11,6 @@
 #include "pose/sample_fit.hpp"
 #include "pose/sampling_order.hpp"
 #include "pose/scoring.hpp"
-#include "pose/scoring_subset.hpp"
 
 namespace quadedge::pose {
 

@@ -1,6 +1,6 @@
 #pragma once
-/// \file sampling_order.hpp  Random indices, and the order in which quads enter the samples of a consensus search
-/// (PROSAC).
+/// \file sampling_order.hpp  Random indices, the order in which quads enter the samples of a consensus search, and
+/// the quads on which hypotheses are scored.
 
 #include <algorithm>
 #include <cstddef>
@@ -64,5 +64,27 @@ class SamplingOrder {
   std::vector<Entry>& order_;
   std::size_t sorted_ = 0;
 };
+
+// Selects the quads on which hypotheses are scored.
+
+/// Buffers of balanced_subset(), kept between calls.
+struct SubsetWorkspace {
+  struct Cell {
+    std::size_t begin, size;
+  };
+  std::vector<std::int32_t> cell_of, cell_first, members;  ///< quads by cell
+  std::vector<Cell> cells;
+  std::vector<std::size_t> cell_sizes;
+};
+
+/// `size` distinct rows of 0 .. count - 1, in random order.
+void random_subset(std::mt19937_64& random, std::size_t count, std::size_t size, std::vector<std::int32_t>& rows);
+
+/// At most `size` distinct rows, evenly from the square cells of the current left image: from each cell as many as the
+/// median cell contains, or all if it has fewer. Objects are thus weighted by area, not by their number of edges. Cells
+/// and rows are in random order.
+/// \param side side of a cell [px] \param rows replaced
+void balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double side, std::size_t size,
+                     SubsetWorkspace& workspace, std::vector<std::int32_t>& rows);
 
 }  // namespace quadedge::pose

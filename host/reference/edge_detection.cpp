@@ -2,13 +2,144 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <numeric>
 
+#include "common/filter_limits.hpp"
+#include "common/images.hpp"
 #include "common/layouts.hpp"
 #include "common/numeric.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::reference {
+namespace {
+
+constexpr double kBinsPerOctave = 8;
+constexpr double kLowestExponent = -12;  // of the gradient that bin 1 begins with
+
+/// Between powers of two the bins have equal width, as floats do.
+double gradient_bin_start(int bin) {
+  const int octave = (bin - 1) / 8, eighth = (bin - 1) % 8;
+  return bin == 0 ? 0.0 : std::ldexp(1.0 + eighth / kBinsPerOctave, octave + static_cast<int>(kLowestExponent));
+}
+
+int gradient_bin(double magnitude) {
+  int bin = 0;
+  while (bin + 1 < kGradientBins && magnitude >= gradient_bin_start(bin + 1)) ++bin;
+  return bin;
+}
+
+/// Integers below 16 have one bin each, larger ones eight bins per octave.
+int noise_bin_start(int bin) { return bin < 16 ? bin : (8 + bin % 8) << (bin / 8 - 1); }
+
+int noise_bin(int response) {
+  int bin = 0;
+  while (bin + 1 < kNoiseBins && response >= noise_bin_start(bin + 1)) ++bin;
+  return bin;
+}
+
+double grey_at(const ImageView& image, int x, int y) {
+  return static_cast<double>(image.at(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1)));
+}
+
+bool is_saturated(double grey) { return grey <= 0 || grey >= kMaxGrey; }
+
+double gradient_magnitude(const ImageView& image, int x, int y, double sigma) {
+  const int radius = kernel_radius(sigma);
+  double gx = 0, gy = 0;
+  for (int dy = -radius; dy <= radius; ++dy) {
+    const auto along_y = gaussian_derivatives(-dy, sigma);
+    for (int dx = -radius; dx <= radius; ++dx) {
+      const auto along_x = gaussian_derivatives(-dx, sigma);
+      const double grey = grey_at(image, x + dx, y + dy);
+      gx += along_x[1] * along_y[0] * grey;
+      gy += along_x[0] * along_y[1] * grey;
+    }
+  }
+  return std::hypot(gx, gy);
+}
+
+/// Magnitude of [1 -2 1] along both axes, in steps of the image's values; -1 where a pixel is saturated.
+int noise_response(const ImageView& image, int x, int y) {
+  constexpr int kWeights[3] = {1, -2, 1};
+  double sum = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const double grey = grey_at(image, x + dx, y + dy);
+      if (is_saturated(grey)) return -1;
+      sum += kWeights[dy + 1] * kWeights[dx + 1] * grey;
+    }
+  }
+  return static_cast<int>(std::lround(std::abs(sum) * image.max_value / kMaxGrey));
+}
+
+template <std::size_t N>
+double sum_of(const std::array<std::int64_t, N>& tally) {
+  return static_cast<double>(std::accumulate(tally.begin(), tally.end(), std::int64_t{0}));
+}
+
+}  // namespace
+
+void ContrastTally::add(const ImageView& image, double sigma) {
+  const int columns = image.width / kThresholdStep, rows = image.height / kThresholdStep;
+  for (int row = 0; row < rows; ++row) {
+    const int y = row * kThresholdStep + kThresholdStep / 2;
+    for (int column = 0; column < columns; ++column) {
+      const int x = column * kThresholdStep + kThresholdStep / 2;
+      if (is_saturated(grey_at(image, x, y))) continue;
+      ++gradients[static_cast<std::size_t>(gradient_bin(gradient_magnitude(image, x, y, sigma)))];
+    }
+    for (int x = 1; x < std::min(columns * kThresholdStep, image.width - 1); ++x) {
+      const int response = noise_response(image, x, y);
+      if (response >= 0) ++responses[static_cast<std::size_t>(noise_bin(response))];
+    }
+  }
+}
+
+double ContrastTally::gradient_exceeded_by(double ratio) const {
+  const double wanted = ratio * sum_of(gradients);
+  double above = 0;
+  for (int bin = kGradientBins - 1; bin >= 0; --bin) {
+    const auto here = static_cast<double>(gradients[static_cast<std::size_t>(bin)]);
+    const double start = gradient_bin_start(bin), end = gradient_bin_start(bin + 1);
+    if (here > 0 && above + here >= wanted) return end - (end - start) * (wanted - above) / here;
+    above += here;
+  }
+  return 0;
+}
+
+double ContrastTally::noise() const {
+  const double half = 0.5 * sum_of(responses);
+  double below = 0;
+  for (int bin = 0; bin < kNoiseBins; ++bin) {
+    const auto here = static_cast<double>(responses[static_cast<std::size_t>(bin)]);
+    // An integer represents half a step to either side.
+    const double start = std::max(noise_bin_start(bin) - 0.5, 0.0), end = noise_bin_start(bin + 1) - 0.5;
+    if (here > 0 && below + here >= half)
+      return (start + (end - start) * (half - below) / here) / static_cast<double>(kNoiseMedian);
+    below += here;
+  }
+  return 0;
+}
+
+double EdgeThreshold::next(const std::vector<ImageView>& images, std::optional<double> known_noise) {
+  if (config_.threshold > 0) return config_.threshold;
+  ContrastTally tally;
+  for (const ImageView& image : images) tally.add(image, config_.sigma);
+  const double step = kMaxGrey / images.front().max_value;  // [grey levels]
+  noise_ = known_noise ? *known_noise : step * tally.noise();
+  const ThresholdLimits limits = threshold_limits(config_);
+  gradient_ = sum_of(tally.gradients) > 0 ? tally.gradient_exceeded_by(kThresholdArea) : kThresholdMax;
+  const double contrast = gradient_ * gradient_ / kThresholdMax;
+  const double measured =
+      std::min(std::max({contrast, limits.per_noise * noise_, limits.per_step * step}), kThresholdMax);
+  const double hold = kThresholdHold;
+  const bool held = threshold_ <= hold * measured && measured <= hold * threshold_;
+  if (!held) threshold_ = measured;
+  return threshold_;
+}
+
 namespace {
 
 /// Taps of one derivative order, for the pixels i - radius .. i + radius around pixel i.
@@ -218,6 +349,145 @@ EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped) {
     for (auto& first : edges.row_first) first = std::min(first, static_cast<std::int32_t>(limit));
   }
   return edges;
+}
+
+namespace {
+
+// Single precision, so that the device makes the same decisions.
+constexpr float kHalfAnOctave = 0.70710678F;
+
+/// Directions of gradients are quantised by direction_code() of kernels/edge_detection.cl.
+constexpr float kCodes = 255.5F;
+float code_of(float ratio) { return std::rint((ratio + 1.0F) * kCodes); }
+
+/// See kernels/edge_selection.cl.
+struct Crossing {
+  float row = 0, step = 0, sine = 0;
+};
+
+Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& maxima, std::size_t i) {
+  const float x = maxima.x[i], y = maxima.y[i], gx = maxima.gradient_x[i], gy = maxima.gradient_y[i];
+  const bool steep = std::abs(gx) >= std::abs(gy);
+  const float ratio = steep ? gy / gx : gx / gy;
+  const float tangent_x = steep ? -ratio : 1.0F, tangent_y = steep ? 1.0F : -ratio;
+  const EpipolarRows& rows = arguments.rows;
+  const float depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;
+  Crossing result;
+  const float plane = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;
+  const float bend_x = rows.bend_xx * x + rows.bend_xy * y, bend_y = rows.bend_yy * y;
+  result.row = plane - (bend_x * x + bend_y * y);
+  const float by_x = (rows.across_x - plane * rows.forward_x) / depth - (bend_x + rows.bend_xx * x),
+              by_y = (rows.across_y - plane * rows.forward_y) / depth - (2.0F * bend_y + rows.bend_xy * x);
+  const float rise = std::abs(tangent_x * by_x + tangent_y * by_y);
+  result.step = rise;
+  result.sine = rise / std::sqrt((1.0F + ratio * ratio) * (by_x * by_x + by_y * by_y));
+  return result;
+}
+
+float density_of(float sine) {
+  float density = 1.0F;
+  while (sine < kHalfAnOctave * density && density > 0.0625F) density *= 0.5F;
+  return density;
+}
+
+bool meets(const Crossing& at, float spacing, float width) {
+  const float distance = at.row - spacing * std::rint(at.row / spacing), reach = 0.5F * width * at.step;
+  return distance >= -reach && distance < reach;
+}
+
+/// From a sample of the rows.
+double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
+  double sum = 0;
+  for (std::size_t i = 0; i < maxima.x.size(); ++i) {
+    if (maxima.row[i] % kSelectionSample != 0) continue;
+    const Crossing at = crossing(arguments, maxima, i);
+    if (at.sine >= arguments.min_sine)
+      sum += kSelectionSample *
+             static_cast<double>(std::rint(static_cast<float>(kSelectionUnit) * at.step / density_of(at.sine)));
+  }
+  return sum;
+}
+
+}  // namespace
+
+GradientMaxima maxima_of(const ReferenceEdges& edges) {
+  GradientMaxima maxima;
+  maxima.row = edges.row;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    maxima.x.push_back(static_cast<float>(edges.peak_x[i]));
+    maxima.y.push_back(static_cast<float>(edges.peak_y[i]));
+    const double gx = edges.gradient_x[i], gy = edges.gradient_y[i];
+    const bool steep = std::abs(gx) >= std::abs(gy);
+    const float ratio = code_of(static_cast<float>(steep ? gy / gx : gx / gy)) / kCodes - 1.0F;
+    maxima.gradient_x.push_back(steep ? 1.0F : ratio);
+    maxima.gradient_y.push_back(steep ? ratio : 1.0F);
+  }
+  return maxima;
+}
+
+float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
+                        const SelectionArguments& right_arguments, const GradientMaxima& right, int budget) {
+  const double most = std::max(weight_of_all(left_arguments, left), weight_of_all(right_arguments, right));
+  const float wanted = static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(budget));
+  return wanted > kClosestSelection ? std::rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0F;
+}
+
+std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments, const GradientMaxima& maxima,
+                                            float spacing) {
+  std::vector<std::uint8_t> kept(maxima.x.size(), 1);
+  if (spacing == 0.0F) return kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Crossing at = crossing(arguments, maxima, i);
+    const bool searched = arguments.slack > 1.0F;
+    bool chosen = meets(at, spacing * density_of(at.sine), searched ? kSearchedWidth : 1.0F);
+    if (searched) {
+      for (const float sine : {at.sine * arguments.slack, at.sine / arguments.slack})
+        chosen = chosen || meets(at, spacing * density_of(sine), kSearchedWidth);
+    }
+    kept[i] = at.sine >= arguments.min_sine && chosen ? 1 : 0;
+  }
+  return kept;
+}
+
+ReferenceEdges select_edges(const ReferenceEdges& edges, const std::vector<std::uint8_t>& kept) {
+  ReferenceEdges result;
+  const auto filter = [&](const auto& values, auto& chosen) {
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i] != 0) chosen.push_back(values[i]);
+  };
+  filter(edges.x, result.x);
+  filter(edges.y, result.y);
+  filter(edges.direction, result.direction);
+  filter(edges.strength, result.strength);
+  filter(edges.scale_drift, result.scale_drift);
+  filter(edges.gradient_x, result.gradient_x);
+  filter(edges.gradient_y, result.gradient_y);
+  filter(edges.peak_x, result.peak_x);
+  filter(edges.peak_y, result.peak_y);
+  filter(edges.column, result.column);
+  filter(edges.row, result.row);
+  std::int32_t count = 0;
+  std::size_t i = 0;
+  for (const auto first : edges.row_first) {
+    for (; i < static_cast<std::size_t>(first); ++i) count += kept[i];
+    result.row_first.push_back(count);
+  }
+  return result;
+}
+
+ReferenceEdges outside_mask(const ReferenceEdges& edges, const PixelMask& mask, int margin) {
+  if (mask.empty()) return edges;
+  const PixelMask wide = with_border(mask, margin);
+  std::vector<std::uint8_t> kept;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int x = edges.column[i], y = edges.row[i];
+    kept.push_back(
+        wide.hidden[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide.width) + static_cast<std::size_t>(x)] ==
+                0
+            ? 1
+            : 0);
+  }
+  return select_edges(edges, kept);
 }
 
 }  // namespace quadedge::reference

@@ -1,16 +1,53 @@
 #pragma once
-/// \file edge_detection.hpp  Third-order edges in plain C++ and double precision: the oracle of the device stage.
-/// doc/method.md section 1.
+/// \file edge_detection.hpp  Plain C++ twins of stage 2, third-order edges in double precision:
+/// kernels/edge_threshold.cl, edge_detection.cl, edge_selection.cl and edge_mask.cl. doc/method.md section 1.
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "common/layouts.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::reference {
+
+// The threshold of a frame's edges in plain C++. doc/method.md section 1.
+
+/// Histograms of the gradient magnitude and of the response of the noise operator, in the bins of
+/// kernels/edge_threshold.cl.
+struct ContrastTally {
+  std::array<std::int64_t, kGradientBins> gradients{};
+  std::array<std::int64_t, kNoiseBins> responses{};
+
+  /// Adds the lattice points of `image`.
+  void add(const ImageView& image, double sigma);
+  /// The magnitude that this ratio of the gradients exceeds [grey levels per px]; 0 without any.
+  double gradient_exceeded_by(double ratio) const;
+  /// Standard deviation of the noise [steps between the values that a pixel can have]: the median response divided by
+  /// that of unit normal noise.
+  double noise() const;
+};
+
+/// Determines the threshold frame by frame.
+class EdgeThreshold {
+ public:
+  explicit EdgeThreshold(const EdgesConfig& config) : config_(config) {}
+
+  /// The threshold of the next frame [grey levels per px], whose images these are: two, or a single one.
+  /// \param known_noise in place of a measurement
+  double next(const std::vector<ImageView>& images, std::optional<double> known_noise = std::nullopt);
+  double noise() const { return noise_; }  ///< of that frame, standard deviation [grey levels]; 0 if not measured
+  /// That a fifth of the frame exceeds [grey levels per px]; 0 if not measured.
+  double gradient() const { return gradient_; }
+
+ private:
+  EdgesConfig config_;
+  double threshold_ = 0, noise_ = 0, gradient_ = 0;
+};
 
 /// Edges in scan order, with the pixel that won the maximum test.
 struct ReferenceEdges {
@@ -75,5 +112,32 @@ EdgeSet to_edge_set(const ReferenceEdges& edges);
 
 /// The first `most` of them; the number of others is added to `dropped`.
 EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped);
+
+// Plain C++ twin of kernels/edge_selection.cl. doc/method.md section 1.
+
+/// Maxima of the gradient of one image.
+struct GradientMaxima {
+  std::vector<float> x, y;                    ///< px
+  std::vector<float> gradient_x, gradient_y;  ///< of any length
+  std::vector<std::int32_t> row;              ///< of the pixel
+};
+GradientMaxima maxima_of(const ReferenceEdges& edges);
+
+/// Distance of the lattice's lines at which the image with more edges has about `budget` of them [px]; 0: all maxima of
+/// both images are kept.
+float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
+                        const SelectionArguments& right_arguments, const GradientMaxima& right, int budget);
+
+/// Which maxima of an image become edges, one flag each.
+std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments, const GradientMaxima& maxima,
+                                            float spacing);
+
+/// The edges whose flag is set, in their order.
+ReferenceEdges select_edges(const ReferenceEdges& edges, const std::vector<std::uint8_t>& kept);
+
+// Plain C++ twin of kernels/edge_mask.cl. doc/method.md section 1.
+
+/// The edges that are not within `margin` [px] of hidden pixels, in their order; all of them without a mask.
+ReferenceEdges outside_mask(const ReferenceEdges& edges, const PixelMask& mask, int margin);
 
 }  // namespace quadedge::reference

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/atomic_file.hpp"
-#include "data/image_codecs.hpp"
+#include "data/image_file.hpp"
 
 namespace quadedge::report {
 namespace {

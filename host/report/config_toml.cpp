@@ -5,7 +5,7 @@
 
 #include "common/nearest_word.hpp"
 #include "data/atomic_file.hpp"
-#include "data/presets.hpp"
+#include "data/toml_file.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::report {

@@ -6,7 +6,7 @@
 
 #include "evaluation/matching_result.hpp"
 #include "quadedge/device.hpp"
-#include "report/draw_matches.hpp"
+#include "report/drawing.hpp"
 
 namespace quadedge::report {
 

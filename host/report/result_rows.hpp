@@ -1,6 +1,6 @@
 #pragma once
-/// \file result_rows.hpp  The CSV files of results (doc/reference.md), row by row. A row states its heading, too, that
-/// of a default item included. Fields without a value are empty.
+/// \file result_rows.hpp  The CSV files of results (doc/reference.md), row by row. A row states its heading, too,
+/// that of a default item included. Fields without a value are empty.
 
 #include <string>
 #include <vector>

@@ -73,9 +73,9 @@ struct DeviceCandidates {
 
 /// Descriptions of a set of edges.
 struct DescribedEdges {
-  const opencl::Buffer<cl_char>& patches;  ///< see host/reference/patches.hpp
+  const opencl::Buffer<cl_char>& patches;  ///< see host/reference/edge_descriptions.hpp
   const opencl::Buffer<cl_int>& patch_of;  ///< number of the patches of each edge
-  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/sift.hpp
+  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/edge_descriptions.hpp
 };
 
 /// Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists.

@@ -7,7 +7,6 @@
 #include "common/layouts.hpp"
 #include "opencl/buffer.hpp"
 #include "opencl/context.hpp"
-#include "opencl/read_back.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/images.hpp"
 
@@ -113,11 +112,11 @@ struct DeviceStereoEdges {
   /// Seven blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad], left scale drift [px].
   opencl::Buffer<cl_float> packed;
   opencl::Buffer<cl_float> ncc;
-  opencl::Buffer<cl_char> left_patches;   ///< of the left edges that have candidates, see host/reference/patches.hpp
+  opencl::Buffer<cl_char> left_patches;   ///< of the left edges that have candidates, see patches.cl
   opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined position
   DeviceImage left_image, right_image;    ///< undistorted, for SIFT descriptors when a search asks for them
   opencl::Buffer<cl_uchar> left_sift,
-      right_sift;  ///< of every stereo edge, where has_sift; see host/reference/sift.hpp
+      right_sift;  ///< of every stereo edge, where has_sift; see host/reference/edge_descriptions.hpp
   bool has_sift = false;
   int stride = 0;
   cl_int count = 0;

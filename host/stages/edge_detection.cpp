@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/filter_limits.hpp"
 #include "common/images.hpp"
 #include "common/numeric.hpp"
-#include "common/threshold_limits.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::stages {

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "opencl/argument_structs.hpp"
 #include "opencl/kernel.hpp"
 #include "opencl/variants.hpp"
 

@@ -54,7 +54,7 @@ class StereoRefinement : private Stage {
                    const opencl::VariantChoice& variants, int max_value = kMaxValue8);
 
   /// Living candidates get a position and a similarity; those that diverge are rejected. Both images prepared for
-  /// sampling; `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
+  /// sampling; `left_patches`: the side patches of the left edges, see host/reference/edge_descriptions.hpp.
   void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
            const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches, const EpipolarGeometry& geometry,
            DeviceCandidates& candidates, DeviceRefined& refined);

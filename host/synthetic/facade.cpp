@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "quadedge/camera.hpp"
-#include "synthetic/cladding.hpp"
 #include "synthetic/hash.hpp"
-#include "synthetic/scene_builder.hpp"
+#include "synthetic/reflectance.hpp"
 #include "synthetic/scenes.hpp"
 
 namespace quadedge::synthetic {

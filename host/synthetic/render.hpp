@@ -1,9 +1,13 @@
 #pragma once
-/// \file render.hpp  Renders one view by ray casting.
+/// \file render.hpp  Renders one view by ray casting, exposed for a time, with a board that moves.
 
+#include <Eigen/Geometry>
+#include <memory>
 #include <vector>
 
-#include "synthetic/pixel_rays.hpp"
+#include "quadedge/camera.hpp"
+#include "synthetic/lenses.hpp"
+#include "synthetic/path.hpp"
 #include "synthetic/shapes.hpp"
 
 namespace quadedge::synthetic {
@@ -21,5 +25,36 @@ struct Radiance {
 /// \param extra    an additional surface in the scene, or null
 Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry3d& camera_from_world,
                 int supersampling, int threads, const Surface* extra = nullptr);
+
+// Disturbances of rendered images: motion blur and a moving board.
+
+/// A textured board that sways in front of the camera, independently of it and always in view.
+class MovingBoard {
+ public:
+  /// \param fraction of the left image that it covers
+  MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed);
+  /// Its surface after `phase` frames, in front of the left camera at `scene_from_left`.
+  PlaneSurface surface(double phase, const Eigen::Isometry3d& scene_from_left) const;
+
+ private:
+  double half_width_, half_height_;  // [m]
+  double sway_x_, sway_y_;           // [m]
+  std::shared_ptr<const Texture> texture_;
+};
+
+/// Scene, cameras and exposure time of a view.
+struct Exposure {
+  const Scene& scene;
+  const MovingBoard* board;  ///< or null
+  const StereoRig& rig;
+  const PixelRays& rays;  ///< rays of the rendered camera
+  const CameraPath& path;
+  double duration;  ///< [frame periods]; 0: instantaneous
+  int supersampling, threads;
+};
+
+/// One view exposed around the time of `frame`: the mean over two moments per pixel of image motion. The depth is that
+/// at the time of the frame.
+Radiance expose(const Exposure& exposure, int frame, Side side);
 
 }  // namespace quadedge::synthetic

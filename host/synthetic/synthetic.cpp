@@ -8,11 +8,10 @@
 #include "common/calibration.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "synthetic/disturbance.hpp"
 #include "synthetic/hash.hpp"
 #include "synthetic/lenses.hpp"
 #include "synthetic/path.hpp"
-#include "synthetic/pixel_rays.hpp"
+#include "synthetic/render.hpp"
 #include "synthetic/scenes.hpp"
 
 namespace quadedge {

@@ -1,0 +1,80 @@
+#include "reference/images.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace quadedge::reference {
+
+Image undistort(const ImageView& recorded, const UndistortionTable& table) {
+  Image image(table.width, table.height, recorded.max_value);
+  for (std::size_t i = 0; i < table.source_x.size(); ++i) {
+    const float x = std::clamp(table.source_x[i], 0.0f, static_cast<float>(recorded.width - 1));
+    const float y = std::clamp(table.source_y[i], 0.0f, static_cast<float>(recorded.height - 1));
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const int x1 = std::min(x0 + 1, recorded.width - 1), y1 = std::min(y0 + 1, recorded.height - 1);
+    const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+    const float top =
+        (1.0f - fx) * static_cast<float>(recorded.value(x0, y0)) + fx * static_cast<float>(recorded.value(x1, y0));
+    const float bottom =
+        (1.0f - fx) * static_cast<float>(recorded.value(x0, y1)) + fx * static_cast<float>(recorded.value(x1, y1));
+    // Never negative, and rounded as the kernel rounds.
+    const int value = static_cast<int>((1.0f - fy) * top + fy * bottom + 0.5f);  // NOLINT(bugprone-*)
+    const auto width = static_cast<std::size_t>(table.width);
+    image.set(static_cast<int>(i % width), static_cast<int>(i / width), value);
+  }
+  return image;
+}
+
+Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
+  if (!table.empty()) return undistort(recorded, table);
+  Image image(recorded.width, recorded.height, recorded.max_value);
+  const std::ptrdiff_t row = image.view().stride;
+  for (int y = 0; y < recorded.height; ++y) {
+    std::copy_n(recorded.pixels + y * recorded.stride, row, image.pixels.begin() + y * row);
+  }
+  return image;
+}
+
+namespace {
+
+/// A row of Pascal's triangle.
+std::vector<std::int64_t> binomial(int order) {
+  std::vector<std::int64_t> row{1};
+  for (int n = 0; n < order; ++n) {
+    std::vector<std::int64_t> next(row.size() + 1, 0);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      next[k] += row[k];
+      next[k + 1] += row[k];
+    }
+    row = next;
+  }
+  return row;
+}
+
+}  // namespace
+
+Image smoothed(const ImageView& image) {
+  constexpr int kOrder = 16;
+  const std::vector<std::int64_t> weights = binomial(kOrder);
+  Image result(image.width, image.height, image.max_value);
+  const auto clamped = [](int i, int size) { return std::clamp(i, 0, size - 1); };
+  const auto weight = [&](int offset) { return weights[static_cast<std::size_t>(offset + kOrder / 2)]; };
+  std::vector<std::int64_t> along_y(static_cast<std::size_t>(image.width));
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      std::int64_t sum = 0;
+      for (int k = -kOrder / 2; k <= kOrder / 2; ++k) sum += weight(k) * image.value(x, clamped(y + k, image.height));
+      along_y[static_cast<std::size_t>(x)] = sum;
+    }
+    for (int x = 0; x < image.width; ++x) {
+      std::int64_t sum = std::int64_t{1} << (2 * kOrder - 1);  // a half
+      for (int k = -kOrder / 2; k <= kOrder / 2; ++k)
+        sum += weight(k) * along_y[static_cast<std::size_t>(clamped(x + k, image.width))];
+      result.set(x, y, static_cast<int>(sum >> (2 * kOrder)));
+    }
+  }
+  return result;
+}
+
+}  // namespace quadedge::reference
