@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -101,4 +103,26 @@ TEST_CASE("cli: KITTI's rectified images beside the cameras as they record are p
   CHECK_THAT(run_program(check).out, Contains("--rectified takes P"));
   check.emplace_back("--rectified");
   CHECK_THAT(run_program(check).out, !Contains("--rectified takes P") && !Contains("do not fit"));
+}
+
+TEST_CASE("check: --correct mends a rolled right camera", "[cli]") {
+  const TemporaryFolder folder;
+  REQUIRE(run_program({"check", small_sequence(), "--write-calibration", folder / "sound.yaml", "--quiet"}).code == 0);
+  REQUIRE(run_program({"synth", folder / "rolled", "--frames", "4", "--size", "320x200", "--right-rotation", "0,0,1",
+                       "--quiet"})
+              .code == 0);
+  const auto check = [&](const std::string& calibration, const std::string& written) {
+    return run_program({"check", folder / "rolled", "--calibration", folder / calibration, "--write-calibration",
+                        folder / written, "--correct"});
+  };
+  const auto before = check("sound.yaml", "corrected.yaml"), after = check("corrected.yaml", "again.yaml");
+  CHECK_THAT(before.out, Contains("the calibration is doubtful"));
+  CHECK_THAT(after.out, Contains("0 errors, 0 warnings"));
+  double x = 0, y = 0, z = 0;
+  for (const auto& line : read_lines(folder / "corrected.yaml"))
+    std::sscanf(line.c_str(), "rotation: [%lf, %lf, %lf]", &x, &y, &z);
+  CHECK(std::hypot(x, y) < 0.002);
+  CHECK(z == Approx(-0.01745).epsilon(0.1));
+  CHECK(read_text(folder / "again.yaml") == read_text(folder / "corrected.yaml"));
+  CHECK(run_program({"check", folder / "rolled", "--correct"}).code == 2);
 }

@@ -1,10 +1,12 @@
 #include "cli/calibration_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
 
 #include "common/disparity_range.hpp"
+#include "rig/rig_correction.hpp"
 #include "rig/rig_monitor.hpp"
 
 namespace quadedge::cli {
@@ -57,15 +59,46 @@ std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair) {
          figures(recorded) + "): are they rectified? --rectified takes P";
 }
 
-void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {
+bool RowEvidence::wants(int frame, std::size_t frames) {
+  constexpr int kFrames = 12;
+  if (frames == 0) return (frame & (frame - 1)) == 0;  // ever fewer
+  return frame % std::max(1, static_cast<int>(frames) / kFrames) == 0;
+}
+
+void RowEvidence::see(const StereoRig& rig, const StereoPair& pair) {
+  std::vector<rig::CornerMatch> matches =
+      rig::CornerMatcher(rig).search({pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(rig)).found;
+  matches.erase(std::remove_if(matches.begin(), matches.end(), [](const auto& match) { return !match.is_aligned; }),
+                matches.end());
+  if (!rows_) rows_.emplace(rig.right);
+  rows_->add(matches);
+}
+
+StereoCalibration RowEvidence::finish(const Dataset& dataset, DatasetCheck& check) const {
+  StereoCalibration calibration = dataset.calibration.value_or(pinhole_calibration(dataset.rig));
+  if (!rows_ || rows_->sums().frames < 2) return calibration;  // one frame does not show how certain its rows are
+  const rig::RigCorrection correction = rig::correction_of(dataset.rig, *rows_);
+  check.facts.push_back(correction.text());
+  return correction.applied(calibration);
+}
+
+StereoCalibration check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {
   check_numbers(dataset.rig, check);
-  if (dataset.frames.empty()) return;
+  RowEvidence rows;
+  if (dataset.frames.empty()) return rows.finish(dataset, check);
   for (const std::size_t i : std::set<std::size_t>{0, dataset.frames.size() / 2, dataset.frames.size() - 1}) {
     const FrameFiles& files = dataset.frames[i];
     check_rig_evidence(dataset,
                        {static_cast<int>(i), files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)},
                        check);
   }
+  for (std::size_t i = 0; i < dataset.frames.size(); ++i) {
+    if (!RowEvidence::wants(static_cast<int>(i), dataset.frames.size())) continue;
+    const FrameFiles& files = dataset.frames[i];
+    rows.see(dataset.rig,
+             {static_cast<int>(i), files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)});
+  }
+  return rows.finish(dataset, check);
 }
 
 void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
@@ -76,6 +109,7 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   }
   const auto middle = static_cast<int>(dataset.frames.size() / 2);
   last_ = std::nullopt;
+  if (RowEvidence::wants(pair.number, dataset.frames.size())) rows_.see(dataset.rig, pair);
   if (pair.number == 0 || pair.number == middle) {
     check_rig_evidence(dataset, pair, found_);
   } else {
@@ -83,10 +117,11 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   }
 }
 
-void RigEvidenceCollector::finish(DatasetCheck& check) {
+StereoCalibration RigEvidenceCollector::finish(DatasetCheck& check) {
   if (last_) check_rig_evidence(*dataset_, *last_, found_);
   check.facts.insert(check.facts.end(), found_.facts.begin(), found_.facts.end());
   check.warnings.insert(check.warnings.end(), found_.warnings.begin(), found_.warnings.end());
+  return rows_.finish(*dataset_, check);
 }
 
 }  // namespace quadedge::cli

@@ -30,6 +30,8 @@ class CheckCommand : public Command {
     options.text("--sequence", options_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
     options.output("--write-calibration", calibration_,
                    "write the cameras in the program's own format, for --calibration");
+    options.flag("--correct", correct_,
+                 "write it with what the rows show of the right camera's pitch, roll and focal length");
     options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);
@@ -38,6 +40,7 @@ class CheckCommand : public Command {
   int run() override {
     path_ = source_.path();
     if (!source_.is_given()) throw UsageError("nothing to check: expected PATH, or --left, --right and --calibration");
+    if (correct_ && calibration_.empty()) throw UsageError("--correct is for --write-calibration");
     report::check_output_file(calibration_, force_);
     if (!source_.is_own_camera() && is_tree()) return check_tree();
     return print(source_.is_own_camera() ? check_own_camera() : check_layout());
@@ -49,8 +52,7 @@ class CheckCommand : public Command {
     DatasetCheck check = check_dataset(path_, options);
     if (!check.errors.empty()) return check;
     const Dataset dataset = open_dataset(path_, options);
-    check_rig_evidence(dataset, check);
-    write_cameras(dataset);
+    write_cameras(dataset, check_rig_evidence(dataset, check));
     return check;
   }
 
@@ -59,14 +61,15 @@ class CheckCommand : public Command {
     DatasetCheck check = check_stereo_source(
         source_.own_camera(), [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); });
     if (!check.errors.empty()) return check;
-    evidence.finish(check);
-    write_cameras(evidence.dataset());
+    const StereoCalibration corrected = evidence.finish(check);
+    write_cameras(evidence.dataset(), corrected);
     return check;
   }
 
-  void write_cameras(const Dataset& dataset) const {
+  void write_cameras(const Dataset& dataset, const StereoCalibration& corrected) const {
     if (!calibration_.empty())
-      write_calibration(calibration_, dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
+      write_calibration(calibration_,
+                        correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
   }
 
   int print(const DatasetCheck& check) const {
@@ -116,7 +119,7 @@ class CheckCommand : public Command {
   std::string path_, calibration_;
   SourceOptions source_;
   DatasetOptions options_;
-  bool force_ = false, quiet_ = false;
+  bool correct_ = false, force_ = false, quiet_ = false;
 };
 
 }  // namespace

@@ -88,4 +88,11 @@ RectificationError RowModel::error() const {
   return {terms[0] - kMeanSquare * (terms[3] + terms[5]), terms[1], terms[2], terms[3], terms[4], terms[5]};
 }
 
+RowModel::Estimate RowModel::estimate() const {
+  Normal of_error = Normal::Identity();  // see row_of()
+  of_error(0, 3) = of_error(0, 5) = -kMeanSquare;
+  const Normal change = of_error * sums_.normal.inverse();
+  return {of_error * terms_, change * (sums_.shared + sums_.variance * sums_.normal) * change.transpose()};
+}
+
 }  // namespace quadedge::rig

@@ -36,6 +36,12 @@ class RowModel {
 
   /// The terms that are certain, each shrunk by its uncertainty; all zero before the first frame.
   RectificationError error() const;
+  /// All terms, certain or not, in the order of RectificationError, and their covariance.
+  struct Estimate {
+    Terms terms;
+    Normal covariance;
+  };
+  Estimate estimate() const;
   /// Distance of the matches from the model, in units of their distance from the lines; 1 before the first frame.
   double unexplained() const;
   const Sums& sums() const { return sums_; }
