@@ -58,3 +58,16 @@ TEST_CASE("rig uncertainty: it grows linearly with the path length and is zero f
   config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_focal = config.rig_sigma_lens = 0;
   CHECK(pose::whole_covariance(far, config).norm() == 0);
 }
+
+TEST_CASE("rig uncertainty: residual distortion errs in proportion to the motion of the image", "[pose]") {
+  PoseConfig config;
+  config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_focal = 0;
+  const auto along = pose::whole_covariance(exact(motion_of(0, {0, 0, 1}, {0, 0, 1}), 0.2), config);
+  const auto about = pose::whole_covariance(exact(motion_of(0.1, {0, 1, 0}, {0, 0, 0}), 0.2), config);
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(std::sqrt(along(3 + axis, 3 + axis)) == Approx(0.2 * config.rig_sigma_lens));
+    CHECK(along(axis, axis) == 0);
+    CHECK(std::sqrt(about(3 + axis, 3 + axis)) == Approx(0.1 * config.rig_sigma_lens));
+    CHECK(std::sqrt(about(axis, axis)) == Approx(0.1 / 0.2 * config.rig_sigma_lens));
+  }
+}

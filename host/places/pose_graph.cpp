@@ -70,11 +70,7 @@ GraphEdge GraphEdge::after(const GraphEdge& before) const {
           robust || before.robust};
 }
 
-PoseGraph::PoseGraph(const PoseConfig& config) {
-  rig_sigma_ << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
-      Eigen::Vector3d::Constant(config.rig_sigma_lens);
-  rig_sigma_ = rig_sigma_.cwiseMax(kMinSigma);
-}
+PoseGraph::PoseGraph(const PoseConfig& config) : rig_sigma_(pose::rig_sigmas(config).cwiseMax(kMinSigma)) {}
 
 int PoseGraph::add_node(const Eigen::Isometry3d& map_from_node) {
   poses_.push_back(map_from_node);

@@ -71,6 +71,7 @@ RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, doubl
   const Eigen::Vector3d translation = fixed_from_camera.translation();
   const Eigen::Matrix3d turn = fixed_from_camera.linear();
   const Eigen::AngleAxisd rotation(turn);
+  const double image_motion = translation.norm() * inverse_depth + rotation.angle();
   RigSensitivity result = RigSensitivity::Zero();
   result.col(0).head<3>() = translation;
   for (int axis = 0; axis < 3; ++axis) {
@@ -78,17 +79,22 @@ RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, doubl
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
     result.col(1 + axis).head<3>() = unit.cross(translation);
     result.col(1 + axis).tail<3>() = unit - turn * unit;
-    result.col(5 + axis).tail<3>() = translation.norm() * inverse_depth * unit;
+    result.col(5 + axis).tail<3>() = image_motion * unit;
+    if (inverse_depth > 0) result.col(8 + axis).head<3>() = rotation.angle() / inverse_depth * unit;
   }
   result.col(4).tail<3>() = rotation.angle() * rotation.axis();
   return result;
 }
 
+Eigen::Matrix<double, kRigErrors, 1> rig_sigmas(const PoseConfig& config) {
+  Eigen::Matrix<double, kRigErrors, 1> sigmas;
+  sigmas << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
+      Eigen::Matrix<double, 6, 1>::Constant(config.rig_sigma_lens);
+  return sigmas;
+}
+
 PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& config) {
-  Eigen::Matrix<double, kRigErrors, 1> sigma;
-  sigma << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
-      Eigen::Vector3d::Constant(config.rig_sigma_lens);
-  const RigSensitivity scaled = by_rig * sigma.asDiagonal();
+  const RigSensitivity scaled = by_rig * rig_sigmas(config).asDiagonal();
   return scaled * scaled.transpose();
 }
 

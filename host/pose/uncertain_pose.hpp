@@ -51,11 +51,14 @@ UncertainPose inverse(const UncertainPose& fixed_from_camera);
 
 /// Sensitivity of a pose, found from edges at `inverse_depth` [1/m], to calibration errors: a longer baseline lengthens
 /// the translation, a rotated optical frame rotates the motion, a longer focal length reduces the angles, and residual
-/// distortion rotates the camera in proportion to its approach to the scene.
+/// distortion rotates the camera in proportion to the motion of the image and, where it turns, moves it.
 /// \param fixed_from_camera a single motion, between two frames or since a key rig
 RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth);
 
-/// Covariance due to calibration errors, which are independent of each other and have the sizes `pose.rig_sigma_*`.
+/// Standard deviations of the calibration errors, `pose.rig_sigma_*`; the errors are independent of each other.
+Eigen::Matrix<double, kRigErrors, 1> rig_sigmas(const PoseConfig& config);
+
+/// Covariance due to calibration errors.
 PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& config);
 
 /// Covariance due to edge and calibration errors.

@@ -211,7 +211,7 @@ void bind_diagnostics(nb::module_& module) {
       .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
       .def_prop_ro(
           "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
-          "(6, 8) float64: derivative of the pose in the frame of the key rig with respect to the calibration errors\n"
+          "(6, 11) float64: derivative of the pose in the frame of the key rig with respect to the calibration errors\n"
           "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
   def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,
                "(6, 6) float64: covariance, in the convention of ROS's PoseWithCovariance (x, y, z [m], then rotation\n"

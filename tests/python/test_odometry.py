@@ -87,7 +87,7 @@ def test_the_covariance_of_the_motion_has_the_translation_first(room, frames):
     turn = result.current_from_reference[:3, :3].T
     rotation = turn @ result.relative_covariance[3:, 3:] @ turn.T
     numpy.testing.assert_allclose(rotation, result.diagnostics.covariance_in_reference[3:, 3:], rtol=1e-9)
-    assert result.diagnostics.rig_sensitivity.shape == (6, 8)
+    assert result.diagnostics.rig_sensitivity.shape == (6, 11)
 
 
 def test_warnings_have_a_kind_and_come_once(room, frames):
