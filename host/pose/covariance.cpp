@@ -37,16 +37,15 @@ double squares_factor(const std::vector<Vector6d>& cells, const Matrix6d& invers
   return sum / 6.0;
 }
 
-/// The same for cells large enough to pull the fit: squared change of the pose when each cell in turn is left out
-/// (jackknife). Zero if a cell holds too much of the information to be left out.
-double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vector<Matrix6d>& normals,
-                        const Matrix6d& normal, const Matrix6d& inverse) {
+/// The same for cells large enough to pull the fit: each cell's gradient times the change of the pose without the cell
+/// (the unbiased CR2 of Bell and McCaffrey). Zero if a cell holds too much of the information to be left out.
+double left_out_factor(const std::vector<Vector6d>& gradients, const std::vector<Matrix6d>& normals,
+                       const Matrix6d& normal, const Matrix6d& inverse) {
   double sum = 0;
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     if (gradients[i].isZero(0)) continue;
     if (inverse.cwiseProduct(normals[i]).sum() > 6.0 * kLargestRatio) return 0;
-    const Vector6d change = (normal - normals[i]).ldlt().solve(gradients[i]);
-    sum += change.dot(normal * change);
+    sum += gradients[i].dot((normal - normals[i]).ldlt().solve(gradients[i]));
   }
   return sum / 6.0;
 }
@@ -92,7 +91,7 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
       grid = next;
     }
     const double factor = size < kLeftOut ? freedom * squares_factor(cells, inverse)
-                                          : jackknife_factor(cells, normals, sums.normal, inverse);
+                                          : left_out_factor(cells, normals, sums.normal, inverse);
     result.largest = std::max(result.largest, factor);
     if (size == 0) result.smallest_cells = result.largest;
   }

@@ -55,9 +55,9 @@ struct MeasuredCovariance {
 /// common to a whole cable or surface. Contributions of quads within one square cell are therefore summed before they
 /// are squared: errors that agree within a cell count once, independent errors count in full. Cells have sides of
 /// kInflationCell px and two, four, eight and sixteen times that; the largest factor is used, including that
-/// without cells. The three larger sizes use a jackknife, the squared changes of the pose when each cell in turn is
-/// left out, because sums over few cells underestimate the scatter: the fit has adapted to each of them. A size is
-/// skipped if one cell holds half of all information. Errors common to the whole image are not visible at any size.
+/// without cells. In the three larger sizes, the change of the pose without the cell allows for the fit's adaptation to
+/// it (CR2; Bell and McCaffrey, Survey Methodology 28(2), 2002): sums over few cells underestimate the scatter. A size
+/// is skipped if one cell holds half of all information. Errors common to the whole image are not visible at any size.
 /// \param rows the quads of `terms`; their current left positions define the cells
 /// \param offset disparity offset found together with the pose [px]
 /// \param reprojection_scale ratio of measured to assumed variance of the reprojection residuals

@@ -65,7 +65,7 @@ constexpr double kSmallestPivot = 1e-12;
 constexpr double kSlopePrior = 1.0;
 
 /// Cell sizes within which errors may be correlated: kInflationCell and its doublings. From index kLeftOut on,
-/// the cells are used for the jackknife.
+/// the cells are left out in turn.
 constexpr int kCellSizes = 5, kLeftOut = 2;
 
 /// A cell with more than this fraction of the information cannot be left out.
