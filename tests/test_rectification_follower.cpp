@@ -55,6 +55,23 @@ TEST_CASE("rectification follower: an error that the images show clearly is foll
   CHECK((next_after(followed, {0.92, 0.4, -0.3, 0, 3, 0}, 5) - before).largest() == 0);
 }
 
+TEST_CASE("rectification follower: a camera that turns is learned anew after four frames", "[frontend]") {
+  Random random(13);
+  auto followed = follower();
+  const RectificationError turned{0.6, 2, 0, 0, 0, 0};
+  int changes = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    followed.start_frame();
+    if (frame < 30) CHECK(followed.error().largest() == 0);
+    if (frame >= 34) CHECK((followed.error() - turned).largest() < 0.1);
+    const bool has_turned = frame >= 30;
+    const double change = followed.take(matches_of(has_turned ? turned : RectificationError{}, random));
+    CHECK((change > 0.5) == (frame == 33));
+    changes += change > 0 ? 1 : 0;
+  }
+  CHECK(changes == 1);
+}
+
 TEST_CASE("rectification follower: what an earlier recording has shown holds from the first frame on", "[frontend]") {
   const RectificationError error{0.6, 0.4, -0.3, 0, 3, 0};
   auto earlier = follower(), later = follower();

@@ -61,8 +61,9 @@ class Frontend {
   /// hides none.
   void hide(const PixelMask& left);
 
-  /// Takes over what the current frame shows of the rows, which the search of the next ones corrects.
-  void take(const std::vector<rig::CornerMatch>& matches) { rectification_.take(matches); }
+  /// Takes over what the current frame shows of the rows, which the search of the next ones corrects. \returns by how
+  /// much they have changed [px], 0 as a rule
+  double take(const std::vector<rig::CornerMatch>& matches) { return rectification_.take(matches); }
   RectificationFollower& rectification() { return rectification_; }
 
   /// Keeps the current rig in a compact form.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rig/corner_matching.hpp"
 
@@ -14,11 +15,14 @@ constexpr double kReleased = 2;  // an error in use is kept down to a limit this
 /// An error that leaves more of the distances than this unexplained is another one: of synchronisation, or of the lens.
 constexpr double kUnexplained = 0.55;
 constexpr double kChange = 0.05;  // px; smaller ones are not followed, so that disparities stay comparable
+/// Frames that have to be known before others contradict them, contradicting ones in a row that replace them, and the
+/// squared distance of these from the model, in units of its variance.
+constexpr double kKnown = 5, kContradicting = 3.5, kFarOff = 9;
 
 }  // namespace
 
 RectificationFollower::RectificationFollower(const StereoRig& rig, const StereoConfig& config)
-    : rig_(rig), least_(kLeast * config.epipolar_distance), rows_(rig.right) {}
+    : rig_(rig), least_(kLeast * config.epipolar_distance), rows_(rig.right), changed_(rig.right) {}
 
 void RectificationFollower::start_frame() {
   error_ = next_;
@@ -36,12 +40,29 @@ bool RectificationFollower::suffices(const StereoFrame& frame, const StereoEdges
   return error_.largest() == 0;
 }
 
-void RectificationFollower::take(const std::vector<rig::CornerMatch>& matches) {
+/// Whether the matches lie far off the model of the earlier frames, and near that of the last ones.
+bool RectificationFollower::contradicts(const std::vector<rig::CornerMatch>& matches) {
+  const double distance = rows_.scatter(matches);
+  if (rows_.sums().frames < kKnown || distance < least_ || distance * distance < kFarOff * rows_.sums().variance)
+    return false;
+  changed_.add(matches);
+  return changed_.sums().frames > 0 && changed_.scatter(matches) < kUnexplained * distance;
+}
+
+double RectificationFollower::take(const std::vector<rig::CornerMatch>& matches) {
   if (!is_settled_) next_ = error_;
   is_settled_ = true;
-  rows_.add(matches);
+  double change = 0;
+  if (!contradicts(matches)) {
+    changed_ = rig::RowModel(rig_.right);
+    rows_.add(matches);
+  } else if (changed_.sums().frames > kContradicting) {
+    change = rows_.scatter(matches);
+    rows_ = std::exchange(changed_, rig::RowModel(rig_.right));
+  }
   const RectificationError wanted = judge(rows_);
   if ((wanted - next_).largest() > kChange) next_ = wanted;
+  return change;
 }
 
 void RectificationFollower::start_from(const rig::RowModel::Sums& known) {

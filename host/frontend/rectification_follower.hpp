@@ -23,8 +23,9 @@ class RectificationFollower {
   /// Whether the frame, in which `edges` were found, was searched with a suitable error. If not, error() has changed
   /// and the frame is to be searched again; the second answer is always true.
   bool suffices(const StereoFrame& frame, const StereoEdges& edges);
-  /// Takes the matches of the current frame into account. A frame that is not taken leaves no trace.
-  void take(const std::vector<rig::CornerMatch>& matches);
+  /// Takes the matches of the current frame into account. A frame that is not taken leaves no trace. \returns by how
+  /// much the rows have changed, if some frames in a row contradict the earlier ones, which are then forgotten [px]
+  double take(const std::vector<rig::CornerMatch>& matches);
 
   /// Begins with what earlier recordings with the rig have shown.
   void start_from(const rig::RowModel::Sums& known);
@@ -34,6 +35,7 @@ class RectificationFollower {
   const RectificationError& error() const { return error_; }
 
  private:
+  bool contradicts(const std::vector<rig::CornerMatch>& matches);
   /// What a model says, limited, or zero if it is small.
   RectificationError judge(const rig::RowModel& rows) const;
 
@@ -41,6 +43,7 @@ class RectificationFollower {
   double least_;                     ///< no smaller error is corrected [px]
   RectificationError error_, next_;  ///< of the current frame, and of the next one
   rig::RowModel rows_;               ///< of the frames taken
+  rig::RowModel changed_;            ///< of the last ones, which contradict the others
   bool is_settled_ = false;          ///< whether a frame has been taken
   bool is_second_search_ = false;
 };

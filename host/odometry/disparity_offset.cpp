@@ -44,6 +44,7 @@ void DisparityOffset::update(double correction, double variance, int frames) {
 
 void DisparityOffset::start_frame(int frame, const std::function<bool(int)>& is_base) {
   const bool follows_jump = jump(frame_) != 0;
+  has_jumped_ = has_jumped();
   for (auto jump = jumps_.begin(); jump != jumps_.end();)
     jump = is_base(jump->first) ? std::next(jump) : jumps_.erase(jump);
   frame_ = frame;
@@ -55,7 +56,6 @@ void DisparityOffset::set_jump(double jump) {
     jumps_.erase(frame_);
   } else {
     jumps_[frame_] = jump;
-    has_jumped_ = true;
   }
   rig_ = rig_at(frame_);
 }

@@ -31,7 +31,7 @@ class DisparityOffset {
   void set_jump(double jump);
   /// Of a frame; 0 for most.
   double jump(int frame) const;
-  bool has_jumped() const { return has_jumped_; }  ///< any frame
+  bool has_jumped() const { return has_jumped_ || !jumps_.empty(); }  ///< any frame
 
   /// The rig of the current frame with its right principal point corrected by the offset, without undistortion tables.
   const StereoRig& rig() const { return rig_; }
@@ -49,7 +49,7 @@ class DisparityOffset {
   double value_, variance_;
   int frame_ = 0;                ///< the current one
   std::map<int, double> jumps_;  ///< of the frames that have jumped
-  bool has_jumped_ = false;
+  bool has_jumped_ = false;      ///< before the current frame
 };
 
 }  // namespace quadedge::odometry

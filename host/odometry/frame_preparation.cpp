@@ -1,5 +1,6 @@
 #include "odometry/frame_preparation.hpp"
 
+#include <cstdio>
 #include <utility>
 
 #include "common/disparity_range.hpp"
@@ -32,6 +33,16 @@ rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
   const frontend::FrontendCounts& counts = frontend_->counts();
   return rig_monitor_.judge(frontend_->searched(frame), current_->edges, counts.edges_left, counts.disparity_range,
                             counts.epipolar_correction);
+}
+
+void FramePreparation::adopt(const rig::RigReport& report) {
+  const double change = report.matches != nullptr ? frontend_->take(*report.matches) : 0;
+  if (change == 0) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "points lie %.1f px beside the lines of the frames before: has a camera turned? the rows are learned anew",
+                change);
+  warn({WarningKind::changed_rig, text});
 }
 
 std::optional<FrameFault> FramePreparation::fault(const rig::RigReport& report) {

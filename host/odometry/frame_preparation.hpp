@@ -44,9 +44,7 @@ class FramePreparation {
   /// Warns of the findings. \returns the reason why the frame cannot be located, if there is one
   std::optional<FrameFault> fault(const rig::RigReport& report);
   /// Takes over what a frame that was located shows of the rows.
-  void adopt(const rig::RigReport& report) {
-    if (report.matches != nullptr) frontend_->take(*report.matches);
-  }
+  void adopt(const rig::RigReport& report);
   /// Hides pixels of the left image, besides those that the rig masks, from the next frame on.
   void hide(const PixelMask& mask) { frontend_->hide(mask); }
 

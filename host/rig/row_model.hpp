@@ -45,12 +45,12 @@ class RowModel {
   /// Distance of the matches from the model, in units of their distance from the lines; 1 before the first frame.
   double unexplained() const;
   const Sums& sums() const { return sums_; }
+  /// Median distance of matches from all terms [px].
+  double scatter(const std::vector<CornerMatch>& matches);
 
  private:
   /// 1, u, v, u^2, uv, v^2 at a match, less the mean of the squares over the image.
   Terms row_of(const CornerMatch& match) const;
-  /// Median distance of the matches from the model [px].
-  double scatter(const std::vector<CornerMatch>& matches);
 
   int width_, height_;
   Sums sums_;
