@@ -39,9 +39,10 @@ void FramePreparation::adopt(const rig::RigReport& report) {
   const double change = report.matches != nullptr ? frontend_->take(*report.matches) : 0;
   if (change == 0) return;
   char text[160];
-  std::snprintf(text, sizeof text,
-                "points lie %.1f px beside the lines of the frames before: has a camera turned? the rows are learned anew",
-                change);
+  std::snprintf(
+      text, sizeof text,
+      "points lie %.1f px beside the lines of the frames before: has a camera turned? the rows are learned anew",
+      change);
   warn({WarningKind::changed_rig, text});
 }
 
