@@ -1,7 +1,7 @@
 // wide_matching.cl: finds every row's edge among all columns, anywhere in the image, by its wide descriptor. Made for
 // wide vectors: sixteen descriptors at once, one per lane, against ROWS others, so no product is summed across lanes.
 //
-// Rows are every row_step-th stereo edge of the earlier rig, columns every column_step-th one of the current rig; edges
+// Rows: every row_step-th stereo edge of the earlier frame; columns: every column_step-th of the current frame; edges
 // packed as stereo_collect writes them (left x, y). The similarity of two descriptors of norm 512 is their product,
 // their squared distance 2 (512^2 - product): whole numbers below 2^24, exact in single precision in any order.
 //

@@ -73,7 +73,7 @@ inline quadedge::pose::StereoObservation observe(const quadedge::StereoRig& rig,
           direction(rig.right, in_right, rig.right_from_left.linear() * p.tangent)};
 }
 
-/// Appends an observation to the stereo edges of a rig, with its position as index.
+/// Appends an observation to the stereo edges of a frame, with its position as index.
 inline void append(quadedge::StereoEdges& edges, const quadedge::pose::StereoObservation& observation) {
   const auto index = static_cast<std::int32_t>(edges.size());
   edges.left_index.push_back(index);
@@ -190,7 +190,7 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
   return result;
 }
 
-/// Noisy quads of two rigs and a pose off their true motion, to check derivatives of residuals. Calls
+/// Noisy quads of two frames and a pose off their true motion, to check derivatives of residuals. Calls
 /// `check(quads, i, rig, pose)` for every quad.
 template <class Check>
 void for_quads_off_motion(const Check& check) {

@@ -137,26 +137,26 @@ TEST_CASE("read-back: all arrays of the stereo edges are read in one copy", "[de
       Device device = opencl::open_limited(index, {}, limits);
       auto& context = *device.context();
       opencl::ReadBack read_back;
-      stages::DeviceStereoEdges rig;
+      stages::DeviceStereoEdges stereo_edges;
       for (const int stride : {5, 700, 33}) {
         const auto rows = static_cast<std::size_t>(stride);
-        rig.reserve(context, rows);
-        rig.stride = stride;
+        stereo_edges.reserve(context, rows);
+        stereo_edges.stride = stride;
         const auto upload = [&](auto& buffer, std::size_t count, float first) {
           std::vector<std::decay_t<decltype(buffer.read(1)[0])>> values(count);
           std::iota(values.begin(), values.end(), static_cast<decltype(values[0] + 0)>(first));
           buffer.write(values.data(), count);
         };
-        upload(rig.total, 2, static_cast<float>(stride - 2));
-        upload(rig.left_index, rows, 10000);
-        upload(rig.right_index, rows, 20000);
-        upload(rig.packed, 7 * rows, 30000);
-        upload(rig.ncc, rows, 40000);
+        upload(stereo_edges.total, 2, static_cast<float>(stride - 2));
+        upload(stereo_edges.left_index, rows, 10000);
+        upload(stereo_edges.right_index, rows, 20000);
+        upload(stereo_edges.packed, 7 * rows, 30000);
+        upload(stereo_edges.ncc, rows, 40000);
         StereoEdges edges;
         const auto before = context.traffic();
-        rig.read(context, read_back, edges);
+        stereo_edges.read(context, read_back, edges);
         CHECK(context.traffic().waits == before.waits + 1);
-        CHECK(rig.count == stride - 2);
+        CHECK(stereo_edges.count == stride - 2);
         REQUIRE(edges.size() == rows - 2);
         for (std::size_t i = 0; i < edges.size(); ++i) {
           const auto k = static_cast<float>(i), block = static_cast<float>(stride);

@@ -18,11 +18,11 @@ namespace {
 
 /// A key rig that looks to the right by `angle` [rad].
 KeyRig turned(int frame, double angle) {
-  auto rig = std::make_shared<frontend::FrameEdges>();
-  rig->start(frame);
+  auto frame_edges = std::make_shared<frontend::FrameEdges>();
+  frame_edges->start(frame);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  return KeyRig(rig, {pose});
+  return KeyRig(frame_edges, {pose});
 }
 
 std::vector<int> frames_of(const std::vector<const KeyRig*>& rigs) {
@@ -55,7 +55,8 @@ TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leave
     earlier.remember(rigs.back(), 0);
     angle += i == 4 ? 0.31 : 0.35 + 0.001 * i;  // within a turn and a half
   }
-  for (int i = 0; i <= most; ++i) CHECK((earlier.find(rigs[static_cast<std::size_t>(i)].rig()) == nullptr) == (i == 4));
+  for (int i = 0; i <= most; ++i)
+    CHECK((earlier.find(rigs[static_cast<std::size_t>(i)].frame_edges()) == nullptr) == (i == 4));
   CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).size() == odometry::kEarlierTrials);
   earlier.clear();
   CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).empty());

@@ -198,13 +198,13 @@ TEST_CASE("frontend: a rig's depths are those of the calibration and the angle t
   const RenderedScene scene("cables", 120, 75, 2);
   Device device("reference");
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-  auto rig = frontend->process(scene.frame(0));
-  REQUIRE(rig->edges.size() > 20);
+  auto frame_edges = frontend->process(scene.frame(0));
+  REQUIRE(frame_edges->edges.size() > 20);
   StereoRig nearer = scene.rig;
   nearer.right.cx += 0.5;
   const auto depths = [&](const StereoRig& calibration, double angle) {
     std::vector<double> values;
-    for (const auto& edge : rig->measured_edges(calibration, angle))
+    for (const auto& edge : frame_edges->measured_edges(calibration, angle))
       if (edge) values.push_back(edge->inverse_depth);
     return values;
   };
@@ -214,10 +214,10 @@ TEST_CASE("frontend: a rig's depths are those of the calibration and the angle t
   CHECK(depths(scene.rig, 0.07) == far);
   CHECK(depths(scene.rig, 0.5).size() < far.size());  // edges nearer to the epipolar lines have no depth
   CHECK(depths(scene.rig, 0.07) == far);
-  const auto* memory = rig.get();
-  rig = nullptr;
-  rig = frontend->process(scene.frame(1));
-  REQUIRE(rig.get() == memory);
+  const auto* memory = frame_edges.get();
+  frame_edges = nullptr;
+  frame_edges = frontend->process(scene.frame(1));
+  REQUIRE(frame_edges.get() == memory);
   CHECK(depths(scene.rig, 0.07) != far);  // of the new frame's edges
 }
 

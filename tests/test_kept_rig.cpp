@@ -24,10 +24,11 @@ std::vector<std::string> devices_and_reference() {
 
 }  // namespace
 
-TEST_CASE("kept rig: at most half a megabyte, and patches and descriptors close to the original ones", "[device]") {
+TEST_CASE("kept frame edges: at most half a megabyte, and patches and descriptors close to the original ones",
+          "[device]") {
   Device device("reference");
   const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-  const auto rig = frontend->process(room().frame(0));
+  const auto frame_edges = frontend->process(room().frame(0));
   const frontend::KeptFrameEdges kept = frontend->keep();
   REQUIRE(kept.edges.size() > 500);
   CHECK(kept.edges.size() <= frontend::kKeptEdges);
@@ -49,7 +50,7 @@ TEST_CASE("kept rig: at most half a megabyte, and patches and descriptors close 
   }
 }
 
-TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives", "[device]") {
+TEST_CASE("kept frame edges: once restored they give the motion that the frame itself gives", "[device]") {
   for (const std::string& name : devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());
@@ -72,7 +73,7 @@ TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives
     CHECK(error.translation().norm() < 0.01);
     CHECK(Eigen::AngleAxisd(error.linear()).angle() < 0.003);
     CHECK(restored->motion.inliers > static_cast<int>(kept.edges.size()) / 2);
-    // A global search among given edges takes all of the restored rig's, whichever are named.
+    // A global search among given edges takes all of the restored frame's, whichever are named.
     GlobalSearch among;
     for (std::size_t i = 0; i < query.current->edges.size(); ++i)
       among.of_current.push_back(static_cast<std::int32_t>(i));
@@ -83,7 +84,7 @@ TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives
   }
 }
 
-TEST_CASE("kept rig: restoring one leaves the current rig and the frame numbers alone", "[device]") {
+TEST_CASE("kept frame edges: restoring one leaves the current frame and the frame numbers alone", "[device]") {
   for (const std::string& name : devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());

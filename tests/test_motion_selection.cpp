@@ -55,26 +55,26 @@ Selection choose(const std::vector<Verdict>& verdicts, const Expectation& expect
                  [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].area; }});
 }
 
-Effort needed(const Verdict& prediction, const Expectation& expectation = kPredicted) {
+SearchLevel needed(const Verdict& prediction, const Expectation& expectation = kPredicted) {
   return choose({prediction}, expectation).needed;
 }
 
 }  // namespace
 
 TEST_CASE("motion selection: how much is tried depends on what the prediction leaves open", "[odometry]") {
-  CHECK(needed(found(0.8)) == Effort::prediction);
-  CHECK(needed(moving(found(0.8), 0.3)) == Effort::inexpensive);
-  CHECK(needed(at_rest(found(0.8), 0.06)) == Effort::inexpensive);
-  CHECK(needed(moving(found(0.8), 0.6)) == Effort::everything);
-  CHECK(needed(found(0.8, 0.34)) == Effort::everything);
-  CHECK(needed(kFailure) == Effort::everything);
-  CHECK(needed(found(0.8), kDoubtful) == Effort::everything);
-  CHECK(needed(found(0.8), kUnpredicted) == Effort::everything);
-  CHECK(choose({}, kUnpredicted).needed == Effort::everything);
+  CHECK(needed(found(0.8)) == SearchLevel::prediction);
+  CHECK(needed(moving(found(0.8), 0.3)) == SearchLevel::inexpensive);
+  CHECK(needed(at_rest(found(0.8), 0.06)) == SearchLevel::inexpensive);
+  CHECK(needed(moving(found(0.8), 0.6)) == SearchLevel::everything);
+  CHECK(needed(found(0.8, 0.34)) == SearchLevel::everything);
+  CHECK(needed(kFailure) == SearchLevel::everything);
+  CHECK(needed(found(0.8), kDoubtful) == SearchLevel::everything);
+  CHECK(needed(found(0.8), kUnpredicted) == SearchLevel::everything);
+  CHECK(choose({}, kUnpredicted).needed == SearchLevel::everything);
   // An inexpensive hypothesis that explains more than the prediction, and one that does not.
   const Verdict prediction = moving(found(0.5), 0.3);
-  CHECK(choose({prediction, closely(0.6)}, kPredicted).needed == Effort::everything);
-  CHECK(choose({prediction, closely(0.4)}, kPredicted).needed == Effort::inexpensive);
+  CHECK(choose({prediction, closely(0.6)}, kPredicted).needed == SearchLevel::everything);
+  CHECK(choose({prediction, closely(0.4)}, kPredicted).needed == SearchLevel::inexpensive);
 }
 
 TEST_CASE("motion selection: the motion that explains the largest area is chosen", "[odometry]") {

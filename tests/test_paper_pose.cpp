@@ -159,7 +159,7 @@ TEST_CASE("paper pose: the best of at least 1000 samples explains the quads amon
 }
 
 TEST_CASE("paper pose: quads are handed on from edge to edge, and pairs reached twice count once", "[paper][pose]") {
-  // Key edge 0 ends at edges 5 and 6 of the earlier rig, key edge 2 at edge 6, key edge 3 at edge 9.
+  // Key edge 0 ends at edges 5 and 6 of the earlier frame, key edge 2 at edge 6, key edge 3 at edge 9.
   const TemporalMatches from_key = linked_matches({{0, 5}, {0, 6}, {2, 6}, {3, 9}});
   const TemporalMatches onwards = linked_matches({{5, 1}, {6, 1}, {6, 2}, {8, 4}});
   const TemporalMatches found = odometry::propagate(from_key, onwards);

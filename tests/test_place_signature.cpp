@@ -25,7 +25,7 @@ TEST_CASE("place signature: unit length, and views of one scene are more similar
   CHECK(first.dot(later) > later.dot(other) + 0.1F);
 }
 
-TEST_CASE("place signature: a rig without edges has a signature that resembles none") {
+TEST_CASE("place signature: a frame without edges has a signature that resembles none") {
   const places::PlaceSignature none = places::place_signature({});
   CHECK(none.isZero());
 }

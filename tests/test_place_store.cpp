@@ -13,7 +13,7 @@ namespace {
 Place place(int node, int axis, float other = 0) {
   Place made;
   made.node = node;
-  made.rig.frame = node;
+  made.kept.frame = node;
   made.signature = PlaceSignature::Unit(axis) + other * PlaceSignature::Unit(axis + 1);
   made.signature.normalize();
   return made;

@@ -33,7 +33,7 @@ RectificationError next_after(RectificationFollower& follower, const Rectificati
   Random random(11);
   for (int frame = 0; frame < frames; ++frame) {
     follower.start_frame();
-    follower.take(matches_of(error, random, noise, count));
+    follower.observe(matches_of(error, random, noise, count));
   }
   follower.start_frame();
   return follower.error();
@@ -65,7 +65,7 @@ TEST_CASE("rectification follower: a camera that turns is learned anew after fou
     if (frame < 30) CHECK(followed.error().largest() == 0);
     if (frame >= 34) CHECK((followed.error() - turned).largest() < 0.1);
     const bool has_turned = frame >= 30;
-    const double change = followed.take(matches_of(has_turned ? turned : RectificationError{}, random));
+    const double change = followed.observe(matches_of(has_turned ? turned : RectificationError{}, random));
     CHECK((change > 0.5) == (frame == 33));
     changes += change > 0 ? 1 : 0;
   }
@@ -130,14 +130,14 @@ TEST_CASE("rectification follower: frames that are not taken leave no trace", "[
   const auto matches = matches_of({0.5, 0, 0, 0, 0, 0}, random);
   for (auto* both : {&one, &other}) {
     both->start_frame();
-    both->take(matches);
+    both->observe(matches);
   }
   const Image grey(640, 480);
   other.start_frame();
   CHECK(other.suffices({0, grey.view(), grey.view()}, {}));
   for (auto* both : {&one, &other}) {
     both->start_frame();
-    both->take(matches);
+    both->observe(matches);
     both->start_frame();
   }
   CHECK((other.error() - one.error()).largest() == 0);

@@ -19,7 +19,7 @@ struct RelaxationScene {
   EdgeSet left;
   reference::StereoClusters clusters;
   std::pair<Image, Image> views;
-  std::optional<reference::CoarseDisparity> witness;
+  std::optional<reference::CoarseDisparity> coarse_disparity;
 
   explicit RelaxationScene(const StereoRig& of_rig) : rig(of_rig) {
     config.max_disparity = 60;
@@ -44,12 +44,13 @@ struct RelaxationScene {
   }
   reference::StereoRelaxation relax() const {
     return reference::stereo_relaxation(clusters, left, geometry, rig.left.width, rig.left.height, config,
-                                        witness ? &*witness : nullptr);
+                                        coarse_disparity ? &*coarse_disparity : nullptr);
   }
-  /// From now on a coarse disparity of these views is the witness.
+  /// From now on a coarse disparity of these views is consulted.
   void consult(const Image& left_view, const Image& right_view) {
     views = {left_view, right_view};
-    witness = reference::coarse_disparity(left_view.view(), right_view.view(), coarse_search(rig, geometry).value());
+    coarse_disparity =
+        reference::coarse_disparity(left_view.view(), right_view.view(), coarse_search(rig, geometry).value());
   }
   /// Position of edge i's choice; NaN: none.
   double chosen(const reference::StereoRelaxation& relaxation, std::size_t i) const {
@@ -81,8 +82,9 @@ struct RelaxationScene {
           device_clusters.count.write(context, counts);
           stages::DeviceRelaxation found;
           stages::CoarseDisparity coarse(context, variants, kMaxValue8);
-          if (witness) coarse.run(upload(context, views.first), upload(context, views.second), witness->search);
-          const stages::CoarseDisparity* const asked = witness ? &coarse : nullptr;
+          if (coarse_disparity)
+            coarse.run(upload(context, views.first), upload(context, views.second), coarse_disparity->search);
+          const stages::CoarseDisparity* const asked = coarse_disparity ? &coarse : nullptr;
           stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
           const auto belief = found.belief.read(clusters.position.size());
           const auto chosen = found.chosen.read(rows);

@@ -91,15 +91,15 @@ struct TemporalScene {
                                      {of_base_right, of_right, kImageWidth, kImageHeight}, config);
   }
   static void upload_rig(opencl::Context& context, const StereoEdges& edges, const std::vector<std::int8_t>& of_left,
-                         const std::vector<std::int8_t>& of_right, stages::DeviceStereoEdges& rig) {
-    rig.count = rig.stride = static_cast<int>(edges.size());
+                         const std::vector<std::int8_t>& of_right, stages::DeviceStereoEdges& stereo_edges) {
+    stereo_edges.count = stereo_edges.stride = static_cast<int>(edges.size());
     std::vector<float> packed;
     for (const auto* block : {&edges.left_x, &edges.left_y, &edges.left_direction})
       packed.insert(packed.end(), block->begin(), block->end());
-    rig.packed.write(context, packed);
-    rig.left_index.write(context, edges.left_index);
-    rig.left_patches.write(context, of_left);
-    rig.right_patches.write(context, of_right);
+    stereo_edges.packed.write(context, packed);
+    stereo_edges.left_index.write(context, edges.left_index);
+    stereo_edges.left_patches.write(context, of_left);
+    stereo_edges.right_patches.write(context, of_right);
   }
   /// Runs every variant except the lists on every device.
   void on_devices(const std::function<void(const std::optional<TemporalMatches>&)>& check) const {

@@ -28,9 +28,9 @@ StereoEdges row_of_edges(int count, float shift = 0) {
 }
 
 KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isometry3d::Identity()) {
-  auto rig = std::make_shared<frontend::FrameEdges>();
-  rig->start(frame);
-  return KeyRig(rig, {world_from_left});
+  auto frame_edges = std::make_shared<frontend::FrameEdges>();
+  frame_edges->start(frame);
+  return KeyRig(frame_edges, {world_from_left});
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ TEST_CASE("key rig: one with a predicted pose is replaced by the first tracked f
   fitness.quads = 1000;
   KeyRig found = key_rig(3);
   CHECK_FALSE(found.needs_replacement(fitness, config));
-  KeyRig predicted(found.rig(), {found.world_from_left()}, odometry::PoseOrigin::predicted);
+  KeyRig predicted(found.frame_edges(), {found.world_from_left()}, odometry::PoseOrigin::predicted);
   CHECK(predicted.needs_replacement(fitness, config));
 }
 

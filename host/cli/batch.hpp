@@ -90,7 +90,7 @@ class BatchProgress {
 /// OUT/unfinished/NAME, which becomes OUT/sequences/NAME in one step when it is over, with a member.json that says how
 /// it ended; so a result is there as a whole or not at all. A failing sequence does not stop the others. Ends early
 /// when a signal came: the children are ended and what they had begun is removed. Returns how many members it has
-/// finished, with whichever end. \throws DataError when OUT cannot be written (full disk); children end then, too.
+/// finished, however they ended. \throws DataError when OUT cannot be written (full disk); then the children are ended.
 int run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method, const BatchOptions& options,
               const Interruption& interruption);
 

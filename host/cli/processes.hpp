@@ -11,7 +11,7 @@
 
 namespace quadedge::cli {
 
-// Ctrl-C and the system's wish to end: asked for between steps instead of cutting through one.
+// Ctrl-C and signals to end, which commands look for between their steps.
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of ending the process, each once: the second Ctrl-C
 /// ends it at once. (Those that are ignored, as under nohup, stay ignored.) One at a time.

@@ -87,9 +87,9 @@ void end_if_interrupted(const Interruption& interruption, const FrameSource& sou
   interruption.end_process();
 }
 
-/// Reports doubts about the recording, why a frame was lost where the one before was not lost for the same reason, and
-/// every new segment.
-void report_doubts(const FrameResult& result, const report::RunRecord& run) {
+/// Reports warnings about the recording, why a frame was lost where the one before was not lost for the same reason,
+/// and every new segment.
+void report_warnings(const FrameResult& result, const report::RunRecord& run) {
   const std::string warning = "warning: frame " + std::to_string(run.frames.size()) + ": ";
   for (const Warning& found : result.warnings) note(warning + found.text);
   const bool is_new = run.frames.empty() || run.frames.back().result.status != result.status;
@@ -146,7 +146,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       record.result = odometry.track(frame->view());
       known.learn(odometry, record.result);
       files.add(record.result);
-      report_doubts(record.result, run);
+      report_warnings(record.result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
       points.add(*frame, record.result, odometry);
       if (loops) loops->add(record.result);

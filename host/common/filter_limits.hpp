@@ -16,7 +16,7 @@
 
 namespace quadedge {
 
-/// One entry per stereo edge of the base, an earlier rig: its predicted position in the current images.
+/// One entry per stereo edge of the base, an earlier frame: its predicted position in the current images.
 struct TemporalSearch {
   EdgePositions left, right;
   float radius = 0;     ///< [px], around the predicted position
@@ -24,7 +24,7 @@ struct TemporalSearch {
   bool coarse = false;  ///< whether the limits TemporalConfig::coarse_* apply
 };
 
-/// Indices of the stereo edges of the base and of the current rig that take part in a global search.
+/// Indices of the stereo edges of the base and of the current frame that take part in a global search.
 struct GlobalSearch {
   std::vector<std::int32_t> of_base, of_current;
 };

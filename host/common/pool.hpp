@@ -23,7 +23,7 @@ class Pool {
 
   /// Returns the object that was returned longest ago, or a new one, so that each step of a frame reuses the memory of
   /// the same step in the previous frame.
-  Handle take() {
+  Handle acquire() {
     if (spare_.empty()) return Handle(new T(), GiveBack{this});
     Handle object(spare_.front().release(), GiveBack{this});
     spare_.erase(spare_.begin());

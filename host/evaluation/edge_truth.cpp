@@ -96,7 +96,7 @@ std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y
     farthest = std::min<double>(farthest, value);
   }
   if (nearest - farthest <= kDepthStep) {
-    for (double s = kContourReach + kNormalStep; s <= kDoubtReach; s += kNormalStep) {
+    for (double s = kContourReach + kNormalStep; s <= kUnclearReach; s += kNormalStep) {
       for (const double side : {-s, s}) {
         if (map.nearest(x + side * nx, y + side * ny) - nearest > kDepthStep) return std::nullopt;
       }

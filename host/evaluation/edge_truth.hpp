@@ -39,7 +39,7 @@ inline constexpr double kDepthStep = 1.0;
 inline constexpr double kContourReach = 1.5;
 /// On the farther side, up to this distance, the edge may belong to either surface [px] (texture of the farther one, or
 /// a contour displaced by blur and shading): between the two distances, about half of the matched edges move with each.
-inline constexpr double kDoubtReach = 2.5;
+inline constexpr double kUnclearReach = 2.5;
 
 /// Surface point of an edge.
 struct SurfacePoint {
@@ -52,7 +52,7 @@ struct SurfacePoint {
 /// - If any of them is unknown: nothing (an invisible nearer surface could own the edge).
 /// - If they differ by more than kDepthStep, the edge is an occluding contour and belongs to the nearer surface, whose
 /// values within kDepthStep of the nearest one are averaged with weights by their distance from the edge.
-/// - If a nearer surface begins between kContourReach and kDoubtReach to either side: nothing.
+/// - If a nearer surface begins between kContourReach and kUnclearReach to either side: nothing.
 /// - Otherwise: bilinear interpolation over those of the four pixels around the position that lie within kDepthStep of
 /// the nearest pixel, so that a step at the end of the edge has no influence.
 /// \param direction of the tangent [rad]

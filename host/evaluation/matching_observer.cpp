@@ -68,7 +68,7 @@ MatchingObserver::MatchingObserver(const StereoRig& rig, const Config& config, c
 
 void MatchingObserver::begin(int frame, FrameTruth truth) {
   frame_ = frame;
-  rigs_[frame] = {};
+  frames_[frame] = {};
   current().truth = std::move(truth);
   measured_ = {};
   measured_.cues = empty_cues_;
@@ -84,7 +84,7 @@ FrameMatching MatchingObserver::end(const FrameResult& result) {
   current().world_from_left = result.pose_or_prediction();
   const auto found = searches_.find(result.diagnostics.search);
   if (found != searches_.end()) {
-    const Rig& base = rigs_.at(found->second.base_frame);
+    const ObservedFrame& base = frames_.at(found->second.base_frame);
     if (is_known_motion(base)) {
       measured_.motion = motion_error(current().world_from_left.inverse() * base.world_from_left,
                                       current().truth.world_from_left->inverse() * *base.truth.world_from_left);
@@ -93,7 +93,7 @@ FrameMatching MatchingObserver::end(const FrameResult& result) {
     add(measured_.cues, found->second.cues);
   }
   // No later frame is matched with a frame before the key rig.
-  rigs_.erase(rigs_.begin(), rigs_.lower_bound(result.reference_frame));
+  frames_.erase(frames_.begin(), frames_.lower_bound(result.reference_frame));
   return std::move(measured_);
 }
 
@@ -147,7 +147,7 @@ void MatchingObserver::stereo(const StereoEdges& edges) {
 void MatchingObserver::temporal_search(const ObservedSearch& search) {
   search_ = &searches_[search.number];
   search_->base_frame = search.base_frame;
-  const Rig& base = rigs_.at(search.base_frame);
+  const ObservedFrame& base = frames_.at(search.base_frame);
   if (search.step != 1 || !is_known_motion(base)) return;
   search_->expected[0] = search.left;
   search_->expected[1] = search.right;
@@ -157,7 +157,7 @@ void MatchingObserver::temporal_search(const ObservedSearch& search) {
 }
 
 /// Computes ground truth and pools of the matching with the base, and row 0 of both tables.
-void MatchingObserver::start_temporal(const Rig& base, Search& search) {
+void MatchingObserver::start_temporal(const ObservedFrame& base, Search& search) {
   const StereoEdges& now = current().edges;
   for (const Side side : kSides) {
     const auto s = static_cast<std::size_t>(index_of(side));
@@ -189,14 +189,14 @@ void MatchingObserver::temporal_filter(TemporalFilter filter, Side side, const C
 
 void MatchingObserver::quads(const TemporalMatches& matches) {
   if (!search_->measured) return;
-  const std::size_t rows = rigs_.at(search_->base_frame).edges.size();
+  const std::size_t rows = frames_.at(search_->base_frame).edges.size();
   for (const Side side : kSides) judge_temporal(TemporalFilter::best, side, lists_of(matches, rows, side));
   measure_quads(matches);
 }
 
 /// Evaluates recall and precision of the quads, and pairs of quads under the constraints.
 void MatchingObserver::measure_quads(const TemporalMatches& matches) {
-  const Rig& base = rigs_.at(search_->base_frame);
+  const ObservedFrame& base = frames_.at(search_->base_frame);
   TemporalMatching& measured = *search_->measured;
   const std::size_t rows = base.edges.size();
   std::vector<std::uint8_t> known(matches.size(), 0), veridical(matches.size(), 0), candidates(rows, 0),

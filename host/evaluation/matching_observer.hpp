@@ -41,7 +41,7 @@ class MatchingObserver : public Tap {
 
  private:
   /// A frame with which others may be matched.
-  struct Rig {
+  struct ObservedFrame {
     FrameTruth truth;
     StereoEdges edges;
     std::vector<std::uint8_t> veridical;                                ///< one per stereo edge
@@ -58,11 +58,13 @@ class MatchingObserver : public Tap {
     std::optional<TemporalMatching> measured;
     std::vector<CueDistribution> cues;
   };
-  Rig& current() { return rigs_.at(frame_); }
-  bool is_known_motion(const Rig& base) { return base.truth.world_from_left && current().truth.world_from_left; }
+  ObservedFrame& current() { return frames_.at(frame_); }
+  bool is_known_motion(const ObservedFrame& base) {
+    return base.truth.world_from_left && current().truth.world_from_left;
+  }
   const PinholeCamera& camera(Side side) const { return side == Side::left ? rig_.left : rig_.right; }
 
-  void start_temporal(const Rig& base, Search& search);
+  void start_temporal(const ObservedFrame& base, Search& search);
   void judge_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates);
   void collect_stereo(StereoFilter filter, const CandidateLists& candidates);
   void collect_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates);
@@ -73,7 +75,7 @@ class MatchingObserver : public Tap {
   MatchingTolerance tolerance_;
   std::vector<CueDistribution> empty_cues_;
   int frame_ = -1;
-  std::map<int, Rig> rigs_;  ///< by frame number: the current frame, and those that it may be matched with
+  std::map<int, ObservedFrame> frames_;  ///< by frame number: the current frame, and those that it may be matched with
   FrameMatching measured_;
   std::vector<FinalMatch> final_matches_;
 

@@ -47,7 +47,7 @@ std::string difference(const StageRows& found, const StageRows& expected, double
 
 /// The output of a front end for two frames.
 struct FrontendOutput {
-  FrameEdgesHandle first;  ///< the first frame's rig
+  FrameEdgesHandle first;  ///< those of the first frame
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
   TemporalMatches coarse, quads;   ///< of a coarse search with its strict limits, and of a guided search

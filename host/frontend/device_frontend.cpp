@@ -58,11 +58,11 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
   itself_.write(context, itself);
 }
 
-void DeviceFrontend::measure(const stages::DeviceStereoEdges& rig, stages::EdgeThreshold& threshold,
+void DeviceFrontend::measure(const stages::DeviceStereoEdges& stereo_edges, stages::EdgeThreshold& threshold,
                              float known_noise) {
   context_.begin_stage("edge_detection");
-  left_.plane.prepare(rig.left_image.pixels);
-  right_.plane.prepare(rig.right_image.pixels);
+  left_.plane.prepare(stereo_edges.left_image.pixels);
+  right_.plane.prepare(stereo_edges.right_image.pixels);
   threshold.run(left_.plane, &right_.plane, known_noise);
   used_threshold_ = &threshold;
 }
@@ -71,10 +71,10 @@ bool DeviceFrontend::smooths(FrameEdges& current) {
   if (is_smoothed_) return false;
   is_smoothed_ = noise_gate_.judge(threshold_.host_noise(), threshold_.host_gradient());
   if (!is_smoothed_) return false;
-  stages::DeviceStereoEdges& rig = own(current).on_device;
-  left_.undistortion.smooth(smoothing_, rig.left_image.pixels, smoothed_left_);
-  right_.undistortion.smooth(smoothing_, rig.right_image.pixels, smoothed_right_);
-  measure(rig, smoothed_threshold_, static_cast<float>(noise_gate_.smoothed_noise()));
+  stages::DeviceStereoEdges& stereo_edges = own(current).on_device;
+  left_.undistortion.smooth(smoothing_, stereo_edges.left_image.pixels, smoothed_left_);
+  right_.undistortion.smooth(smoothing_, stereo_edges.right_image.pixels, smoothed_right_);
+  measure(stereo_edges, smoothed_threshold_, static_cast<float>(noise_gate_.smoothed_noise()));
   return true;
 }
 
@@ -114,7 +114,7 @@ FrameEdgesHandle DeviceFrontend::process(const StereoFrame& frame) {
 }
 
 FrameEdges& DeviceFrontend::start(const StereoFrame& frame) {
-  DeviceFrameEdges& current = rigs_.next(calibration_);
+  DeviceFrameEdges& current = frames_.next(calibration_);
   left_.undistortion.run(frame.left, current.on_device.left_image.pixels);
   right_.undistortion.run(frame.right, current.on_device.right_image.pixels);
   is_smoothed_ = false;
@@ -128,41 +128,41 @@ FrameEdges& DeviceFrontend::start(const StereoFrame& frame) {
 }
 
 void DeviceFrontend::describe(const FrameEdges& current, bool by_sift) {
-  const stages::DeviceStereoEdges& rig = own(current).on_device;
-  left_.patches.prepare(rig.left_image.pixels);
-  right_.patches.prepare(rig.right_image.pixels);
+  const stages::DeviceStereoEdges& stereo_edges = own(current).on_device;
+  left_.patches.prepare(stereo_edges.left_image.pixels);
+  right_.patches.prepare(stereo_edges.right_image.pixels);
   if (!by_sift) return;
-  left_.sift.prepare(rig.left_image.pixels);
-  right_.sift.prepare(rig.right_image.pixels);
+  left_.sift.prepare(stereo_edges.left_image.pixels);
+  right_.sift.prepare(stereo_edges.right_image.pixels);
   left_.sift.describe(left_.edges.positions(), left_sift_);
   right_.sift.describe(right_.edges.positions(), right_sift_);
 }
 
-const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStereoEdges& rig,
-                                                       const std::optional<CoarseDisparityArguments>& search) {
+const stages::CoarseDisparity* DeviceFrontend::coarse_disparity(const stages::DeviceStereoEdges& stereo_edges,
+                                                                const std::optional<CoarseDisparityArguments>& search) {
   if (!search ||
       !fits_beside(calibration_, config_, stages::CoarseDisparity::bytes(*search), context_.limits().memory_bytes))
     return nullptr;
-  coarse_.run(rig.left_image, rig.right_image, *search);
+  coarse_.run(stereo_edges.left_image, stereo_edges.right_image, *search);
   return &coarse_;
 }
 
 RelaxationTally DeviceFrontend::find_stereo_edges(FrameEdges& current, const EpipolarGeometry& geometry,
                                                   const DisparityProbe& probe,
                                                   const std::optional<CoarseDisparityArguments>& coarse) {
-  stages::DeviceStereoEdges& rig = own(current).on_device;
+  stages::DeviceStereoEdges& stereo_edges = own(current).on_device;
   stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, probe, candidates_);
-  left_.patches.cut(left_.edges.positions(), candidates_.counts, rig.left_patches);
+  left_.patches.cut(left_.edges.positions(), candidates_.counts, stereo_edges.left_patches);
   right_.patches.cut(right_.edges.positions(), stereo_candidates_.listed(), right_patches_);
-  filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
+  filters_.run({stereo_edges.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
-  refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,
-                  geometry, candidates_, refined_);
+  refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges,
+                  stereo_edges.left_patches, geometry, candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
   context_.flush();
-  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, witness(rig, coarse));
+  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, coarse_disparity(stereo_edges, coarse));
   mutual_.run(left_.edges, right_.edges, right_.patches, range_.geometry(), corrects_rows() ? &geometry : nullptr,
-              clusters_, relaxed_, owners_, rig, current.edges);
+              clusters_, relaxed_, owners_, stereo_edges, current.edges);
   return relaxed_.host_tally;
 }
 
@@ -175,18 +175,18 @@ void DeviceFrontend::finish(FrameEdges& current) {
 
 void DeviceFrontend::index_current() {
   if (indexed_) return;
-  const stages::DeviceStereoEdges& edges = rigs_.current().on_device;
+  const stages::DeviceStereoEdges& edges = frames_.current().on_device;
   point_index_.run(edges.positions(Side::left), edges.positions(Side::right), left_index_, right_index_);
   indexed_ = true;
 }
 
-stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& rig, Side side) const {
-  if (side == Side::right) return {rig.right_patches, itself_, rig.right_sift};
-  return {rig.left_patches, rig.left_index, rig.left_sift};
+stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& stereo_edges, Side side) const {
+  if (side == Side::right) return {stereo_edges.right_patches, itself_, stereo_edges.right_sift};
+  return {stereo_edges.left_patches, stereo_edges.left_index, stereo_edges.left_sift};
 }
 
-void DeviceFrontend::describe_by_sift(FrameEdges& rig) {
-  stages::DeviceStereoEdges& edges = own(rig).on_device;
+void DeviceFrontend::describe_by_sift(FrameEdges& frame_edges) {
+  stages::DeviceStereoEdges& edges = own(frame_edges).on_device;
   if (edges.has_sift) return;
   left_.sift.prepare(edges.left_image.pixels);
   left_.sift.describe(edges.positions(Side::left), edges.left_sift);
@@ -199,7 +199,7 @@ void DeviceFrontend::match_side(Side side, const DeviceFrameEdges& base, const T
                                 stages::DeviceCandidates& candidates) {
   temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius,
                            static_cast<float>(kTemporalOrientation), candidates);
-  filters_.run(described(base.on_device, side), described(rigs_.current().on_device, side),
+  filters_.run(described(base.on_device, side), described(frames_.current().on_device, side),
                temporal_limits(config_.temporal, search), search.step, tap_ != nullptr, candidates);
 }
 
@@ -209,7 +209,7 @@ void DeviceFrontend::match_by_lists(const DeviceFrameEdges& base, const Temporal
   match_side(Side::right, base, search, temporal_right_);
   const int alive_left = temporal_left_.living_rows(), alive_right = temporal_right_.living_rows();
   temporal_quads_.agree(temporal_left_, temporal_right_);
-  const DeviceFrameEdges& current = rigs_.current();
+  const DeviceFrameEdges& current = frames_.current();
   matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_.list(index_of(Side::left)),
                                     temporal_left_);
   matches.alive_left = alive_left;
@@ -217,8 +217,8 @@ void DeviceFrontend::match_by_lists(const DeviceFrameEdges& base, const Temporal
   if (tap_ != nullptr) tap_temporal(search);
 }
 
-void DeviceFrontend::search_in_time(FrameEdges& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
-  const DeviceFrameEdges &base = own(base_rig), &current = rigs_.current();
+void DeviceFrontend::search_in_time(FrameEdges& base_edges, const TemporalSearch& search, TemporalMatches& matches) {
+  const DeviceFrameEdges &base = own(base_edges), &current = frames_.current();
   const opencl::CopyGuard guard(context_);  // of the predictions
   index_current();
   predicted_.write(context_, {search.left, search.right});
@@ -229,10 +229,10 @@ void DeviceFrontend::search_in_time(FrameEdges& base_rig, const TemporalSearch& 
   if (!found) match_by_lists(base, search, matches);
 }
 
-stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& rig, const WideSubset& subset,
+stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& frame_edges, const WideSubset& subset,
                                                         WideSide& side) {
-  if (rig.is_restored) return {rig.on_device, 1, rig.on_device.count, rig.wide};
-  const bool is_given = &subset.edges != &rig.edges;
+  if (frame_edges.is_restored) return {frame_edges.on_device, 1, frame_edges.on_device.count, frame_edges.wide};
+  const bool is_given = &subset.edges != &frame_edges.edges;
   if (is_given) {
     side.packed.clear();
     for (const auto* column : {&subset.edges.left_x, &subset.edges.left_y, &subset.edges.left_direction})
@@ -242,9 +242,9 @@ stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& 
     side.given.packed.write(side.packed.data(), side.packed.size());
   }
   const bool is_known = &side == &wide_now_ && wide_step_ == subset.step;
-  const stages::DeviceStereoEdges& edges = is_given ? side.given : rig.on_device;
+  const stages::DeviceStereoEdges& edges = is_given ? side.given : frame_edges.on_device;
   if (!is_known) {
-    wide_description_.prepare(rig.on_device.left_image.pixels, small_);
+    wide_description_.prepare(frame_edges.on_device.left_image.pixels, small_);
     side.rows = wide_description_.describe(small_, edges, subset.step, side.descriptors);
   }
   if (&side == &wide_now_) wide_step_ = subset.step;
@@ -253,40 +253,40 @@ stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& 
 
 TemporalMatches DeviceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
                                                 const WideSubset& of_current) {
-  const DeviceFrameEdges& current = rigs_.current();
+  const DeviceFrameEdges& current = frames_.current();
   const opencl::CopyGuard guard(context_);  // until the given edges have been copied
-  // Descriptions of every step-th edge of the current rig serve all searches of a frame.
+  // Descriptions of every step-th edge of the current frame serve all searches of a frame.
   WideSide& now = &of_current.edges == &current.edges ? wide_now_ : wide_some_;
   const auto earlier = describe_widely(own(base), of_base, wide_before_);
   return wide_matching_.run(earlier, describe_widely(current, of_current, now), of_current.edges);
 }
 
 KeptFrameEdges DeviceFrontend::keep() {
-  const DeviceFrameEdges& current = rigs_.current();
-  const stages::DeviceStereoEdges& rig = current.on_device;
+  const DeviceFrameEdges& current = frames_.current();
+  const stages::DeviceStereoEdges& stereo_edges = current.on_device;
   const stages::DeviceWideEdges described =
       describe_widely(current, about(2 * config_.temporal.wide_edges, current), wide_now_);
   const auto wide = described.descriptors.read(static_cast<std::size_t>(described.rows) * kWideBytes);
-  const auto left = rig.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
-  const auto right = rig.right_patches.read(current.edges.size() * kEdgePatchBytes);
+  const auto left = stereo_edges.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
+  const auto right = stereo_edges.right_patches.read(current.edges.size() * kEdgePatchBytes);
   return keep_edges(current, {described.step, wide}, left, current.edges.left_index, right);
 }
 
 void DeviceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
   const std::size_t count = kept.edges.size();
-  stages::DeviceStereoEdges& rig = own(restored).on_device;
-  rig.reserve(context_, count);
-  rig.count = rig.stride = static_cast<cl_int>(count);
-  rig.has_sift = false;
-  rig.left_index.write(kept.edges.left_index.data(), count);
+  stages::DeviceStereoEdges& stereo_edges = own(restored).on_device;
+  stereo_edges.reserve(context_, count);
+  stereo_edges.count = stereo_edges.stride = static_cast<cl_int>(count);
+  stereo_edges.has_sift = false;
+  stereo_edges.left_index.write(kept.edges.left_index.data(), count);
   std::vector<cl_float> packed;
   for (const auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
                              &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_drift})
     packed.insert(packed.end(), column->begin(), column->end());
-  rig.packed.write(packed.data(), packed.size());
+  stereo_edges.packed.write(packed.data(), packed.size());
   const KeptPatches patches = unpack_patches(kept);
-  rig.left_patches.write(context_, patches.left);
-  rig.right_patches.write(context_, patches.right);
+  stereo_edges.left_patches.write(context_, patches.left);
+  stereo_edges.right_patches.write(context_, patches.right);
   own(restored).wide.write(context_, unpack_wide(kept));
 }
 

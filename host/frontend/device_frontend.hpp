@@ -14,14 +14,14 @@
 
 namespace quadedge::frontend {
 
-/// A rig with its buffers on the device.
+/// The edges of a frame with their buffers on the device.
 struct DeviceFrameEdges : FrameEdges {
   explicit DeviceFrameEdges(const StereoRig& calibration);
   stages::DeviceStereoEdges on_device;
-  opencl::Buffer<cl_uchar> wide;  ///< wide descriptors of all edges, only of a restored rig
+  opencl::Buffer<cl_uchar> wide;  ///< wide descriptors of all edges, only of a restored frame
 };
 
-/// Owns all stages and the rigs.
+/// Owns all stages and the edges of frames.
 class DeviceFrontend : public StagedFrontend {
  public:
   DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
@@ -50,7 +50,7 @@ class DeviceFrontend : public StagedFrontend {
   }
   FrameEdges& start(const StereoFrame& frame) override;
   /// Prepares both images for detection and measures their threshold.
-  void measure(const stages::DeviceStereoEdges& rig, stages::EdgeThreshold& threshold, float known_noise);
+  void measure(const stages::DeviceStereoEdges& stereo_edges, stages::EdgeThreshold& threshold, float known_noise);
   /// Smooths both images and measures them again, if their noise asks for it and they are not smoothed yet.
   bool smooths(FrameEdges& current);
   void find_edges();
@@ -60,33 +60,34 @@ class DeviceFrontend : public StagedFrontend {
                                     const std::optional<CoarseDisparityArguments>& coarse) override;
   void finish(FrameEdges& current) override;
   void tap_stereo() override;
-  void describe_by_sift(FrameEdges& rig) override;
+  void describe_by_sift(FrameEdges& frame_edges) override;
   void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
   TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
                                   const WideSubset& of_current) override;
-  std::shared_ptr<FrameEdges> spare() override { return rigs_.restored(calibration_); }
+  std::shared_ptr<FrameEdges> spare() override { return frames_.restored(calibration_); }
   void load(const KeptFrameEdges& kept, FrameEdges& restored) override;
-  FrameEdgesHandle current_handle() const override { return rigs_.current_handle(); }
-  DeviceFrameEdges& own(const FrameEdges& rig) override { return rigs_.own(rig); }
+  FrameEdgesHandle current_handle() const override { return frames_.current_handle(); }
+  DeviceFrameEdges& own(const FrameEdges& frame_edges) override { return frames_.own(frame_edges); }
 
   /// One side of a global search.
   struct WideSide {
     opencl::Buffer<cl_uchar> descriptors;
     int rows = 0;
-    stages::DeviceStereoEdges given;  ///< left positions and directions of edges that are not every step-th of a rig
+    stages::DeviceStereoEdges given;  ///< left positions and directions of edges that are not every step-th of a frame
     std::vector<cl_float> packed;     ///< the same on the host
   };
 
   /// The coarse disparity of the images; null where no search is given or memory does not suffice.
-  const stages::CoarseDisparity* witness(const stages::DeviceStereoEdges& rig,
-                                         const std::optional<CoarseDisparityArguments>& search);
+  const stages::CoarseDisparity* coarse_disparity(const stages::DeviceStereoEdges& stereo_edges,
+                                                  const std::optional<CoarseDisparityArguments>& search);
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
-  /// Wide descriptors of a subset of a rig's edges; given ones are copied to the device from `packed`, which must
+  /// Wide descriptors of a subset of a frame's edges; given ones are copied to the device from `packed`, which must
   /// outlive the copy.
-  stages::DeviceWideEdges describe_widely(const DeviceFrameEdges& rig, const WideSubset& subset, WideSide& side);
+  stages::DeviceWideEdges describe_widely(const DeviceFrameEdges& frame_edges, const WideSubset& subset,
+                                          WideSide& side);
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
-  stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, Side side) const;
+  stages::DescribedEdges described(const stages::DeviceStereoEdges& stereo_edges, Side side) const;
   /// Runs the search with candidate lists: for searches with SIFT, for too many candidates, for taps, and for the
   /// corresponding variant.
   void match_by_lists(const DeviceFrameEdges& base, const TemporalSearch& search, TemporalMatches& matches);
@@ -125,12 +126,12 @@ class DeviceFrontend : public StagedFrontend {
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                   ///< for the current frame
-  int wide_step_ = 0;                      ///< of the current rig's edges in wide_now_; 0: not yet described
+  int wide_step_ = 0;                      ///< of the current frame's edges in wide_now_; 0: not yet described
   opencl::Buffer<cl_char> right_patches_;  ///< of the right edges that are candidates
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
       right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT
   opencl::Buffer<cl_int> itself_;  ///< the identity permutation 0, 1, 2 ...
-  FrameEdgesPool<DeviceFrameEdges> rigs_;
+  FrameEdgesPool<DeviceFrameEdges> frames_;
 };
 
 }  // namespace quadedge::frontend

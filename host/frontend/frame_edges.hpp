@@ -41,7 +41,7 @@ class FrameEdges {
     }
     return measured_;
   }
-  /// Prepares the rig for another frame; keeps its memory.
+  /// Prepares the edges for another frame; keeps their memory.
   void start(int frame_number) {
     frame = frame_number;
     own_calibration = nullptr;
@@ -64,40 +64,40 @@ using FrameEdgesHandle = std::shared_ptr<const FrameEdges>;
 template <class T>
 class FrameEdgesPool {
  public:
-  /// Returns the rig for the next frame: one that is no longer held, with its memory unchanged, or a new one
+  /// Returns the edges for the next frame: those that are no longer held, with their memory unchanged, or a new one
   /// constructed from `arguments`.
   template <class... Arguments>
   T& next(const Arguments&... arguments) {
-    current_ = spare(rigs_.size(), arguments...);
+    current_ = spare(frames_.size(), arguments...);
     current().start(++frame_);
     return current();
   }
-  /// The same for a rig that is restored and does not become the current one.
+  /// The same for edges that are restored and do not become the current ones.
   template <class... Arguments>
   const std::shared_ptr<T>& restored(const Arguments&... arguments) {
-    return rigs_[spare(current_, arguments...)];
+    return frames_[spare(current_, arguments...)];
   }
-  T& current() { return *rigs_.at(current_); }
-  FrameEdgesHandle current_handle() const { return rigs_.at(current_); }
+  T& current() { return *frames_.at(current_); }
+  FrameEdgesHandle current_handle() const { return frames_.at(current_); }
 
-  /// The front end's own type of a rig that it has created. \throws std::invalid_argument for any other rig
-  T& own(const FrameEdges& rig) {
-    for (const auto& own : rigs_)
-      if (own.get() == &rig) return *own;
-    throw std::invalid_argument("a rig of another front end");
+  /// The front end's own type of edges that it has created. \throws std::invalid_argument for any others
+  T& own(const FrameEdges& frame_edges) {
+    for (const auto& own : frames_)
+      if (own.get() == &frame_edges) return *own;
+    throw std::invalid_argument("edges of another front end");
   }
 
  private:
-  /// Number of a rig that is not held and is not number `except`.
+  /// Number of edges that are not held and are not number `except`.
   template <class... Arguments>
   std::size_t spare(std::size_t except, const Arguments&... arguments) {
-    for (std::size_t i = 0; i < rigs_.size(); ++i)
-      if (i != except && rigs_[i].use_count() == 1) return i;
-    rigs_.push_back(std::make_shared<T>(arguments...));
-    return rigs_.size() - 1;
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      if (i != except && frames_[i].use_count() == 1) return i;
+    frames_.push_back(std::make_shared<T>(arguments...));
+    return frames_.size() - 1;
   }
 
-  std::vector<std::shared_ptr<T>> rigs_;
+  std::vector<std::shared_ptr<T>> frames_;
   std::size_t current_ = 0;
   int frame_ = -1;
 };

@@ -27,22 +27,22 @@ struct FrontendCounts {
   int dropped_edges = 0;  ///< beyond edges.max_edges, in both images
 };
 
-/// Interface with two implementations: the OpenCL stages and the C++ reference. Callers keep rigs by holding their
+/// Interface with two implementations: the OpenCL stages and the C++ reference. Callers keep frames by holding their
 /// handles.
 class Frontend {
  public:
   virtual ~Frontend() = default;
 
-  /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. \returns the rig, which is the current one until
-  /// the next call and is then reused unless a handle exists
+  /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. \returns the frame's edges, which are the
+  /// current ones until the next call and are then reused unless a handle exists
   virtual FrameEdgesHandle process(const StereoFrame& frame) = 0;
-  /// Stage 6: quads between an earlier rig, the base, and the current one. `search` has one entry per stereo edge of
+  /// Stage 6: quads between an earlier frame, the base, and the current one. `search` has one entry per stereo edge of
   /// the base. Replaces `matches`, as does match_globally().
   virtual void match(const FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
-  /// Quads between a subset of the base's edges and the current rig, matched over the whole left image by wide
+  /// Quads between a subset of the base's edges and the current frame, matched over the whole left image by wide
   /// descriptors.
-  /// \param edges approximate number of the base's edges and, twice as many, of the current rig's that take part;
-  /// ignored for a restored rig, which has its own
+  /// \param edges approximate number of the base's edges and, twice as many, of the current frame's that take part;
+  /// ignored for a restored frame, which has its own
   virtual void match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) = 0;
   /// The same among the given edges only. For a restored base, of_base is ignored: all its edges take part.
   virtual void match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) = 0;
@@ -63,12 +63,12 @@ class Frontend {
 
   /// Takes over what the current frame shows of the rows, which the search of the next ones corrects. \returns by how
   /// much they have changed [px], 0 as a rule
-  double take(const std::vector<rig::CornerMatch>& matches) { return rectification_.take(matches); }
+  double observe(const std::vector<rig::CornerMatch>& matches) { return rectification_.observe(matches); }
   RectificationFollower& rectification() { return rectification_; }
 
-  /// Keeps the current rig in a compact form.
+  /// Keeps the current frame's edges in a compact form.
   virtual KeptFrameEdges keep() = 0;
-  /// Restores a kept rig as a base of match() and match_globally().
+  /// Restores kept frame edges as a base of match() and match_globally().
   virtual FrameEdgesHandle restore(const KeptFrameEdges& kept) = 0;
 
   /// Whether the current frame is so noisy that its images were smoothed.

@@ -57,26 +57,26 @@ std::size_t KeptFrameEdges::bytes() const {
   return sizeof(KeptFrameEdges) + edges.size() * kColumns * sizeof(float) + patches.size() + wide.size();
 }
 
-KeptFrameEdges keep_edges(const FrameEdges& rig, const DescribedRows& described,
+KeptFrameEdges keep_edges(const FrameEdges& frame_edges, const DescribedRows& described,
                           const std::vector<std::int8_t>& left_patches, const std::vector<std::int32_t>& left_entry,
                           const std::vector<std::int8_t>& right_patches) {
   const std::size_t rows = described.wide.size() / kWideBytes, count = std::min(rows, kKeptEdges);
   const auto row_of = [&](std::size_t k) { return k * rows / count; };
   const auto edge_of = [&](std::size_t k) { return row_of(k) * static_cast<std::size_t>(described.step); };
   KeptFrameEdges kept;
-  kept.frame = rig.frame;
-  kept.edges_spacing = rig.edges_spacing;
+  kept.frame = frame_edges.frame;
+  kept.edges_spacing = frame_edges.edges_spacing;
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
     for (std::size_t k = 0; k < count; ++k) to.push_back(from[edge_of(k)]);
   };
-  copy(rig.edges.left_x, kept.edges.left_x);
-  copy(rig.edges.left_y, kept.edges.left_y);
-  copy(rig.edges.left_direction, kept.edges.left_direction);
-  copy(rig.edges.right_x, kept.edges.right_x);
-  copy(rig.edges.right_y, kept.edges.right_y);
-  copy(rig.edges.right_direction, kept.edges.right_direction);
-  copy(rig.edges.left_scale_drift, kept.edges.left_scale_drift);
-  copy(rig.edges.ncc, kept.edges.ncc);
+  copy(frame_edges.edges.left_x, kept.edges.left_x);
+  copy(frame_edges.edges.left_y, kept.edges.left_y);
+  copy(frame_edges.edges.left_direction, kept.edges.left_direction);
+  copy(frame_edges.edges.right_x, kept.edges.right_x);
+  copy(frame_edges.edges.right_y, kept.edges.right_y);
+  copy(frame_edges.edges.right_direction, kept.edges.right_direction);
+  copy(frame_edges.edges.left_scale_drift, kept.edges.left_scale_drift);
+  copy(frame_edges.edges.ncc, kept.edges.ncc);
   kept.edges.left_index.resize(count);
   std::iota(kept.edges.left_index.begin(), kept.edges.left_index.end(), 0);
   kept.edges.right_index = kept.edges.left_index;

@@ -10,10 +10,10 @@
 
 namespace quadedge::frontend {
 
-/// Maximum number of stereo edges of a kept rig: 0.42 MB.
+/// Maximum number of stereo edges of a kept frame: 0.42 MB.
 constexpr std::size_t kKeptEdges = 2400;
 
-/// A subset of a rig's stereo edges, evenly from the list, with what matching needs of them. Samples of patches and
+/// A subset of a frame's stereo edges, evenly from the list, with what matching needs of them. Samples of patches and
 /// values of descriptors have four bits.
 struct KeptFrameEdges {
   int frame = -1;
@@ -29,7 +29,7 @@ struct KeptFrameEdges {
 /// Two values per byte: both patches of both images, and the descriptor.
 constexpr std::size_t kKeptPatchBytes = 2 * kPatchSamples, kKeptWideBytes = kWideBytes / 2;
 
-/// Every `step`-th stereo edge of a rig with its wide descriptor, kWideBytes each.
+/// Every `step`-th stereo edge of a frame with its wide descriptor, kWideBytes each.
 struct DescribedRows {
   int step;
   std::vector<std::uint8_t> wide;
@@ -37,7 +37,7 @@ struct DescribedRows {
 
 /// Keeps at most kKeptEdges of the described edges, evenly. \param left_patches kEdgePatchBytes per entry \param
 /// left_entry the entry of every stereo edge in it \param right_patches kEdgePatchBytes per stereo edge
-KeptFrameEdges keep_edges(const FrameEdges& rig, const DescribedRows& described,
+KeptFrameEdges keep_edges(const FrameEdges& frame_edges, const DescribedRows& described,
                           const std::vector<std::int8_t>& left_patches, const std::vector<std::int32_t>& left_entry,
                           const std::vector<std::int8_t>& right_patches);
 

@@ -65,7 +65,7 @@ EdgeSet PaperFrontend::detect(const Image& image, const PixelMask& mask) {
 }
 
 FrameEdgesHandle PaperFrontend::process(const StereoFrame& frame) {
-  PaperFrameEdges& now = rigs_.next();
+  PaperFrameEdges& now = frames_.next();
   searches_ = 0;
   const Image left = reference::pinhole_image(frame.left, calibration_.left_undistortion),
               right = reference::pinhole_image(frame.right, calibration_.right_undistortion);
@@ -94,17 +94,18 @@ FrameEdgesHandle PaperFrontend::process(const StereoFrame& frame) {
     tap_stereo(matching);
     tap_->stereo(now.edges);
   }
-  return rigs_.current_handle();
+  return frames_.current_handle();
 }
 
 void PaperFrontend::match(const FrameEdges& base, const TemporalSearch&, TemporalMatches& matches) {
-  const PaperFrameEdges &before = rigs_.own(base), &now = rigs_.current();
+  const PaperFrameEdges &before = frames_.own(base), &now = frames_.current();
   const paper::RefinementSettings settings = paper::refinement_settings(config_.stereo);
-  const auto seen = [&](const PaperFrameEdges& rig, Side side) {
+  const auto seen = [&](const PaperFrameEdges& frame_edges, Side side) {
     const bool is_left = side == Side::left;
     const PinholeCamera& camera = is_left ? calibration_.left : calibration_.right;
-    return paper::StereoEdgesInView{is_left ? *rig.left : *rig.right, rig.edges.positions(side),
-                                    is_left ? rig.left_described : rig.right_described, camera.width, camera.height};
+    return paper::StereoEdgesInView{is_left ? *frame_edges.left : *frame_edges.right, frame_edges.edges.positions(side),
+                                    is_left ? frame_edges.left_described : frame_edges.right_described, camera.width,
+                                    camera.height};
   };
   if (tap_ != nullptr) {
     const TemporalSearch around = search_without_motion(before.edges, config_.temporal, false);

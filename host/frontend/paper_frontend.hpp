@@ -7,13 +7,13 @@
 
 namespace quadedge::frontend {
 
-/// A rig with its images and the descriptions of its stereo edges.
+/// The edges of a frame with their images and the descriptions of the stereo edges.
 struct PaperFrameEdges : FrameEdges {
   std::optional<paper::Picture> left, right;
   paper::Described left_described, right_described;
 };
 
-/// It has no global search and keeps no rigs: those functions throw std::logic_error.
+/// It has no global search and keeps no frames: those functions throw std::logic_error.
 class PaperFrontend : public Frontend {
  public:
   PaperFrontend(const StereoRig& rig, const Config& config);
@@ -39,7 +39,7 @@ class PaperFrontend : public Frontend {
   EpipolarGeometry geometry_;
   reference::EdgeThreshold threshold_;
   EdgeSet left_edges_, right_edges_;
-  FrameEdgesPool<PaperFrameEdges> rigs_;
+  FrameEdgesPool<PaperFrameEdges> frames_;
 };
 
 }  // namespace quadedge::frontend

@@ -49,7 +49,7 @@ bool RectificationFollower::contradicts(const std::vector<rig::CornerMatch>& mat
   return changed_.sums().frames > 0 && changed_.scatter(matches) < kUnexplained * distance;
 }
 
-double RectificationFollower::take(const std::vector<rig::CornerMatch>& matches) {
+double RectificationFollower::observe(const std::vector<rig::CornerMatch>& matches) {
   if (!is_settled_) next_ = error_;
   is_settled_ = true;
   double change = 0;

@@ -25,7 +25,7 @@ class RectificationFollower {
   bool suffices(const StereoFrame& frame, const StereoEdges& edges);
   /// Takes the matches of the current frame into account. A frame that is not taken leaves no trace. \returns by how
   /// much the rows have changed, if some frames in a row contradict the earlier ones, which are then forgotten [px]
-  double take(const std::vector<rig::CornerMatch>& matches);
+  double observe(const std::vector<rig::CornerMatch>& matches);
 
   /// Begins with what earlier recordings with the rig have shown.
   void start_from(const rig::RowModel::Sums& known);

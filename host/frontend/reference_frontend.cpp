@@ -39,7 +39,7 @@ ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
       noise_gate_(rig, config.edges) {}
 
 FrameEdges& ReferenceFrontend::start(const StereoFrame& frame) {
-  ReferenceFrameEdges& now = rigs_.next();
+  ReferenceFrameEdges& now = frames_.next();
   now.left = reference::pinhole_image(frame.left, calibration_.left_undistortion);
   now.right = reference::pinhole_image(frame.right, calibration_.right_undistortion);
   counts_.edge_threshold = threshold_.next({now.left.view(), now.right.view()});
@@ -101,10 +101,11 @@ RelaxationTally ReferenceFrontend::find_stereo_edges(FrameEdges& current, const 
                                                     left_edges_, right_edges_, geometry, candidates_, config_.stereo,
                                                     config_.patches.offset, scores_);
   clusters_ = reference::stereo_clusters(candidates_, scores_, refined, right_edges_);
-  std::optional<reference::CoarseDisparity> witness;
-  if (coarse) witness = reference::coarse_disparity(now.left.view(), now.right.view(), *coarse);
-  relaxation_ = reference::stereo_relaxation(clusters_, left_edges_, geometry, calibration_.left.width,
-                                             calibration_.left.height, config_.stereo, witness ? &*witness : nullptr);
+  std::optional<reference::CoarseDisparity> coarse_disparity;
+  if (coarse) coarse_disparity = reference::coarse_disparity(now.left.view(), now.right.view(), *coarse);
+  relaxation_ =
+      reference::stereo_relaxation(clusters_, left_edges_, geometry, calibration_.left.width, calibration_.left.height,
+                                   config_.stereo, coarse_disparity ? &*coarse_disparity : nullptr);
   const auto edges_on = [&](const EpipolarGeometry& lines) {
     return reference::stereo_mutual(clusters_, relaxation_, left_edges_, lines, config_.stereo);
   };
@@ -123,15 +124,15 @@ void ReferenceFrontend::finish(FrameEdges& current) {
       {}};
 }
 
-void ReferenceFrontend::describe_by_sift(FrameEdges& rig) {
-  ReferenceFrameEdges& now = own(rig);
+void ReferenceFrontend::describe_by_sift(FrameEdges& frame_edges) {
+  ReferenceFrameEdges& now = own(frame_edges);
   if (!now.left_descriptions.sift.empty()) return;
   now.left_descriptions.sift = sift_of(now.left, now.edges.positions(Side::left));
   now.right_descriptions.sift = sift_of(now.right, now.edges.positions(Side::right));
 }
 
 void ReferenceFrontend::search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) {
-  const ReferenceFrameEdges &before = own(base), &now = rigs_.current();
+  const ReferenceFrameEdges &before = own(base), &now = frames_.current();
   auto result = reference::temporal_match(
       search, now.edges,
       {before.left_descriptions, now.left_descriptions, calibration_.left.width, calibration_.left.height},
@@ -143,21 +144,21 @@ void ReferenceFrontend::search_in_time(FrameEdges& base, const TemporalSearch& s
 
 namespace {
 
-reference::WideEdges describe_widely(const ReferenceFrameEdges& rig, const WideSubset& subset) {
-  if (rig.is_restored) return {rig.edges, 1, rig.wide};
+reference::WideEdges describe_widely(const ReferenceFrameEdges& frame_edges, const WideSubset& subset) {
+  if (frame_edges.is_restored) return {frame_edges.edges, 1, frame_edges.wide};
   return {subset.edges, subset.step,
-          reference::wide_descriptions(reference::shrink(rig.left.view()), subset.edges, subset.step)};
+          reference::wide_descriptions(reference::shrink(frame_edges.left.view()), subset.edges, subset.step)};
 }
 
 }  // namespace
 
 TemporalMatches ReferenceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
                                                    const WideSubset& of_current) {
-  return reference::wide_matches(describe_widely(own(base), of_base), describe_widely(rigs_.current(), of_current));
+  return reference::wide_matches(describe_widely(own(base), of_base), describe_widely(frames_.current(), of_current));
 }
 
 KeptFrameEdges ReferenceFrontend::keep() {
-  const ReferenceFrameEdges& now = rigs_.current();
+  const ReferenceFrameEdges& now = frames_.current();
   const reference::WideEdges described = describe_widely(now, about(2 * config_.temporal.wide_edges, now));
   std::vector<std::int32_t> itself(now.edges.size());
   std::iota(itself.begin(), itself.end(), 0);
@@ -166,12 +167,12 @@ KeptFrameEdges ReferenceFrontend::keep() {
 }
 
 void ReferenceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
-  ReferenceFrameEdges& rig = own(restored);
+  ReferenceFrameEdges& frame_edges = own(restored);
   KeptPatches patches = unpack_patches(kept);
   const std::vector<std::uint8_t> no_sift(kept.edges.size() * kEdgeSiftBytes);
-  rig.left_descriptions = {std::move(patches.left), no_sift};
-  rig.right_descriptions = {std::move(patches.right), no_sift};
-  rig.wide = unpack_wide(kept);
+  frame_edges.left_descriptions = {std::move(patches.left), no_sift};
+  frame_edges.right_descriptions = {std::move(patches.right), no_sift};
+  frame_edges.wide = unpack_wide(kept);
 }
 
 }  // namespace quadedge::frontend

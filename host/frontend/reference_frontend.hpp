@@ -11,11 +11,11 @@
 
 namespace quadedge::frontend {
 
-/// A rig with its images and the descriptors of its stereo edges.
+/// The edges of a frame with their images and the descriptors of the stereo edges.
 struct ReferenceFrameEdges : FrameEdges {
   Image left, right;
   reference::EdgeDescriptions left_descriptions, right_descriptions;
-  std::vector<std::uint8_t> wide;  ///< wide descriptors of all edges, only of a restored rig
+  std::vector<std::uint8_t> wide;  ///< wide descriptors of all edges, only of a restored frame
 };
 
 /// Optimised for clarity, not speed; single-threaded.
@@ -35,14 +35,14 @@ class ReferenceFrontend : public StagedFrontend {
                                     const std::optional<CoarseDisparityArguments>& coarse) override;
   void finish(FrameEdges& current) override;
   void tap_stereo() override;
-  void describe_by_sift(FrameEdges& rig) override;
+  void describe_by_sift(FrameEdges& frame_edges) override;
   void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
   TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
                                   const WideSubset& of_current) override;
-  std::shared_ptr<FrameEdges> spare() override { return rigs_.restored(); }
+  std::shared_ptr<FrameEdges> spare() override { return frames_.restored(); }
   void load(const KeptFrameEdges& kept, FrameEdges& restored) override;
-  FrameEdgesHandle current_handle() const override { return rigs_.current_handle(); }
-  ReferenceFrameEdges& own(const FrameEdges& rig) override { return rigs_.own(rig); }
+  FrameEdgesHandle current_handle() const override { return frames_.current_handle(); }
+  ReferenceFrameEdges& own(const FrameEdges& frame_edges) override { return frames_.own(frame_edges); }
   void tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result);
 
   reference::EdgeThreshold threshold_, smoothed_threshold_;
@@ -55,7 +55,7 @@ class ReferenceFrontend : public StagedFrontend {
   reference::StereoClusters clusters_;
   reference::StereoRelaxation relaxation_;
   StereoEdges seen_;  ///< the stereo edges where they lie in the right image
-  FrameEdgesPool<ReferenceFrameEdges> rigs_;
+  FrameEdgesPool<ReferenceFrameEdges> frames_;
 };
 
 }  // namespace quadedge::frontend

@@ -38,7 +38,7 @@ void ReferenceFrontend::tap_stereo() {
 }
 
 void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result) {
-  const StereoEdges& current = rigs_.current().edges;
+  const StereoEdges& current = frames_.current().edges;
   for (const Side side : kSides) {
     const bool is_left = side == Side::left;
     const PinholeCamera& camera = is_left ? calibration_.left : calibration_.right;

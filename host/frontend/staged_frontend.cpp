@@ -45,8 +45,8 @@ bool StagedFrontend::search_stereo(FrameEdges& current) {
   return gate_.suffices(tally) && range_suffices;
 }
 
-void StagedFrontend::match(const FrameEdges& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
-  FrameEdges& base = own(base_rig);
+void StagedFrontend::match(const FrameEdges& base_edges, const TemporalSearch& search, TemporalMatches& matches) {
+  FrameEdges& base = own(base_edges);
   if (tap_ != nullptr || temporal_limits(config_.temporal, search).sift_max > 0) {
     describe_by_sift(base);
     describe_by_sift(own(*current_handle()));

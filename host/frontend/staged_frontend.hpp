@@ -10,7 +10,7 @@
 
 namespace quadedge::frontend {
 
-/// Stereo edges that take part in a global search: every step-th of a rig's own edges, or of some of them.
+/// Stereo edges that take part in a global search: every step-th of a frame's own edges, or of some of them.
 struct WideSubset {
   const StereoEdges& edges;
   int step;
@@ -28,7 +28,7 @@ class StagedFrontend : public Frontend {
  protected:
   StagedFrontend(const StereoRig& rig, const Config& config);
 
-  /// Starts the next rig, with the undistorted images of `frame`.
+  /// Starts the next frame, with the undistorted images of `frame`.
   virtual FrameEdges& start(const StereoFrame& frame) = 0;
   /// Detects and selects the edges of both images. Sets their spacing and all counts of edges.
   virtual void detect(FrameEdges& current) = 0;
@@ -43,27 +43,27 @@ class StagedFrontend : public Frontend {
   virtual void finish(FrameEdges& current) = 0;
   /// Passes the stereo cascade to the tap, up to the last filter.
   virtual void tap_stereo() = 0;
-  /// Computes SIFT descriptors of a rig's stereo edges, unless they exist.
-  virtual void describe_by_sift(FrameEdges& rig) = 0;
+  /// Computes SIFT descriptors of a frame's stereo edges, unless they exist.
+  virtual void describe_by_sift(FrameEdges& frame_edges) = 0;
   virtual void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Matches by wide descriptors. Of a restored base all edges take part.
   virtual TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
                                           const WideSubset& of_current) = 0;
-  /// A rig that is not in use, for one that is restored.
+  /// Edges that are not in use, for those that are restored.
   virtual std::shared_ptr<FrameEdges> spare() = 0;
-  /// Takes over the kept descriptions of a rig whose edges are restored.
+  /// Takes over the kept descriptions of a frame whose edges are restored.
   virtual void load(const KeptFrameEdges& kept, FrameEdges& restored) = 0;
   virtual FrameEdgesHandle current_handle() const = 0;
-  /// The rig, to be changed. \throws std::invalid_argument for a rig of another front end
-  virtual FrameEdges& own(const FrameEdges& rig) = 0;
+  /// The edges, to be changed. \throws std::invalid_argument for those of another front end
+  virtual FrameEdges& own(const FrameEdges& frame_edges) = 0;
 
   EpipolarGeometry corrected_geometry() const {
     return corrected(range_.geometry(), rectification_.error(), calibration_);
   }
   bool corrects_rows() const { return rectification_.error().largest() > 0; }
-  /// All edges of a rig that a search for about `wanted` uses.
-  static WideSubset about(int wanted, const FrameEdges& rig) {
-    return {rig.edges, wide_step(rig.edges.size(), wanted)};
+  /// All edges of a frame that a search for about `wanted` uses.
+  static WideSubset about(int wanted, const FrameEdges& frame_edges) {
+    return {frame_edges.edges, wide_step(frame_edges.edges.size(), wanted)};
   }
 
   Config config_;

@@ -37,9 +37,9 @@ std::vector<const KeyRig*> EarlierRigs::nearest(const Eigen::Isometry3d& world_f
   return result;
 }
 
-const KeyRig* EarlierRigs::find(const frontend::FrameEdgesHandle& rig) const {
+const KeyRig* EarlierRigs::find(const frontend::FrameEdgesHandle& frame_edges) const {
   for (const Kept& kept : kept_)
-    if (kept.rig.rig() == rig) return &kept.rig;
+    if (kept.rig.frame_edges() == frame_edges) return &kept.rig;
   return nullptr;
 }
 

@@ -19,7 +19,7 @@ class EarlierRigs {
   /// Up to kEarlierTrials of them, in the order of how likely their views are similar to that of a frame at this pose.
   std::vector<const KeyRig*> nearest(const Eigen::Isometry3d& world_from_left) const;
   /// The key rig with these edges; null if it is not among them.
-  const KeyRig* find(const frontend::FrameEdgesHandle& rig) const;
+  const KeyRig* find(const frontend::FrameEdgesHandle& frame_edges) const;
   bool holds(int frame) const;
 
  private:

@@ -21,7 +21,7 @@ FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& r
       frontend_(frontend::make_frontend(rig, device, config, &warnings_)),
       rig_monitor_(rig, config.odometry.auto_mask) {}
 
-/// The previous rig is recycled unless somebody holds it.
+/// The previous frame is recycled unless somebody holds it.
 frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame) {
   current_ = nullptr;
   current_ = frontend_->process(frame);
@@ -36,7 +36,7 @@ rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
 }
 
 void FramePreparation::adopt(const rig::RigReport& report) {
-  const double change = report.matches != nullptr ? frontend_->take(*report.matches) : 0;
+  const double change = report.matches != nullptr ? frontend_->observe(*report.matches) : 0;
   if (change == 0) return;
   char text[160];
   std::snprintf(

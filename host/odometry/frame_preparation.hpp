@@ -36,7 +36,7 @@ class FramePreparation {
 
   /// \throws DataError for images that do not fit the rig
   void check(const StereoFrame& frame) const { recorded_.check(frame.left, frame.right); }
-  /// Turns the images into the front end's current rig.
+  /// Turns the images into the front end's current frame edges.
   frontend::FrameEdgesHandle process(const StereoFrame& frame);
   bool has_enough_edges() const { return static_cast<int>(current_->edges.size()) >= min_edges_; }
   /// Compares the images with the calibration; may run beside the search for matches.

@@ -10,7 +10,7 @@ namespace quadedge::odometry {
 /// Refers to parts of a StereoOdometry, which must outlive it.
 struct LatestFrame {
   frontend::Frontend& frontend;
-  frontend::FrameEdgesHandle rig;  ///< null before the first frame
+  frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame
   const DisparityOffset& offset;
 
   static LatestFrame of(const StereoOdometry& odometry);

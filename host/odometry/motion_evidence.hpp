@@ -22,11 +22,11 @@ class MotionEvidence {
   /// but less than the true motion.
   void judge(const EdgePositions& predicted, MotionStep& step);
 
-  /// Whether most inliers of `found` also agree with the motion `other` since the same rig.
+  /// Whether most inliers of `found` also agree with the motion `other` since the same frame.
   bool is_same_motion(const MotionStep& found, const Eigen::Isometry3d& other) const;
 
   /// Explained area of `found` in cells that do not follow the motion of `other`, without edges that the latter
-  /// explains closely as well. \param motion that of `other`, since the rig of `found`
+  /// explains closely as well. \param motion that of `other`, since the base of `found`
   double area_beside(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& motion) const;
 
   /// What `other` explains closely of the image while `chosen` is off by more than `distance` [px].

@@ -35,7 +35,7 @@ void collect_free(const ExplainedCells& cells, const std::vector<float>& x, cons
 }  // namespace
 
 StepHandle MotionFits::new_step(const frontend::FrameEdgesHandle& base) {
-  StepHandle step = steps_.take();
+  StepHandle step = steps_.acquire();
   step->base = base;
   return step;
 }
@@ -51,9 +51,9 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
   pose_ms_ += milliseconds_since(start);
 }
 
-const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& rig) const {
-  if (!offset_.has_jumped()) return rig.measured_edges(calibration(), kMinEpipolarAngle);
-  return rig.measured_edges(offset_.rig_at(rig.frame), kMinEpipolarAngle);
+const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& frame_edges) const {
+  if (!offset_.has_jumped()) return frame_edges.measured_edges(calibration(), kMinEpipolarAngle);
+  return frame_edges.measured_edges(offset_.rig_at(frame_edges.frame), kMinEpipolarAngle);
 }
 
 PoseConfig limits_of_proposals(const Config& config) {

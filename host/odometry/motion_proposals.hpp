@@ -32,8 +32,8 @@ class MotionFits {
   /// Time spent in fit() since the last call [ms].
   double take_pose_ms() { return std::exchange(pose_ms_, 0); }
 
-  /// The rig's edges, measured with the calibration of its frame.
-  const pose::MeasuredEdges& measured(const frontend::FrameEdges& rig) const;
+  /// The edges, measured with the calibration of their frame.
+  const pose::MeasuredEdges& measured(const frontend::FrameEdges& frame_edges) const;
   /// The calibration of the current frame, corrected by the disparity offset estimated so far.
   const StereoRig& calibration() const { return offset_.rig(); }
 

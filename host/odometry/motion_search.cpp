@@ -53,12 +53,12 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   Candidates candidates;
   std::vector<Verdict> verdicts;
   Selection selection;
-  for (Effort effort = Effort::prediction;; effort = selection.needed) {
-    attempt_all(effort, query, candidates);
-    if (effort == Effort::prediction) follow_jump(query, candidates);
+  for (SearchLevel level = SearchLevel::prediction;; level = selection.needed) {
+    attempt_all(level, query, candidates);
+    if (level == SearchLevel::prediction) follow_jump(query, candidates);
     verdicts = verdicts_on(candidates, query);
     selection = choose(verdicts, candidates, query);
-    if (query.is_near_prediction || selection.needed <= effort) break;
+    if (query.is_near_prediction || selection.needed <= level) break;
   }
   const bool is_checked = selection.refusal == Refusal::none && !query.is_near_prediction &&
                           record_.is_check_due(verdicts.at(selection.chosen));
@@ -86,7 +86,7 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
   if (!jump || !jump->is_certain(jumps_->has_jumped() ? kLaterJump : kFirstJump)) return;
   jumps_->set_jump(jump->shift);
   Candidates displaced;
-  attempt_all(Effort::prediction, query, displaced);
+  attempt_all(SearchLevel::prediction, query, displaced);
   const auto area = [](const Candidates& of) {
     return of.front().is_confirmed() ? of.front().confirmed->explained.area : 0;
   };
@@ -97,14 +97,14 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
   }
 }
 
-/// Tries the hypotheses of a level of effort that have not been tried. They come in an order in which each has what it
+/// Tries the hypotheses of a level that have not been tried. They come in an order in which each has what it
 /// builds on.
-void MotionSearch::attempt_all(Effort effort, const MotionQuery& query, Candidates& candidates) {
-  if (effort == Effort::prediction) return attempt(Hypothesis::near_prediction, query, candidates);
+void MotionSearch::attempt_all(SearchLevel level, const MotionQuery& query, Candidates& candidates) {
+  if (level == SearchLevel::prediction) return attempt(Hypothesis::near_prediction, query, candidates);
   attempt(Hypothesis::still_camera, query, candidates);
   if (config_.temporal.wide_edges == 0) {
     attempt(Hypothesis::wide_radius, query, candidates);
-  } else if (effort == Effort::everything) {
+  } else if (level == SearchLevel::everything) {
     attempt(Hypothesis::global_matches, query, candidates);
     attempt(Hypothesis::rest_of_global_matches, query, candidates);
   }
@@ -177,7 +177,7 @@ void MotionSearch::use_support_of_base(const MotionQuery& query, const PoseConfi
     by_key.explained.support = std::max(by_key.explained.support, by_base->explained.support);
 }
 
-/// Matches all edges of a rig within a few pixels of the positions that a motion predicts, and repeats this with the
+/// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
 /// motion found until the predicted positions no longer change.
 StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query,
                                       const PoseConfig& limits, Eigen::Isometry3d current_from_base,

@@ -1,5 +1,5 @@
 #pragma once
-/// \file motion_search.hpp  Finds the motion of the current stereo edges since an earlier rig.
+/// \file motion_search.hpp  Finds the motion of the current stereo edges since an earlier frame.
 
 #include <vector>
 
@@ -14,7 +14,7 @@
 
 namespace quadedge::odometry {
 
-/// Tries hypotheses about the motion with growing effort. Each proposal, made from a subset of the edges, is confirmed
+/// Tries hypotheses about the motion level by level. Each proposal, made from a subset of the edges, is confirmed
 /// with all edges; select() chooses among the verdicts and says whether more has to be tried.
 class MotionSearch : public MotionFinder {
  public:
@@ -57,7 +57,7 @@ class MotionSearch : public MotionFinder {
 
   static bool is_close_to_another(Hypothesis hypothesis);
   void follow_jump(const MotionQuery& query, Candidates& candidates);
-  void attempt_all(Effort effort, const MotionQuery& query, Candidates& candidates);
+  void attempt_all(SearchLevel level, const MotionQuery& query, Candidates& candidates);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,

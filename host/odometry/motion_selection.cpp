@@ -62,10 +62,10 @@ Ambiguity ambiguity_of(std::size_t chosen, const std::vector<Verdict>& verdicts,
 /// A confident prediction that explains the image ends the search. If a part of the image moves differently, the
 /// inexpensive hypotheses are tried as well; if most of it does, if the last motion was ambiguous, or if one of them
 /// explains more, everything.
-Effort effort_for(const Verdict& chosen, bool is_expected, bool was_ambiguous) {
-  if (was_ambiguous || !is_expected || chosen.moving_ratio > kMinorityMotionRatio) return Effort::everything;
+SearchLevel level_for(const Verdict& chosen, bool is_expected, bool was_ambiguous) {
+  if (was_ambiguous || !is_expected || chosen.moving_ratio > kMinorityMotionRatio) return SearchLevel::everything;
   const bool is_open = chosen.moving_ratio > kSecondaryMotionRatio || chosen.static_ratio > kStaticQuadRatio;
-  return is_open ? Effort::inexpensive : Effort::prediction;
+  return is_open ? SearchLevel::inexpensive : SearchLevel::prediction;
 }
 
 /// A ratio as a percentage.
@@ -119,7 +119,7 @@ Selection select(const std::vector<Verdict>& verdicts, const Expectation& expect
   const Verdict& chosen = verdicts[selection.chosen];
   const bool is_expected = chosen.is_confirmed() && selection.chosen == expectation.predicted &&
                            chosen.support >= expectation.confident_support;
-  selection.needed = effort_for(chosen, is_expected, expectation.was_ambiguous);
+  selection.needed = level_for(chosen, is_expected, expectation.was_ambiguous);
   selection.refusal = chosen.refusal;
   if (!chosen.is_confirmed()) return selection;
   if (!is_expected && !chosen.agrees_globally) selection.refusal = Refusal::contradicted;

@@ -47,7 +47,7 @@ struct Verdict : Explained {
 };
 
 /// How much is tried to find a motion. Each level includes those before.
-enum class Effort {
+enum class SearchLevel {
   prediction,   ///< the search near the prediction only
   inexpensive,  ///< hypotheses that cost little beside the rest of a frame
   everything    ///< global matches, which take as long as the rest of a frame
@@ -92,7 +92,7 @@ struct Selection {
   std::size_t chosen = 0;                   ///< index of its verdict
   Refusal refusal = Refusal::no_consensus;  ///< none: it is the camera's motion as far as the images tell
   Ambiguity ambiguity;
-  Effort needed = Effort::everything;  ///< if less was tried, the choice is preliminary
+  SearchLevel needed = SearchLevel::everything;  ///< if less was tried, the choice is preliminary
 };
 
 /// Comparisons of two motions by the indices of their verdicts.

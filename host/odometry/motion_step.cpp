@@ -81,10 +81,11 @@ void MotionStep::clear() {
   is_checked = false;
 }
 
-Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& rig, const MotionQuery& query,
+Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& frame_edges, const MotionQuery& query,
                                const MotionStep& step) {
-  if (step.base == rig) return step.motion.current_from_previous;
-  return step.motion.current_from_previous * (rig == query.base ? query.base_from_key.inverse() : query.base_from_key);
+  if (step.base == frame_edges) return step.motion.current_from_previous;
+  return step.motion.current_from_previous *
+         (frame_edges == query.base ? query.base_from_key.inverse() : query.base_from_key);
 }
 
 }  // namespace quadedge::odometry

@@ -1,5 +1,5 @@
 #pragma once
-/// \file motion_step.hpp  The motion from an earlier rig to the current one: the query, and what is found.
+/// \file motion_step.hpp  The motion from an earlier frame to the current one: the query, and what is found.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace quadedge::odometry {
 /// What is known about the current frame before its edges are matched with earlier ones.
 struct MotionQuery {
   frontend::FrameEdgesHandle current;
-  frontend::FrameEdgesHandle base;  ///< the rig that the motion starts from
+  frontend::FrameEdgesHandle base;  ///< the edges that the motion starts from
   frontend::FrameEdgesHandle key;   ///< the key rig, preferred while in view; null if the base is the key rig
   Eigen::Isometry3d base_from_key = Eigen::Isometry3d::Identity();  ///< valid if `key` is not null
   std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
@@ -68,9 +68,9 @@ class ExplainedCells {
   std::vector<ExplainedCell> cells_;
 };
 
-/// Quads between an earlier rig and the current one, and the motion that they support.
+/// Quads between an earlier frame and the current one, and the motion that they support.
 struct MotionStep {
-  frontend::FrameEdgesHandle base;  ///< the earlier rig
+  frontend::FrameEdgesHandle base;  ///< the earlier frame
   TemporalMatches matches;
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
@@ -90,21 +90,22 @@ struct MotionStep {
   bool has_motion() const { return motion.status == pose::MotionStatus::ok; }
   /// Mean inverse depth of the inliers in the earlier left camera [1/m]; 0 without inliers.
   double mean_inverse_depth() const;
-  /// Releases the rig and keeps the memory.
+  /// Releases the edges and keeps the memory.
   void clear();
 };
 
-/// A step's motion since `rig`, which, like the step's own rig, is the query's base or key.
-Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& rig, const MotionQuery& query, const MotionStep& step);
+/// A step's motion since `frame_edges`, which, like the step's own base, is the query's base or key.
+Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& frame_edges, const MotionQuery& query,
+                               const MotionStep& step);
 
 /// A step from a pool.
 using StepHandle = Pool<MotionStep>::Handle;
 
-/// Finds the motion of the current stereo edges since an earlier rig.
+/// Finds the motion of the current stereo edges since an earlier frame.
 class MotionFinder {
  public:
   virtual ~MotionFinder() = default;
-  /// Returns the motion of the query's current rig, accepted or refused with the reason. The finder must outlive the
+  /// Returns the motion of the query's current frame, accepted or refused with the reason. The finder must outlive the
   /// handle. The same query gives the same result until remember() is called.
   virtual StepHandle find(const MotionQuery& query) = 0;
   /// Takes note of the motion that was chosen for a frame.

@@ -52,7 +52,7 @@ constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurrounding
 constexpr double kRepeatedOtherPart = 0.25;
 
 /// Lists of edges in cells that the chosen motion does not explain are thinned once they reach temporal.wide_edges (of
-/// the current rig: twice that), but to no fewer than it divided by this.
+/// the current frame: twice that), but to no fewer than it divided by this.
 constexpr int kFreeCellThinning = 2;
 
 /// The rest of the image is searched for another motion after this number of frames, or earlier if the moving ratio has

@@ -55,7 +55,7 @@ TemporalMatches propagate(const TemporalMatches& from_key, const TemporalMatches
 }
 
 StepHandle PaperSearch::new_step(const frontend::FrameEdgesHandle& base) {
-  StepHandle step = steps_.take();
+  StepHandle step = steps_.acquire();
   step->base = base;
   return step;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// \file paper_search.hpp  The motion as the paper finds it (section 6): quads between adjacent rigs, propagated to the
-/// key rig through the rigs between.
+/// \file paper_search.hpp  The motion as the paper finds it (section 6): quads between adjacent frames, propagated to
+/// the key rig through the frames between.
 
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
@@ -10,7 +10,7 @@
 
 namespace quadedge::odometry {
 
-/// Quads with the key rig: those of the key rig and an earlier rig, each continued by all quads of that rig and the
+/// Quads with the key rig: those of the key rig and an earlier frame, each continued by all quads of that frame and the
 /// current one that start at the edge where it ends. Pairs of edges that are reached twice count once.
 TemporalMatches propagate(const TemporalMatches& from_key, const TemporalMatches& from_earlier);
 

@@ -196,7 +196,7 @@ void StereoOdometry::Implementation::restart() {
   state_.world_from_last = before.world_from_last;
 }
 
-/// Turns the images into the current rig.
+/// Turns the images into the current frame's edges.
 void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResult& result) {
   step_ = nullptr;
   current_ = nullptr;
@@ -242,24 +242,24 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
 /// the motion since the lost frame is tried.
 odometry::StepHandle StereoOdometry::Implementation::search() {
   offset_.start_frame(current_->frame, [&](int frame) {
-    return frame == state_.base.rig->frame || frame == state_.key.frame() ||
-           (state_.lost && frame == state_.lost->rig->frame) || earlier_.holds(frame);
+    return frame == state_.base.frame_edges->frame || frame == state_.key.frame() ||
+           (state_.lost && frame == state_.lost->frame_edges->frame) || earlier_.holds(frame);
   });
   odometry::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
-  query.base = state_.base.rig;
-  query.prediction = velocity_.predict(current_->frame - state_.base.rig->frame);
-  query.accepts_ambiguous = current_->frame - state_.base.rig->frame == 1;
+  query.base = state_.base.frame_edges;
+  query.prediction = velocity_.predict(current_->frame - state_.base.frame_edges->frame);
+  query.accepts_ambiguous = current_->frame - state_.base.frame_edges->frame == 1;
   if (!state_.base_is_key()) {
-    query.key = state_.key.rig();
+    query.key = state_.key.frame_edges();
     query.base_from_key = state_.base.from_key.transform;
   }
   odometry::StepHandle found = motion_search_->find(query);
   if (found->ok()) return found;
   if (odometry::StepHandle returned = search_earlier(query)) return returned;
   if (!state_.lost) return found;
-  query.base = state_.lost->rig;
+  query.base = state_.lost->frame_edges;
   query.key = nullptr;
   query.prediction = std::nullopt;
   query.accepts_ambiguous = true;
@@ -277,7 +277,7 @@ odometry::StepHandle StereoOdometry::Implementation::search_earlier(odometry::Mo
   odometry::StepHandle best;
   Eigen::Isometry3d world_from_best = Eigen::Isometry3d::Identity();
   for (const odometry::KeyRig* rig : earlier_.nearest(state_.world_from_last)) {
-    query.base = rig->rig();
+    query.base = rig->frame_edges();
     odometry::StepHandle found = motion_search_->find(query);
     if (!found->ok() || found->verdict.support < odometry::kChanceSupport) continue;
     const Eigen::Isometry3d world_from_found = rig->world_from_left() * found->motion.current_from_previous.inverse();
@@ -295,7 +295,7 @@ odometry::StepHandle StereoOdometry::Implementation::search_earlier(odometry::Mo
 void StereoOdometry::Implementation::adopt(odometry::StepHandle found, FrameResult& result) {
   step_ = std::move(found);
   motion_search_->remember(*step_);
-  if (state_.lost && step_->base == state_.lost->rig) start_segment(result);
+  if (state_.lost && step_->base == state_.lost->frame_edges) start_segment(result);
   if (step_->ok()) return_to_earlier(result);
   result.counts.temporal_left = step_->matches.alive_left;
   result.counts.temporal_right = step_->matches.alive_right;
@@ -305,11 +305,11 @@ void StereoOdometry::Implementation::adopt(odometry::StepHandle found, FrameResu
 /// If the motion was found from an earlier key rig, makes that the key rig again. Nothing is known of the velocity.
 void StereoOdometry::Implementation::return_to_earlier(FrameResult& result) {
   const odometry::KeyRig* found = earlier_.find(step_->base);
-  has_returned_ = found != nullptr && step_->base != state_.base.rig && step_->base != state_.key.rig();
+  has_returned_ = found != nullptr && step_->base != state_.base.frame_edges && step_->base != state_.key.frame_edges();
   if (!has_returned_) return;
   const odometry::KeyRig earlier = *found;
   if (!key_is_ambiguous_) earlier_.remember(state_.key, step_->mean_inverse_depth());
-  state_.set_key(earlier.rig(), earlier.pose());
+  state_.set_key(earlier.frame_edges(), earlier.pose());
   key_is_ambiguous_ = false;
   velocity_.forget();
   add_message("located against frame " + std::to_string(earlier.frame()) + ", not since the last frame", result);
@@ -318,10 +318,11 @@ void StereoOdometry::Implementation::return_to_earlier(FrameResult& result) {
 /// Makes the lost frame the key rig of a new segment, in which its predicted pose counts as exact.
 void StereoOdometry::Implementation::start_segment(FrameResult& result) {
   const auto number = [](int of) { return std::to_string(of); };
-  const int last = state_.base.rig->frame, lost = state_.lost->rig->frame, segment = ++state_.segment;
+  const int last = state_.base.frame_edges->frame, lost = state_.lost->frame_edges->frame, segment = ++state_.segment;
   earlier_.clear();
   key_is_ambiguous_ = false;
-  state_.set_key(state_.lost->rig, {state_.lost->world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()},
+  state_.set_key(state_.lost->frame_edges,
+                 {state_.lost->world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()},
                  odometry::PoseOrigin::predicted);
   add_message("segment " + number(segment) + " starts: relocalised against frame " + number(lost) +
                   ", whose pose was predicted",
@@ -359,11 +360,11 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, co
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
 /// becomes the key rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
-  const bool by_key = step.base == state_.key.rig();
+  const bool by_key = step.base == state_.key.frame_edges();
   pose::RelativePose current_from_key = step.motion.adopted();
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
   const Eigen::Isometry3d current_from_base = current_from_key.transform * state_.base.from_key.transform.inverse();
-  const int frames = current_->frame - state_.base.rig->frame;
+  const int frames = current_->frame - state_.base.frame_edges->frame;
   if (!has_returned_) velocity_.observe(current_from_base, frames);
   if (frames == 1) {
     if (const auto late = preparation_.rig_monitor().observe_motion(current_from_base))
@@ -415,8 +416,8 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   result.predicted_world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
   result.reference_frame = state_.key.frame();
   if (status == FrameStatus::lost_too_few_edges || status == FrameStatus::lost_rig_mismatch) return;
-  if (!state_.base_is_key()) state_.set_key(state_.base.rig, state_.world_from_base());
-  state_.lost = odometry::LostRig{current_, *result.predicted_world_from_left};
+  if (!state_.base_is_key()) state_.set_key(state_.base.frame_edges, state_.world_from_base());
+  state_.lost = odometry::LostFrame{current_, *result.predicted_world_from_left};
 }
 
 FrameDetails StereoOdometry::Implementation::details() const {

@@ -55,61 +55,62 @@ double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std
 /// Whether the pose of a key rig was measured or predicted.
 enum class PoseOrigin { found, predicted };
 
-/// A rig with a known world pose, and its initial number of quads.
+/// A frame with a known world pose, and its initial number of quads.
 class KeyRig {
  public:
   /// No key rig.
   KeyRig() = default;
-  KeyRig(frontend::FrameEdgesHandle rig, pose::UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
-      : rig_(std::move(rig)), pose_(std::move(pose)), origin_(origin) {}
+  KeyRig(frontend::FrameEdgesHandle frame_edges, pose::UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
+      : frame_edges_(std::move(frame_edges)), pose_(std::move(pose)), origin_(origin) {}
 
-  const frontend::FrameEdgesHandle& rig() const { return rig_; }
-  /// Frame number of the rig; -1 if there is none.
-  int frame() const { return rig_ ? rig_->frame : -1; }
+  const frontend::FrameEdgesHandle& frame_edges() const { return frame_edges_; }
+  /// Frame number; -1 if there is none.
+  int frame() const { return frame_edges_ ? frame_edges_->frame : -1; }
   const Eigen::Isometry3d& world_from_left() const { return pose_.fixed_from_camera; }
   /// World pose with covariance.
   const pose::UncertainPose& pose() const { return pose_; }
 
   /// Whether the current frame should become the key rig, see doc/method.md section 7. The first frame sets the
-  /// reference for the number of quads. A rig whose pose was predicted serves for one frame only.
+  /// reference for the number of quads. A key rig whose pose was predicted serves for one frame only.
   bool needs_replacement(const KeyRigFitness& fitness, const OdometryConfig& config);
 
  private:
-  frontend::FrameEdgesHandle rig_;
+  frontend::FrameEdgesHandle frame_edges_;
   pose::UncertainPose pose_;  ///< in the world
   PoseOrigin origin_ = PoseOrigin::found;
   int first_quads_ = -1;  ///< of the first frame located against it
 };
 
-/// The rig that the next frame is matched with: that of the last frame with a pose, which may be the key rig.
-struct BaseRig {
-  frontend::FrameEdgesHandle rig;  ///< null before the first frame with edges
-  pose::RelativePose from_key;     ///< base_from_key, left cameras
-  pose::UncertainPose in_key;      ///< the same motion, as key_from_base
+/// The edges that the next frame is matched with: those of the last frame with a pose, which may be the key rig's.
+struct BaseFrame {
+  frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame with edges
+  pose::RelativePose from_key;             ///< base_from_key, left cameras
+  pose::UncertainPose in_key;              ///< the same motion, as key_from_base
 };
 
 /// The latest frame that has edges but no pose.
-struct LostRig {
-  frontend::FrameEdgesHandle rig;
+struct LostFrame {
+  frontend::FrameEdgesHandle frame_edges;
   Eigen::Isometry3d world_from_left;  ///< predicted
 };
 
-/// Holds the rigs that later frames need; releasing a rig returns its memory to the front end.
+/// Holds the edges that later frames need; releasing them returns their memory to the front end.
 struct TrackingState {
-  BaseRig base;
+  BaseFrame base;
   KeyRig key;
-  std::optional<LostRig> lost;  ///< set from a loss until the next frame with a pose; the base is then the key rig
-  int segment = 0;              ///< see FrameResult::segment
+  std::optional<LostFrame> lost;  ///< set from a loss until the next frame with a pose; the base is then the key rig
+  int segment = 0;                ///< see FrameResult::segment
   Eigen::Isometry3d world_from_last = Eigen::Isometry3d::Identity();  ///< pose of the last frame, measured or predicted
 
-  bool has_started() const { return base.rig != nullptr; }
-  bool base_is_key() const { return base.rig == key.rig(); }
+  bool has_started() const { return base.frame_edges != nullptr; }
+  bool base_is_key() const { return base.frame_edges == key.frame_edges(); }
   pose::UncertainPose world_from_base() const { return key.pose() * base.in_key; }
 
-  /// Makes a rig the key rig and the base.
-  void set_key(frontend::FrameEdgesHandle rig, const pose::UncertainPose& pose, PoseOrigin origin = PoseOrigin::found) {
-    key = KeyRig(rig, pose, origin);
-    base = {std::move(rig), {}, {}};
+  /// Makes a frame the key rig and the base.
+  void set_key(frontend::FrameEdgesHandle frame_edges, const pose::UncertainPose& pose,
+               PoseOrigin origin = PoseOrigin::found) {
+    key = KeyRig(frame_edges, pose, origin);
+    base = {std::move(frame_edges), {}, {}};
   }
 };
 

@@ -53,7 +53,7 @@ std::vector<Cluster> clusters_of(const std::vector<Hypothesis>& hypotheses);
 
 // The stereo cascade of the paper (section 5.1, Table 1).
 
-/// One image of a rig, and all of its edges.
+/// One image of a frame, and all of its edges.
 struct View {
   Picture picture;
   EdgeSet edges;
@@ -78,7 +78,7 @@ StereoEdges stereo_edges(const StereoMatching& matching, const EdgeSet& left, co
 
 // The temporal cascade of the paper (section 5.2, Table 2): each image by itself, then quads.
 
-/// The stereo edges of a rig as one of its cameras sees them.
+/// The stereo edges of a frame as one of its cameras sees them.
 struct StereoEdgesInView {
   const Picture& picture;
   EdgePositionsView edges;
@@ -86,7 +86,7 @@ struct StereoEdgesInView {
   int width, height;  ///< of the image [px]
 };
 
-/// Candidates in one image after each filter. Row i is stereo edge i of the earlier rig.
+/// Candidates in one image after each filter. Row i is stereo edge i of the earlier frame.
 struct SideMatching {
   reference::Candidates candidates;            ///< after displacement and orientation
   reference::CandidateScores scores;           ///< and the decisions of the filters on them
@@ -111,7 +111,7 @@ struct Quad {
 /// The quads of one row, at most one per pair of clusters.
 std::vector<Quad> close_loop(const std::vector<Cluster>& left, const std::vector<Cluster>& right);
 
-/// All quads of two rigs, in the order of the previous edges, of which each may own several.
+/// All quads of two frames, in the order of the previous edges, of which each may own several.
 TemporalMatches quads_of(const SideMatching& left, const SideMatching& right);
 
 }  // namespace quadedge::paper

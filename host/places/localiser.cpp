@@ -42,8 +42,8 @@ bool agree(const Match& one, const Match& other) {
   return Eigen::AngleAxisd(error.linear()).angle() + depth_shift < kSamePlace;
 }
 
-/// Whether a key rig sees the scene from elsewhere than the frame, by the location that a match gives.
-bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
+/// Whether a key rig sees the scene from another place than the frame, by the location that a match gives.
+bool sees_other_place(const Match& match, const Eigen::Isometry3d& map_from_key) {
   const Eigen::Isometry3d motion = map_from_key.inverse() * match.map_from_left;
   return odometry::view_change(motion, match.inverse_depth) > odometry::kSameView;
 }
@@ -99,7 +99,7 @@ const Match* lose(LocalisationStatus status, const std::string& message, Localis
   return nullptr;
 }
 
-std::string rig_text(const Match& match) { return "key rig " + std::to_string(match.place->rig.frame); }
+std::string rig_text(const Match& match) { return "key rig " + std::to_string(match.place->kept.frame); }
 
 const Match* lose_between(const Match& one, const Match& other, Localisation& result) {
   return lose(LocalisationStatus::lost_ambiguous, "two places match: " + rig_text(one) + " and " + rig_text(other),
@@ -137,14 +137,14 @@ class Localiser::Implementation {
 
  private:
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
-  void locate(const frontend::FrameEdgesHandle& rig, Localisation& result);
-  bool follow(const frontend::FrameEdgesHandle& rig, Localisation& result);
-  std::optional<Match> compare(const places::Place& place, const frontend::FrameEdgesHandle& rig,
+  void locate(const frontend::FrameEdgesHandle& frame_edges, Localisation& result);
+  bool follow(const frontend::FrameEdgesHandle& frame_edges, Localisation& result);
+  std::optional<Match> compare(const places::Place& place, const frontend::FrameEdgesHandle& frame_edges,
                                const std::optional<Eigen::Isometry3d>& map_from_left);
   static const Match* judge(const std::vector<Match>& matches, Localisation& result);
   std::optional<Match> find_rival(const Match& best, const SimilarPlaces& similar, std::size_t next,
-                                  const frontend::FrameEdgesHandle& rig);
-  void take(const Match& match, Localisation& result) const;
+                                  const frontend::FrameEdgesHandle& frame_edges);
+  void set_location(const Match& match, Localisation& result) const;
 
   SavedMap map_;
   bool follow_;
@@ -162,14 +162,14 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   const auto start = Clock::now();
   Localisation result;
   result.stamp_ns = frame.stamp_ns;
-  const frontend::FrameEdgesHandle rig = preparation_.process(frame);
+  const frontend::FrameEdgesHandle frame_edges = preparation_.process(frame);
   const rig::RigReport report = preparation_.judge(frame);
   if (const auto fault = preparation_.fault(report)) {
     lose(fault->status == FrameStatus::lost_rig_mismatch ? LocalisationStatus::lost_rig_mismatch
                                                          : LocalisationStatus::lost_too_few_edges,
          fault->text, result);
-  } else if (!follow(rig, result)) {
-    locate(rig, result);
+  } else if (!follow(frame_edges, result)) {
+    locate(frame_edges, result);
   }
   result.warnings = preparation_.new_warnings();
   if (last_ && result.map_from_left)
@@ -183,7 +183,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
 }
 
 /// Tries the key rig nearest to the predicted pose: 1 rad counts as much as 1 m.
-bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& rig, Localisation& result) {
+bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& frame_edges, Localisation& result) {
   const auto motion = velocity_.predict(1);
   if (!follow_ || !last_ || !motion) return false;
   const Eigen::Isometry3d predicted = *last_ * motion->inverse();
@@ -195,15 +195,15 @@ bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& rig, Lo
   const auto nearest = std::min_element(places.begin(), places.end(), [&](const auto& one, const auto& other) {
     return distance(one) < distance(other);
   });
-  const auto match = compare(*nearest, rig, predicted);
+  const auto match = compare(*nearest, frame_edges, predicted);
   if (!match || !is_certain(*match)) return false;
   result.is_followed = true;
-  take(*match, result);
+  set_location(*match, result);
   return true;
 }
 
 /// Compares the frame with the most similar key rigs, and with more of them while it is lost.
-void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& rig, Localisation& result) {
+void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& frame_edges, Localisation& result) {
   const places::PlaceSignature signature = places::place_signature(frontend().keep());
   const auto may_be = [](const places::Place&) { return true; };
   const auto similar =
@@ -211,14 +211,14 @@ void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& rig, Lo
   result.message = "the map has no key rigs";
   std::vector<Match> matches;
   for (std::size_t k = 0; k < similar.size(); ++k) {
-    if (auto match = compare(*similar[k].place, rig, std::nullopt)) matches.push_back(*match);
+    if (auto match = compare(*similar[k].place, frame_edges, std::nullopt)) matches.push_back(*match);
     const bool is_last = k + 1 == similar.size() || (k + 1) % places::kCandidates == 0;
     const Match* best = is_last ? judge(matches, result) : nullptr;
     if (best == nullptr) continue;
-    if (const auto rival = find_rival(*best, similar, k + 1, rig))
+    if (const auto rival = find_rival(*best, similar, k + 1, frame_edges))
       lose_between(*best, *rival, result);
     else
-      take(*best, result);
+      set_location(*best, result);
     return;
   }
 }
@@ -226,11 +226,12 @@ void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& rig, Lo
 /// Searches further key rigs, from places that the located frame does not see, for one that matches all the same,
 /// ambiguously or not.
 std::optional<Match> Localiser::Implementation::find_rival(const Match& best, const SimilarPlaces& similar,
-                                                           std::size_t next, const frontend::FrameEdgesHandle& rig) {
+                                                           std::size_t next,
+                                                           const frontend::FrameEdgesHandle& frame_edges) {
   for (; next < similar.size(); ++next) {
     const places::Place& place = *similar[next].place;
-    if (!is_elsewhere(best, map_.places().poses[static_cast<std::size_t>(place.node)])) continue;
-    auto match = compare(place, rig, std::nullopt);
+    if (!sees_other_place(best, map_.places().poses[static_cast<std::size_t>(place.node)])) continue;
+    auto match = compare(place, frame_edges, std::nullopt);
     if (match && is_supported(*match) && !agree(*match, best)) return match;
   }
   return std::nullopt;
@@ -263,12 +264,12 @@ const Match* Localiser::Implementation::judge(const std::vector<Match>& matches,
 
 /// Searches for the motion from a place, near a predicted pose if there is one.
 std::optional<Match> Localiser::Implementation::compare(const places::Place& place,
-                                                        const frontend::FrameEdgesHandle& rig,
+                                                        const frontend::FrameEdgesHandle& frame_edges,
                                                         const std::optional<Eigen::Isometry3d>& map_from_left) {
   const Eigen::Isometry3d& map_from_key = map_.places().poses[static_cast<std::size_t>(place.node)];
   odometry::MotionQuery query;
-  query.current = rig;
-  query.base = frontend().restore(place.rig);
+  query.current = frame_edges;
+  query.base = frontend().restore(place.kept);
   query.seed = config_.seed;
   if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
   const odometry::StepHandle step = search_.find(query);
@@ -280,7 +281,7 @@ std::optional<Match> Localiser::Implementation::compare(const places::Place& pla
                step->ambiguity};
 }
 
-void Localiser::Implementation::take(const Match& match, Localisation& result) const {
+void Localiser::Implementation::set_location(const Match& match, Localisation& result) const {
   pose::UncertainPose key_from_left = pose::pose_in_earlier(match.current_from_key);
   key_from_left.by_rig = pose::rig_sensitivity(key_from_left.fixed_from_camera, match.inverse_depth);
   const pose::UncertainPose map_from_key{map_.places().poses[static_cast<std::size_t>(match.place->node)]};
@@ -288,7 +289,7 @@ void Localiser::Implementation::take(const Match& match, Localisation& result) c
   result.message.clear();
   result.map_from_left = match.map_from_left;
   result.covariance = pose::whole_covariance(map_from_key * key_from_left, config_.pose);
-  result.key_rig = match.place->rig.frame;
+  result.key_rig = match.place->kept.frame;
   result.inliers = match.inliers;
   result.support = match.support;
 }

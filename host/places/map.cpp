@@ -36,13 +36,13 @@ constexpr double kCovered = 3;
 constexpr double kMostChange = 1;
 
 /// A closure within a segment is worth its search if the map's motion has this many times the variance of a motion
-/// since the key rig. A closure has about four times that variance, since a kept rig has a fraction of the edges.
+/// since the key rig. A closure has about four times that variance, since a kept frame has a fraction of the edges.
 constexpr double kWorthwhile = 12;
 
 /// A node is not kept as a place if its view differs by less than this from that of one of the latest places [rad].
 constexpr double kNewView = 0.15;
 
-/// Number of closures that wait for a witness. A witness is found in the rigs that follow, or not at all.
+/// Number of closures that wait for another that agrees. One is found in the frames that follow, or not at all.
 constexpr std::size_t kMostPending = 20;
 
 /// Where a frame lies.
@@ -111,7 +111,7 @@ class Map::Implementation {
   bool is_rival(const places::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
   void reject_contradictions(const std::vector<ListedClosure>& joining);
   bool decide(const ListedClosure& closure);
-  bool agree(GraphEdge witness, const GraphEdge& edge) const;
+  bool agree(GraphEdge confirming, const GraphEdge& edge) const;
   void keep(const ListedClosure& closure);
   LocatedFrame& frame(int number) { return frames_[static_cast<std::size_t>(number)]; }
   std::map<int, int> frames_of_segments() const;
@@ -173,10 +173,10 @@ bool Map::Implementation::add(const FrameResult& result) {
   return changed;
 }
 
-/// Mean inverse depth of the current rig's edges [1/m].
+/// Mean inverse depth of the current frame's edges [1/m].
 double Map::Implementation::mean_inverse_depth() const {
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
-  const auto& edges = now.rig->measured_edges(now.offset.rig(), kMinEpipolarAngle);
+  const auto& edges = now.frame_edges->measured_edges(now.offset.rig(), kMinEpipolarAngle);
   double sum = 0, count = 0;
   for (const auto& edge : edges) {
     if (!edge) continue;
@@ -227,7 +227,7 @@ bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
   return motion.measured.covariance.trace() > kWorthwhile * last_motion_.measured.covariance.trace();
 }
 
-/// Compares the current rig, which is a node, with places, and keeps it unless that adds no view.
+/// Compares the current frame, which is a node, with places, and keeps it unless that adds no view.
 bool Map::Implementation::recognise(int node) {
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   const double inverse_depth = mean_inverse_depth();
@@ -242,7 +242,7 @@ bool Map::Implementation::recognise(int node) {
     return false;
   }
   places::Place place{now.frontend.keep(), {}, node};
-  place.signature = places::place_signature(place.rig);
+  place.signature = places::place_signature(place.kept);
   const auto may_be = [&](const places::Place& other) {
     return !is_joined(other.node, node) || node - other.node > min_gap;
   };
@@ -269,12 +269,12 @@ bool Map::Implementation::recognise(int node) {
   return changed;
 }
 
-/// Lists the comparison of the current rig with a place. \returns the closure, if a motion was found
+/// Lists the comparison of the current frame with a place. \returns the closure, if a motion was found
 std::optional<ListedClosure> Map::Implementation::compare(const places::PlaceStore::Similar& similar, int node,
                                                           bool near_prediction) {
   Closure closure;
   closure.frame = static_cast<int>(frames_.size()) - 1;
-  closure.other = similar.place->rig.frame;
+  closure.other = similar.place->kept.frame;
   closure.similarity = static_cast<double>(similar.similarity);
   auto edge = search(*similar.place, node, near_prediction, closure);
   closures_.push_back(closure);
@@ -282,13 +282,13 @@ std::optional<ListedClosure> Map::Implementation::compare(const places::PlaceSto
   return ListedClosure{closures_.size() - 1, *std::move(edge)};
 }
 
-/// Searches for the motion from a place to the current rig, only near the map's if that is known well enough.
+/// Searches for the motion from a place to the current frame, only near the map's if that is known well enough.
 std::optional<GraphEdge> Map::Implementation::search(const places::Place& place, int node, bool near_prediction,
                                                      Closure& closure) {
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   odometry::MotionQuery query;
-  query.current = now.rig;
-  query.base = now.frontend.restore(place.rig);
+  query.current = now.frame_edges;
+  query.base = now.frontend.restore(place.kept);
   query.seed = config_.seed + static_cast<std::uint64_t>(closure.frame);
   if (near_prediction) {
     query.prediction = graph_.pose(node).inverse() * graph_.pose(place.node);
@@ -316,15 +316,15 @@ std::optional<GraphEdge> Map::Implementation::search(const places::Place& place,
 }
 
 /// Whether the loop of both closures and the map's motions between their ends closes.
-bool Map::Implementation::agree(GraphEdge witness, const GraphEdge& edge) const {
-  if (!is_joined(witness.from, edge.from)) witness = witness.reversed();
-  if (!is_joined(witness.from, edge.from) || !is_joined(witness.to, edge.to)) return false;
+bool Map::Implementation::agree(GraphEdge confirming, const GraphEdge& edge) const {
+  if (!is_joined(confirming.from, edge.from)) confirming = confirming.reversed();
+  if (!is_joined(confirming.from, edge.from) || !is_joined(confirming.to, edge.to)) return false;
   const GraphEdge around =
-      graph_.motion(witness.to, edge.to).after(witness).after(graph_.motion(edge.from, witness.from));
+      graph_.motion(confirming.to, edge.to).after(confirming).after(graph_.motion(edge.from, confirming.from));
   return graph_.deviation(around, edge) < kExpected;
 }
 
-/// Whether a place lies in a segment that a closure would join, but where it does not see what the current rig sees.
+/// Whether a place lies in a segment that a closure would join, but where it does not see what the current frame sees.
 bool Map::Implementation::is_rival(const places::Place& place, const std::vector<ListedClosure>& joining,
                                    double inverse_depth) const {
   return std::any_of(joining.begin(), joining.end(), [&](const ListedClosure& closure) {
@@ -335,7 +335,7 @@ bool Map::Implementation::is_rival(const places::Place& place, const std::vector
   });
 }
 
-/// Marks closures of the current rig with one other segment as ambiguous if they place it in different parts of that
+/// Marks closures of the current frame with one other segment as ambiguous if they place it in different parts of that
 /// segment.
 void Map::Implementation::reject_contradictions(const std::vector<ListedClosure>& joining) {
   for (const ListedClosure& one : joining) {
@@ -359,15 +359,15 @@ bool Map::Implementation::decide(const ListedClosure& closure) {
   const double deviation = has_prior ? graph_.deviation(graph_.motion(edge.from, edge.to), edge) : 0;
   if (deviation > kPossible) return false;
   if (has_prior ? deviation >= kExpected : !is_certain(closure)) {
-    const auto witness = std::find_if(pending_.begin(), pending_.end(),
-                                      [&](const ListedClosure& other) { return agree(other.edge, edge); });
-    if (witness == pending_.end()) {
+    const auto confirming = std::find_if(pending_.begin(), pending_.end(),
+                                         [&](const ListedClosure& other) { return agree(other.edge, edge); });
+    if (confirming == pending_.end()) {
       pending_.push_back(closure);
       if (pending_.size() > kMostPending) pending_.pop_front();
       return false;
     }
-    keep(*witness);
-    pending_.erase(witness);
+    keep(*confirming);
+    pending_.erase(confirming);
   }
   keep(closure);
   graph_.optimise();
@@ -430,7 +430,7 @@ SavedMap Map::Implementation::saved() const {
 
 namespace {
 
-/// \throws UsageError for the paper's method, which keeps no rigs.
+/// \throws UsageError for the paper's method, which keeps no frames.
 StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
   if (odometry.config().is_paper())
     throw UsageError("the paper's method has no map: choose another preset for --loops");

@@ -22,29 +22,29 @@ const PlaceWords& place_words() {
   static const PlaceWords words = [] {
     PlaceWords table;
     const float* next = kTable.data();
-    const auto take = [&](auto& matrix) {
+    const auto read = [&](auto& matrix) {
       matrix = Eigen::Map<const std::decay_t<decltype(matrix)>>(next);
       next += matrix.size();
     };
-    take(table.mean);
-    take(table.projection);
-    take(table.words);
+    read(table.mean);
+    read(table.projection);
+    read(table.words);
     return table;
   }();
   return words;
 }
 
-Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& rig) {
-  const std::vector<std::uint8_t> wide = frontend::unpack_wide(rig);
+Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& kept) {
+  const std::vector<std::uint8_t> wide = frontend::unpack_wide(kept);
   const Eigen::Map<const Eigen::Matrix<std::uint8_t, kWideBytes, Eigen::Dynamic>> bytes(
-      wide.data(), kWideBytes, static_cast<Eigen::Index>(rig.edges.size()));
+      wide.data(), kWideBytes, static_cast<Eigen::Index>(kept.edges.size()));
   return (bytes.cast<float>() / kWideNorm).cwiseSqrt();
 }
 
-PlaceSignature place_signature(const frontend::KeptFrameEdges& rig) {
+PlaceSignature place_signature(const frontend::KeptFrameEdges& kept) {
   const PlaceWords& table = place_words();
   const Eigen::Matrix<float, kWordNumbers, Eigen::Dynamic> projected =
-      table.projection * (rooted_descriptors(rig).colwise() - table.mean);
+      table.projection * (rooted_descriptors(kept).colwise() - table.mean);
   const Eigen::Matrix<float, kWords, 1> half_squares = 0.5F * table.words.colwise().squaredNorm().transpose();
   PlaceSignature signature = PlaceSignature::Zero();
   for (Eigen::Index i = 0; i < projected.cols(); ++i) {

@@ -19,7 +19,7 @@
 
 namespace quadedge::places {
 
-// A rig as one short vector, for finding rigs of the same place (doc/method.md section 10).
+// A frame as one short vector, for finding frames of the same place (doc/method.md section 10).
 
 constexpr int kWordNumbers = 16;  ///< numbers of a descriptor after its projection
 constexpr int kWords = 16;
@@ -35,21 +35,21 @@ struct PlaceWords {
 };
 const PlaceWords& place_words();
 
-/// Wide descriptors of a kept rig as columns: square roots of their values.
-Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& rig);
+/// Wide descriptors of a kept frame as columns: square roots of their values.
+Eigen::Matrix<float, kWideBytes, Eigen::Dynamic> rooted_descriptors(const frontend::KeptFrameEdges& kept);
 
 /// Vector of locally aggregated descriptors: for every word the sum of the differences from it of all descriptors
 /// nearest to it, each sum of unit length.
-PlaceSignature place_signature(const frontend::KeptFrameEdges& rig);
+PlaceSignature place_signature(const frontend::KeptFrameEdges& kept);
 
-/// A rig is compared with this number of places, the most similar ones; one without a known place with up to
+/// A frame is compared with this number of places, the most similar ones; one without a known place with up to
 /// kCandidateBatches times as many. If it is found, those of them that see other places are compared as well, in case
 /// another matches, too.
 constexpr int kCandidates = 5, kCandidateBatches = 4;
 
-/// A kept rig.
+/// A kept frame.
 struct Place {
-  frontend::KeptFrameEdges rig;
+  frontend::KeptFrameEdges kept;
   PlaceSignature signature;
   int node = 0;  ///< of the pose graph
 };
@@ -79,7 +79,7 @@ class PlaceStore {
   /// milliseconds.
   using Rounded = std::array<std::int16_t, kWords * kWordNumbers>;
   static Rounded rounded(const PlaceSignature& signature);
-  static std::size_t bytes_of(const Place& place) { return sizeof(Place) + sizeof(Rounded) + place.rig.bytes(); }
+  static std::size_t bytes_of(const Place& place) { return sizeof(Place) + sizeof(Rounded) + place.kept.bytes(); }
 
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
@@ -100,11 +100,11 @@ struct SavedPlaces {
   std::vector<Eigen::Isometry3d> poses;                       ///< map_from_left of every place [m]
 };
 
-/// \throws UsageError if `temporal.wide_edges` is 0 or a filter in time uses SIFT, because kept rigs have no images.
+/// \throws UsageError if `temporal.wide_edges` is 0 or a filter in time uses SIFT, because kept frames have no images.
 void check_map_config(const Config& config);
 
-/// Keys and values of the constants that edges, patches and descriptors depend on, which have to be equal for all rigs
-/// of a map and the frames located in it.
+/// Keys and values of the constants that edges, patches and descriptors depend on, which have to be equal for all
+/// frames of a map and the frames located in it.
 std::vector<std::pair<std::string, std::string>> descriptor_settings(const Config& config);
 
 }  // namespace quadedge::places

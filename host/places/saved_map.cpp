@@ -38,7 +38,7 @@ class Writer {
     count(values);
     for (const auto& each : values) visit(each);
   }
-  std::string take() { return std::move(text_); }
+  std::string release() { return std::move(text_); }
 
  private:
   std::string text_;
@@ -101,16 +101,16 @@ void exchange_pose(Archive& archive, Pose& pose) {
 
 template <class Archive, class Place>
 void exchange_place(Archive& archive, Place& place) {
-  auto& rig = place.rig;
-  archive.value(rig.frame);
-  archive.value(rig.edges_spacing);
+  auto& kept = place.kept;
+  archive.value(kept.frame);
+  archive.value(kept.edges_spacing);
   archive.bytes(place.signature.data(), sizeof place.signature);
-  const std::size_t count = archive.count(rig.edges.left_x);
-  for (auto* column : {&rig.edges.left_x, &rig.edges.left_y, &rig.edges.left_direction, &rig.edges.right_x,
-                       &rig.edges.right_y, &rig.edges.right_direction, &rig.edges.left_scale_drift, &rig.edges.ncc})
+  const std::size_t count = archive.count(kept.edges.left_x);
+  for (auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
+                       &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_drift, &kept.edges.ncc})
     archive.array(*column, count);
-  archive.array(rig.patches, count * frontend::kKeptPatchBytes);
-  archive.array(rig.wide, count * frontend::kKeptWideBytes);
+  archive.array(kept.patches, count * frontend::kKeptPatchBytes);
+  archive.array(kept.wide, count * frontend::kKeptWideBytes);
 }
 
 /// All that a map file holds, to or from an archive.
@@ -171,13 +171,13 @@ class Check {
             "a finite number of metres");
   }
   void check_place(const places::Place& place, const StereoRig& rig) const {
-    const StereoEdges& edges = place.rig.edges;
+    const StereoEdges& edges = place.kept.edges;
     const auto count = edges.left_x.size();
-    require(place.rig.frame >= 0, "a frame number", place.rig.frame, "0 or more");
+    require(place.kept.frame >= 0, "a frame number", place.kept.frame, "0 or more");
     require(count > 0 && count <= frontend::kKeptEdges, "a number of edges", static_cast<double>(count),
             "1 to " + std::to_string(frontend::kKeptEdges));
-    require(place.rig.edges_spacing >= 0 && place.rig.edges_spacing <= rig.left.height, "a spacing of edges",
-            place.rig.edges_spacing, "0 to the image's height");
+    require(place.kept.edges_spacing >= 0 && place.kept.edges_spacing <= rig.left.height, "a spacing of edges",
+            place.kept.edges_spacing, "0 to the image's height");
     require(std::abs(place.signature.norm() - 1) < kUnitTolerance, "a signature of length",
             static_cast<double>(place.signature.norm()), "1");
     check_column(edges.left_x, 0, rig.left.width);
@@ -205,7 +205,7 @@ SavedMap::SavedMap(SavedPlaces header, std::vector<places::Place> places) {
   const auto calibration = std::make_shared<StereoRig>(odometry::with_disparity_offset(header.rig, header.offset));
   for (places::Place& place : places) {
     place.node = static_cast<int>(header.store.size());
-    place.rig.own_calibration = calibration;
+    place.kept.own_calibration = calibration;
     header.store.add(std::move(place));
   }
   places_ = std::make_shared<SavedPlaces>(std::move(header));
@@ -218,7 +218,7 @@ bool SavedMap::is_undistorted() const { return places_->is_undistorted != 0; }
 std::string SavedMap::bytes() const {
   Writer writer;
   exchange(writer, *places_, places_->store.places());
-  return writer.take();
+  return writer.release();
 }
 
 SavedMap SavedMap::from_bytes(std::string_view bytes, const std::string& source) {
@@ -231,9 +231,9 @@ SavedMap SavedMap::from_bytes(std::string_view bytes, const std::string& source)
   Check check(source);
   check(header, places);
   for (places::Place& place : places) {
-    place.rig.edges.left_index.resize(place.rig.edges.left_x.size());
-    std::iota(place.rig.edges.left_index.begin(), place.rig.edges.left_index.end(), 0);
-    place.rig.edges.right_index = place.rig.edges.left_index;
+    place.kept.edges.left_index.resize(place.kept.edges.left_x.size());
+    std::iota(place.kept.edges.left_index.begin(), place.kept.edges.left_index.end(), 0);
+    place.kept.edges.right_index = place.kept.edges.left_index;
   }
   return {std::move(header), std::move(places)};
 }

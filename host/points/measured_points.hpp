@@ -1,5 +1,5 @@
 #pragma once
-/// \file measured_points.hpp  Stereo edges of one rig as points with covariances (doc/method.md section 9).
+/// \file measured_points.hpp  Stereo edges of one frame as points with covariances (doc/method.md section 9).
 
 #include <Eigen/Core>
 #include <optional>

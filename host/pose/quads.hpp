@@ -47,7 +47,7 @@ inline constexpr std::vector<float> ScoringArrays::*kScoringColumns[] = {
     &ScoringArrays::left_cos,  &ScoringArrays::left_sin,  &ScoringArrays::right_x,       &ScoringArrays::right_y,
     &ScoringArrays::right_cos, &ScoringArrays::right_sin};
 
-/// Quads: a stereo edge of the previous (or key) rig and the stereo edge of the current rig that shows the same scene
+/// Quads: a stereo edge of the previous (or key) rig and the stereo edge of the current frame that shows the same scene
 /// point. All arrays have one row per quad; every point lies in front of both cameras of its rig.
 struct QuadObservations {
   std::vector<StereoMeasurement> previous, current;  ///< in the left camera frame at their time
@@ -65,15 +65,15 @@ struct QuadObservations {
            const QuadLimits& limits);
 };
 
-/// Measurements of all stereo edges of a rig; nothing for an edge without depth or tangent.
+/// Measurements of all stereo edges of a frame; nothing for an edge without depth or tangent.
 using MeasuredEdges = std::vector<std::optional<StereoMeasurement>>;
 
 /// \param min_epipolar_angle see measure() [rad]
 void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured);
 
-/// All quads of two rigs: the stereo edges paired by `matches`, each at its detected position, which across the edge is
-/// more accurate than the photometric refinement of the match, because the patches lie beside the edge. Matches without
-/// depth are dropped; QuadObservations::match gives the row of each quad.
+/// All quads of two frames: the stereo edges paired by `matches`, each at its detected position, which across the edge
+/// is more accurate than the photometric refinement of the match, because the patches lie beside the edge. Matches
+/// without depth are dropped; QuadObservations::match gives the row of each quad.
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits);
 

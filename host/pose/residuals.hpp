@@ -29,11 +29,11 @@ struct NoiseModel {
 
 /// Positions of a quad.
 ///
-/// The previous rig defines the point (its left pixel) and measures its depth (inverse depth, noisy). The current rig
-/// measures the left pixel, accurately across the edge and poorly along it, and a second inverse depth from its right
-/// image. The right image adds information only along the epipolar line and is therefore used as inverse depth; using
-/// both of its coordinates would count the noise of the left image twice. The true inverse depth of the point is an
-/// unknown, so that the depths of both rigs are treated alike and forward and backward errors have equal weights;
+/// The previous frame defines the point (its left pixel) and measures its depth (inverse depth, noisy). The current
+/// frame measures the left pixel, accurately across the edge and poorly along it, and a second inverse depth from its
+/// right image. The right image adds information only along the epipolar line and is therefore used as inverse depth;
+/// using both of its coordinates would count the noise of the left image twice. The true inverse depth of the point is
+/// an unknown, so that the depths of both frames are treated alike and forward and backward errors have equal weights;
 /// refinement.hpp gives the benefit.
 struct ReprojectionTerm {
   double ray_x, ray_y;                     ///< previous left pixel as a ray (x, y, 1), previous left frame

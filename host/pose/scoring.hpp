@@ -1,6 +1,6 @@
 #pragma once
 /// \file scoring.hpp  Agreement of quads with a motion: truncated quadratic reprojection error in both images of the
-/// current rig.
+/// current frame.
 
 #include <Eigen/Geometry>
 #include <cstdint>

@@ -257,12 +257,14 @@ class Neighbourhood {
     if (!cell) cell = i;
   }
 
-  /// Whether the witness knows a position near that of a cluster, at edge i or beside it.
-  bool is_seconded(std::size_t i, std::size_t candidate, const CoarseDisparity& witness) const {
+  /// Whether the coarse disparity knows a position near that of a cluster, at edge i or beside it.
+  bool is_seconded(std::size_t i, std::size_t candidate, const CoarseDisparity& coarse_disparity) const {
     const int column = static_cast<int>(0.5F * left_.x[i]), row = static_cast<int>(0.5F * left_.y[i]);
-    if (row >= witness.search.height) return false;
-    for (int x = std::max(column - kBeside, 0); x <= std::min(column + kBeside, witness.search.width - 1); ++x) {
-      const float coarse = witness.positions[static_cast<std::size_t>(row * witness.search.width + x)];
+    if (row >= coarse_disparity.search.height) return false;
+    for (int x = std::max(column - kBeside, 0); x <= std::min(column + kBeside, coarse_disparity.search.width - 1);
+         ++x) {
+      const float coarse =
+          coarse_disparity.positions[static_cast<std::size_t>(row * coarse_disparity.search.width + x)];
       if (std::abs(static_cast<float>(clusters_.position[candidate]) - coarse) < kCoarseReach) return true;
     }
     return false;
@@ -357,15 +359,15 @@ RelaxationTally tally_of(const Neighbourhood& neighbourhood, std::size_t edges, 
   return tally;
 }
 
-/// Makes the candidates of an edge less likely that the witness does not second, if it seconds another one.
-void consult(const Neighbourhood& neighbourhood, std::size_t edges, const CoarseDisparity& witness,
+/// Makes the candidates of an edge less likely that the coarse disparity does not second, if it seconds another one.
+void consult(const Neighbourhood& neighbourhood, std::size_t edges, const CoarseDisparity& coarse_disparity,
              std::vector<double>& prior, std::vector<double>& belief) {
   for (std::size_t i = 0; i < edges; ++i) {
     const auto begin = neighbourhood.begin(i), end = neighbourhood.end(i);
     std::vector<bool> seconded;
     bool speaks = false;
     for (auto k = begin; k < end; ++k) {
-      seconded.push_back(neighbourhood.is_seconded(i, k, witness));
+      seconded.push_back(neighbourhood.is_seconded(i, k, coarse_disparity));
       speaks = speaks || (seconded.back() && prior[k] > 0);
     }
     for (auto k = begin; k < end; ++k) {
@@ -380,7 +382,7 @@ void consult(const Neighbourhood& neighbourhood, std::size_t edges, const Coarse
 
 StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet& left,
                                    const EpipolarGeometry& geometry, int width, int height, const StereoConfig& config,
-                                   const CoarseDisparity* witness) {
+                                   const CoarseDisparity* coarse_disparity) {
   Neighbourhood neighbourhood(clusters, left, geometry, width, height);
   const auto lowest = static_cast<double>(lowest_similarity(config));
   const auto& similarity = clusters.similarity;
@@ -403,8 +405,8 @@ StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet
   }
   for (int round = 0; round < config.relaxation_rounds; ++round) vote(neighbourhood, choosers, prior, result.belief);
   result.tally = tally_of(neighbourhood, left.size(), result.belief);
-  if (witness != nullptr) {
-    consult(neighbourhood, left.size(), *witness, prior, result.belief);
+  if (coarse_disparity != nullptr) {
+    consult(neighbourhood, left.size(), *coarse_disparity, prior, result.belief);
     for (int round = 0; round < config.relaxation_rounds; ++round) vote(neighbourhood, choosers, prior, result.belief);
   }
   for (std::size_t i = 0; i < left.size(); ++i) {

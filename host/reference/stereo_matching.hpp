@@ -80,10 +80,10 @@ struct StereoRelaxation {
 };
 
 /// Neighbouring edges vote on which cluster an edge takes (doc/method.md section 3, filters 9 and 10).
-/// `width` x `height`: of the left image [px]; `witness`: of the same pair, null: none.
+/// `width` x `height`: of the left image [px]; `coarse_disparity`: of the same pair, null: none.
 StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet& left,
                                    const EpipolarGeometry& geometry, int width, int height, const StereoConfig& config,
-                                   const CoarseDisparity* witness = nullptr);
+                                   const CoarseDisparity* coarse_disparity = nullptr);
 
 // Plain C++ twin of kernels/stereo_mutual.cl.
 

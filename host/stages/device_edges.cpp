@@ -11,7 +11,7 @@ constexpr std::size_t kFloatBlocks = 7;  // of `packed`
 
 /// Copies `count` values of any four-byte type.
 template <class T>
-void take(const cl_uchar* source, std::size_t count, std::vector<T>& values) {
+void copy_values(const cl_uchar* source, std::size_t count, std::vector<T>& values) {
   const T* const first = reinterpret_cast<const T*>(source);
   values.assign(first, first + count);
 }
@@ -46,15 +46,15 @@ void DeviceStereoEdges::read(opencl::Context& context, opencl::ReadBack& read_ba
   read_back.read(context, block, places_.end, [&](const cl_uchar* bytes) {
     count = *reinterpret_cast<const cl_int*>(bytes);
     const auto found = static_cast<std::size_t>(count);
-    take(bytes + places_.left_index, found, edges.left_index);
-    take(bytes + places_.right_index, found, edges.right_index);
+    copy_values(bytes + places_.left_index, found, edges.left_index);
+    copy_values(bytes + places_.right_index, found, edges.right_index);
     const cl_uchar* values = bytes + places_.packed;
     for (auto* column : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
                          &edges.right_direction, &edges.left_scale_drift}) {
-      take(values, found, *column);
+      copy_values(values, found, *column);
       values += 4 * static_cast<std::size_t>(stride);
     }
-    take(bytes + places_.ncc, found, edges.ncc);
+    copy_values(bytes + places_.ncc, found, edges.ncc);
   });
 }
 

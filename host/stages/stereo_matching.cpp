@@ -164,7 +164,7 @@ StereoRelaxation::StereoRelaxation(opencl::Context& context, int width, int heig
 
 void StereoRelaxation::run(const DeviceEdges& left, const EpipolarGeometry& geometry,
                            const DeviceCandidates& candidates, const DeviceClusters& clusters,
-                           DeviceRelaxation& relaxation, const CoarseDisparity* witness) {
+                           DeviceRelaxation& relaxation, const CoarseDisparity* coarse_disparity) {
   begin();
   const auto edges = static_cast<std::size_t>(left.host_count);
   const auto capacity = static_cast<std::size_t>(candidates.capacity);
@@ -205,11 +205,11 @@ void StereoRelaxation::run(const DeviceEdges& left, const EpipolarGeometry& geom
   relaxation.tally.fill(0, 2);
   tally_(range, arguments, candidates.first, clusters.count, relaxation.belief, relaxation.tally);
   relaxation.tally.read_later(&relaxation.host_tally.edges, 2);
-  if (witness != nullptr) {
-    arguments.coarse_columns = witness->search().width;
-    arguments.coarse_rows = witness->search().height;
-    consult_(range, arguments, candidates.first, clusters.count, left.packed, clusters.packed, witness->positions(),
-             relaxation.prior, relaxation.belief, relaxation.next_belief);
+  if (coarse_disparity != nullptr) {
+    arguments.coarse_columns = coarse_disparity->search().width;
+    arguments.coarse_rows = coarse_disparity->search().height;
+    consult_(range, arguments, candidates.first, clusters.count, left.packed, clusters.packed,
+             coarse_disparity->positions(), relaxation.prior, relaxation.belief, relaxation.next_belief);
     vote();
   }
   choose_(range, arguments, candidates.first, clusters.count, left.packed, clusters.packed, relaxation.slopes,

@@ -161,9 +161,10 @@ class StereoRelaxation : private Stage {
   StereoRelaxation(opencl::Context& context, int width, int height, const StereoConfig& config,
                    const opencl::VariantChoice& variants);
 
-  /// `witness`: of the same pair, null: none. The tally is that of the vote without it.
+  /// `coarse_disparity`: of the same pair, null: none. The tally is that of the vote without it.
   void run(const DeviceEdges& left, const EpipolarGeometry& geometry, const DeviceCandidates& candidates,
-           const DeviceClusters& clusters, DeviceRelaxation& relaxation, const CoarseDisparity* witness = nullptr);
+           const DeviceClusters& clusters, DeviceRelaxation& relaxation,
+           const CoarseDisparity* coarse_disparity = nullptr);
 
  private:
   int columns_, cell_rows_;
@@ -196,7 +197,7 @@ struct DeviceMutual {
   opencl::Buffer<cl_int> keep, keep_first;
 };
 
-/// Stage 5e: best and mutual; the stereo edges of a rig.
+/// Stage 5e: best and mutual; the stereo edges of a frame.
 /// doc/method.md section 3, filter 12. Variants of the stage "stereo_mutual".
 class StereoMutual : private Stage {
  public:

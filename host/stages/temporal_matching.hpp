@@ -165,7 +165,7 @@ class TemporalQuads : private Stage {
       best_;
 };
 
-/// Every step-th stereo edge of a rig with its wide descriptor.
+/// Every step-th stereo edge of a frame with its wide descriptor.
 struct DeviceWideEdges {
   const DeviceStereoEdges& edges;
   int step;
@@ -173,7 +173,7 @@ struct DeviceWideEdges {
   const opencl::Buffer<cl_uchar>& descriptors;
 };
 
-/// Global matching of stereo edges of an earlier rig with the current left image: kernels/wide_matching.cl and
+/// Global matching of stereo edges of an earlier frame with the current left image: kernels/wide_matching.cl and
 /// kernels/wide_matching_tiles.cl.
 /// Variants of the stage "wide_matching".
 class WideMatching : private Stage {

@@ -33,13 +33,13 @@ class Facade {
   Facade(std::uint64_t seed, double focal)
       : build_(combine(seed, 5), focal, street_from_world().inverse()), random_(combine(seed, 6)) {}
 
-  Scene take() {
+  Scene finish() {
     surroundings();
     houses();
     fence();
     shrubs();
     const Isometry3d street_from_lane = pose({-3.5, 0.0, -0.7}, 0.5 * kPi, 0.0, 0.0);  // along the fronts
-    return build_.take(0.85, {street_from_world().inverse() * street_from_lane, 26.0, 0.25});
+    return build_.finish(0.85, {street_from_world().inverse() * street_from_lane, 26.0, 0.25});
   }
 
  private:
@@ -255,6 +255,6 @@ class Facade {
 
 }  // namespace
 
-Scene make_facade(std::uint64_t seed, double focal) { return Facade(seed, focal).take(); }
+Scene make_facade(std::uint64_t seed, double focal) { return Facade(seed, focal).finish(); }
 
 }  // namespace quadedge::synthetic

@@ -94,7 +94,7 @@ void SceneBuilder::front_sides(const Isometry3d& room_from_box, const Vector3d& 
 
 std::uint64_t SceneBuilder::next_seed() { return combine(seed_, count_++); }
 
-Scene SceneBuilder::take(double nearest, const Lane& lane) {
+Scene SceneBuilder::finish(double nearest, const Lane& lane) {
   scene_.nearest = nearest;
   scene_.lane = lane;
   return std::move(scene_);
@@ -152,7 +152,7 @@ Scene make_room(std::uint64_t seed, double focal) {
   build.box(pose({-1.25, 0.05, 2.2}, -0.6, 0.15, 0.2), {0.2, 0.28, 0.02}, leaves(0.18, 3, 0.1, 175.0), 1.3);
   build.sphere(pose({-1.1, -0.75, 2.8}, 0.2, 0.1, 0.0), 0.21, leaves(0.18, 2, 0.0, 95.0), 1.8);
   build.sphere(pose({0.75, -0.75, 2.7}, 0.0, 0.0, 0.0), 0.16, leaves(0.16, 2, 0.0, 75.0), 1.7);
-  return build.take(1.0, lane_ahead(-2.1, 2.8, 0.045));
+  return build.finish(1.0, lane_ahead(-2.1, 2.8, 0.045));
 }
 
 Scene make_cables(std::uint64_t seed, double focal) {
@@ -162,7 +162,7 @@ Scene make_cables(std::uint64_t seed, double focal) {
   plain.noise_size = 0.8;
   plain.mean = 150.0;
   build.box(pose({0.0, 0.0, 0.0}, 0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 8.0, true);
-  Scene scene = build.take(0.9, lane_ahead(-2.6, 3.1, 0.05));
+  Scene scene = build.finish(0.9, lane_ahead(-2.6, 3.1, 0.05));
 
   // Every cable has its own layer of depth, so that cables cross without intersecting.
   Random random(combine(seed, 3));
@@ -223,14 +223,14 @@ class Corridor {
         plate_(speckled(leaves(0.03, 2, 1.0, 200.0), 0.09, 0.06)),
         lamp_(speckled(paint(230.0, 2.0), 0.6, 0.15)) {}
 
-  Scene take() {
+  Scene finish() {
     floor_and_ceiling();
     for (int bay = 0; bay < kBays; ++bay) {
       const double z = kFirstBay + (bay + 0.5) * kBay;
       for (const double side : {-1.0, 1.0}) bay_wall(pose({side * kWall, 0.0, z}, side * 0.5 * kPi, 0.0, 0.0));
       build_.plane(pose({0.0, kCeiling + 0.01, z}, 0.0, 0.5 * kPi, 0.0), 0.6, 0.15, lamp_);
     }
-    return build_.take(1.0, {world_from_corridor() * pose({0.0, 0.0, -1.0}, 0.0, 0.0, 0.0), 30.0, 0.25});
+    return build_.finish(1.0, {world_from_corridor() * pose({0.0, 0.0, -1.0}, 0.0, 0.0, 0.0), 30.0, 0.25});
   }
 
  private:
@@ -279,6 +279,6 @@ class Corridor {
 
 }  // namespace
 
-Scene make_corridor(std::uint64_t seed, double focal) { return Corridor(seed, focal).take(); }
+Scene make_corridor(std::uint64_t seed, double focal) { return Corridor(seed, focal).finish(); }
 
 }  // namespace quadedge::synthetic

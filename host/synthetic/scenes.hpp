@@ -48,7 +48,7 @@ class SceneBuilder {
   std::uint64_t next_seed();
 
   /// Returns the scene. `nearest`: see Scene.
-  Scene take(double nearest, const Lane& lane);
+  Scene finish(double nearest, const Lane& lane);
 
  private:
   std::shared_ptr<const Texture> texture(TextureStyle style, double half_width, double half_height, double nearest);

@@ -73,8 +73,8 @@ struct StereoEdges {
 
 /// Temporal matches between the stereo edges of two rigs: quads that close the circle. doc/method.md section 4.
 struct TemporalMatches {
-  std::vector<std::int32_t> previous;   ///< index into the previous rig's stereo edges
-  std::vector<std::int32_t> current;    ///< index into the current rig's stereo edges
+  std::vector<std::int32_t> previous;   ///< index into the previous frame's stereo edges
+  std::vector<std::int32_t> current;    ///< index into the current frame's stereo edges
   std::vector<float> left_x, left_y;    ///< detected position in the current left image [px]
   std::vector<float> right_x, right_y;  ///< refined position in the current right image [px]
   /// Directions there [rad], of the clusters that the paper's method forms in time; empty: those of the current edge.

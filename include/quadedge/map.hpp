@@ -83,7 +83,7 @@ struct Closure {
 class Map {
  public:
   /// Refers to the odometry, which must outlive the map. \throws UsageError if `temporal.wide_edges` is 0 or a filter
-  /// in time uses SIFT, because kept rigs have no images.
+  /// in time uses SIFT, because kept frames have no images.
   explicit Map(StereoOdometry& odometry);
   ~Map();
 

@@ -98,7 +98,7 @@ class Node:
         self._said: set[str] = set()
         self._heard = [time.monotonic()] * 2
         self._silent = [False, False]
-        self._problem, self._doubts = "", Counter()
+        self._problem, self._warnings = "", Counter()
         self._began = self._second = time.monotonic()
         self._latencies_ms: list[float] = []
 
@@ -211,7 +211,7 @@ class Node:
             return self._refuse(error)
         self._queue.counts.pairs += 1
         self._problem = "" if result.is_tracked else result.message
-        self._doubts.update(str(warning.kind) for warning in result.warnings)
+        self._warnings.update(str(warning.kind) for warning in result.warnings)
         if result.is_tracked:
             self._publish(result, left.header.frame_id)
         self._latencies_ms.append((time.monotonic() - arrived) * 1e3)
@@ -238,9 +238,9 @@ class Node:
     def _each_second(self) -> None:
         """Notes what is silent or doubled, and publishes the state."""
         now = time.monotonic()
-        doubts = [f"{topic.publishers} publishers on {self._image_topic(side)}, expected one"
+        faults = [f"{topic.publishers} publishers on {self._image_topic(side)}, expected one"
                   for side, topic in enumerate(self._images) if topic.publishers > 1]
-        for text in doubts:
+        for text in faults:
             self._say_once(f"warning: {text}")
         silent = []
         for side in (LEFT, RIGHT):
@@ -251,16 +251,16 @@ class Node:
                 self._silent[side] = silence > _SILENCE_S
                 self._say(f"warning: {silent[-1]}" if self._silent[side] else
                           f"images of {self._image_topic(side)} come again")
-        self._publish_state(silent, doubts)
+        self._publish_state(silent, faults)
         self._second, self._latencies_ms = now, []
 
-    def _publish_state(self, silent: list[str], doubts: list[str]) -> None:
+    def _publish_state(self, silent: list[str], faults: list[str]) -> None:
         counts, last, times = self._queue.counts, self._last, self._latencies_ms
         status = "no images" if silent else last.status if last else "waiting"
-        values = {"status": status, "reason": self._problem, "warnings": ", ".join(self._doubts),
+        values = {"status": status, "reason": self._problem, "warnings": ", ".join(self._warnings),
                   "latency of the pair [ms]": f"{numpy.median(times):.1f}" if times else "",
                   "largest latency [ms]": f"{max(times):.1f}" if times else "", **counts.by_name()}
-        error, warning = "; ".join(silent) or self._problem, "; ".join(doubts) or ", ".join(self._doubts)
+        error, warning = "; ".join(silent) or self._problem, "; ".join(faults) or ", ".join(self._warnings)
         level = _ERROR if error else _WARNING if warning or not last else _GOOD
         self._diagnostics.publish(diagnostics_message(time.time_ns(), "quadedge: stereo odometry", level,
                                                       error or warning or status, values))
