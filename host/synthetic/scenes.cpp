@@ -18,12 +18,12 @@ constexpr double kTexel = 0.5;  // [px] at the smallest distance of a surface
 constexpr int kLevels = 7;      // of textures that are seen at small and large distances
 
 /// One side of a box: its frame, whose -z axis faces outwards (or inwards), and its half sizes.
-struct Side {
+struct BoxSide {
   Isometry3d box_from_side;
   double half_width, half_height;
 };
-std::vector<Side> box_sides(const Vector3d& half, bool inwards) {
-  std::vector<Side> sides;
+std::vector<BoxSide> box_sides(const Vector3d& half, bool inwards) {
+  std::vector<BoxSide> sides;
   const double sign = inwards ? -1.0 : 1.0;
   const auto add = [&](const Vector3d& outwards, double distance, double yaw, double pitch, double half_width,
                        double half_height) {
@@ -60,7 +60,7 @@ TextureStyle leaves(double feature, int levels, double alignment, double mean) {
 
 void SceneBuilder::box(const Isometry3d& room_from_box, const Vector3d& half, const TextureStyle& style, double nearest,
                        bool inwards) {
-  for (const Side& side : box_sides(half, inwards))
+  for (const BoxSide& side : box_sides(half, inwards))
     add<PlaneSurface>(room_from_box * side.box_from_side, side.half_width, side.half_height,
                       texture(style, side.half_width, side.half_height, nearest));
 }
@@ -85,7 +85,7 @@ std::shared_ptr<const Texture> SceneBuilder::shared_texture(std::unique_ptr<cons
 
 void SceneBuilder::front_sides(const Isometry3d& room_from_box, const Vector3d& half,
                                const std::shared_ptr<const Texture>& texture) {
-  for (const Side& side : box_sides(half, false)) {
+  for (const BoxSide& side : box_sides(half, false)) {
     const Vector3d outwards = -side.box_from_side.linear().col(2);
     if (outwards.sum() > 0.0) continue;
     plane(room_from_box * side.box_from_side, side.half_width, side.half_height, texture);
