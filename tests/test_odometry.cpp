@@ -1,7 +1,9 @@
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <set>
 #include <tbb/global_control.h>
 
+#include "common/undistortion.hpp"
 #include "frontends.hpp"
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/error.hpp"
@@ -335,6 +337,47 @@ TEST_CASE("odometry: a wrong principal point of the right camera is warned of", 
   }
   INFO("largest offset " << largest << " px");
   CHECK(kinds.count(WarningKind::large_disparity_offset) == 1);
+}
+
+TEST_CASE("odometry: a right camera that turns during the recording is noticed once, and followed",
+          "[odometry][rig][device]") {
+  RenderedScene turning = room(), sound = room();  // both run to and fro
+  for (auto* scene : {&turning, &sound}) {
+    for (std::size_t i = 0; i < 14; ++i) {
+      const std::size_t from = i < 7 ? 6 - i : i - 6;
+      scene->left.push_back(room().left[from]);
+      scene->right.push_back(room().right[from]);
+      scene->world_from_left.push_back(room().world_from_left[from]);
+    }
+  }
+  const double sine = std::sin(0.6 * kDegree), cosine = std::cos(0.6 * kDegree);
+  const std::size_t turned = 10;
+  for (std::size_t i = turned; i < turning.right.size(); ++i) {
+    const Image from = turning.right[i];
+    for (int y = 0; y < from.height; ++y) {
+      for (int x = 0; x < from.width; ++x) {
+        const double u = x - turning.rig.right.cx, v = y - turning.rig.right.cy;
+        const float grey =
+            bilinear(from.width, from.height, turning.rig.right.cx + cosine * u - sine * v,
+                     turning.rig.right.cy + sine * u + cosine * v, [&](int column, int row) {
+                       return static_cast<float>(from.pixels[static_cast<std::size_t>(row * from.width + column)]);
+                     });
+        turning.right[i].set(x, y, static_cast<std::uint8_t>(std::lround(grey)));
+      }
+    }
+  }
+  const auto warned = [&](const RenderedScene& scene) {
+    std::vector<std::size_t> frames;
+    const auto results = track(scene, all_devices().front(), scene.config);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      CHECK(is_tracked(results[i].status));
+      for (const Warning& warning : results[i].warnings)
+        if (warning.kind == WarningKind::changed_rig) frames.push_back(i);
+    }
+    return frames;
+  };
+  CHECK(warned(sound).empty());
+  CHECK(warned(turning) == std::vector<std::size_t>{turned + 3});
 }
 
 TEST_CASE("odometry: right images that are displaced from frame to frame are followed, with one warning",

@@ -47,8 +47,10 @@ TEST_CASE("rig correction: pitch, roll and focal length follow from the rows", "
 }
 
 TEST_CASE("rig correction: a sound rig, and what is uncertain, is left as it is", "[rig]") {
-  CHECK_FALSE(found_for({0, 0, 0}, 1, 0.2).exists());
-  CHECK_FALSE(found_for({0.015, 0, 0.02}, 1.0003, 0.2).exists());  // 0.16 px and less
+  for (int part = 0; part < rig::RigCorrection::kParts; ++part) {
+    CHECK_FALSE(found_for({0, 0, 0}, 1, 0.2).is_certain(part));
+    CHECK_FALSE(found_for({0.015, 0, 0.02}, 1.0003, 0.2).is_certain(part));  // 0.16 px and less
+  }
   const rig::RigCorrection one = found_for({0, 0, 0.15}, 1, 0.2);
   CHECK(one.is_certain(rig::RigCorrection::roll));
   const StereoCalibration calibration = pinhole_calibration(flat_rig(640, 480, 600, 0.1));

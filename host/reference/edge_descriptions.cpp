@@ -16,6 +16,19 @@ namespace {
 
 constexpr double kRowStep = static_cast<double>(kPatchRowStep);
 
+/// Between the values of a grid of width x height, whose border is replicated.
+template <class Value>
+double bilinear(int width, int height, double x, double y, const Value& value) {
+  x = std::clamp(x, 0.0, width - 1.0);
+  y = std::clamp(y, 0.0, height - 1.0);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
+  const double fx = x - x0, fy = y - y0;
+  const double top = value(x0, y0) + fx * (value(x1, y0) - value(x0, y0));
+  const double bottom = value(x0, y1) + fx * (value(x1, y1) - value(x0, y1));
+  return top + fy * (bottom - top);
+}
+
 }  // namespace
 
 PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset) {
@@ -25,28 +38,25 @@ PatchFrame patch_frame(double x, double y, double cosine, double sine, double si
 }
 
 double grey_at(const ImageView& image, double x, double y) {
-  x = std::clamp(x, 0.0, static_cast<double>(image.width - 1));
-  y = std::clamp(y, 0.0, static_cast<double>(image.height - 1));
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-  const double fx = x - x0, fy = y - y0;
-  const auto grey = [&](int px, int py) { return static_cast<double>(image.at(px, py)); };
-  return (1 - fy) * ((1 - fx) * grey(x0, y0) + fx * grey(x1, y0)) + fy * ((1 - fx) * grey(x0, y1) + fx * grey(x1, y1));
+  return bilinear(image.width, image.height, x, y,
+                  [&](int px, int py) { return static_cast<double>(image.at(px, py)); });
 }
 
 PatchValues cut_patch(const ImageView& image, const PatchFrame& frame, double dx, double dy) {
   PatchValues values{};
-  double sum = 0;
   for (int i = 0; i < kPatchRows; ++i) {
     for (int j = 0; j < kPatchSide; ++j) {
       const double along = kRowStep * i;
-      const double value = grey_at(image, frame.x + dx + along * frame.cosine - j * frame.sine,
-                                   frame.y + dy + along * frame.sine + j * frame.cosine);
-      values[static_cast<std::size_t>(kPatchSide * i + j)] = value;
-      sum += value;
+      values[static_cast<std::size_t>(kPatchSide * i + j)] =
+          grey_at(image, frame.x + dx + along * frame.cosine - j * frame.sine,
+                  frame.y + dy + along * frame.sine + j * frame.cosine);
     }
   }
-  for (auto& value : values) value -= sum / kPatchSamples;
+  // Subtracting the middle sample first makes a constant patch exactly zero.
+  const double middle = values[kPatchSamples / 2];
+  double sum = 0;
+  for (double& value : values) sum += value -= middle;
+  for (double& value : values) value -= sum / kPatchSamples;
   return values;
 }
 
@@ -97,37 +107,8 @@ std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& mo
 
 namespace {
 
-double bilinear(const ImageView& image, double x, double y) {
-  x = std::clamp(x, 0.0, image.width - 1.0);
-  y = std::clamp(y, 0.0, image.height - 1.0);
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-  const double fx = x - x0, fy = y - y0;
-  const double top = image.at(x0, y0) + fx * (image.at(x1, y0) - image.at(x0, y0));
-  const double bottom = image.at(x0, y1) + fx * (image.at(x1, y1) - image.at(x0, y1));
-  return top + fy * (bottom - top);
-}
-
 /// Position of sample k = kPatchSide i + j.
 int position(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
-
-/// One mean-free patch around (x, y) with its unit tangent (c, s).
-PatchValues sample_patch(const ImageView& image, double x, double y, double c, double s) {
-  PatchValues values;
-  for (int i = 0; i < kPatchRows; ++i) {
-    for (int j = 0; j < kPatchSide; ++j) {
-      const double along = kPatchRowStep * static_cast<float>(i - kPatchRows / 2), across = j - kPatchSide / 2;
-      values[i * kPatchSide + j] = bilinear(image, x + along * c - across * s, y + along * s + across * c);
-    }
-  }
-  // Subtracting the middle sample first makes a constant patch exactly zero.
-  const double middle = values[kPatchSamples / 2];
-  double mean = 0;
-  for (double& value : values) mean += value -= middle;
-  mean /= kPatchSamples;
-  for (double& value : values) value -= mean;
-  return values;
-}
 
 float side_ncc(const std::int8_t* a, int side_a, const std::int8_t* b, int side_b) {
   int products = 0;
@@ -169,10 +150,11 @@ std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<
   std::vector<std::int8_t> patches(xs.size() * kEdgePatchBytes);
   for (std::size_t e = 0; e < xs.size(); ++e) {
     const double c = std::cos(static_cast<double>(directions[e])), s = std::sin(static_cast<double>(directions[e]));
-    const double to_dark_x = config.offset * s, to_dark_y = -config.offset * c;
     std::int8_t* edge = patches.data() + e * kEdgePatchBytes;
-    store_side(sample_patch(image, xs[e] + to_dark_x, ys[e] + to_dark_y, c, s), 0, edge);
-    store_side(sample_patch(image, xs[e] - to_dark_x, ys[e] - to_dark_y, c, s), 1, edge);
+    for (const int side : {0, 1}) {
+      const PatchFrame frame = patch_frame(xs[e], ys[e], c, s, side == 0 ? 1 : -1, config.offset);
+      store_side(cut_patch(image, frame, 0, 0), side, edge);
+    }
   }
   return patches;
 }
@@ -184,16 +166,10 @@ float patch_ncc(const std::int8_t* a, const std::int8_t* b) {
 namespace {
 
 double sample(const SmallImage& small, double x, double y) {
-  x = std::clamp(x, 0.0, small.width - 1.0);
-  y = std::clamp(y, 0.0, small.height - 1.0);
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, small.width - 1), y1 = std::min(y0 + 1, small.height - 1);
-  const auto at = [&](int column, int row) {
+  return bilinear(small.width, small.height, x, y, [&](int column, int row) {
     return static_cast<double>(small.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(small.width) +
                                             static_cast<std::size_t>(column)]);
-  };
-  const double fx = x - x0, fy = y - y0;
-  return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x1, y0)) + fy * ((1 - fx) * at(x0, y1) + fx * at(x1, y1));
+  });
 }
 
 /// Weight that a sample `offset` small pixels from the middle has in a cell, along one axis; the Gaussian window

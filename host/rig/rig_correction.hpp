@@ -19,7 +19,6 @@ struct RigCorrection {
 
   /// Whether a part exceeds kTermSigmas standard deviations; the others are not corrected.
   bool is_certain(int part) const;
-  bool exists() const { return is_certain(pitch) || is_certain(roll) || is_certain(focal); }
   /// The calibration with what is certain.
   StereoCalibration applied(StereoCalibration calibration) const;
   /// For the user, in one sentence.
