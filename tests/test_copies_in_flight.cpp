@@ -73,34 +73,39 @@ TEST_CASE("copies: a destroyed buffer waits for its copies", "[device]") {
 
 TEST_CASE("copies: images and predictions are no longer in use when the loss of the device is reported", "[device]") {
   const matching::RenderedScene scene("room", 161, 97, 2);
+  const auto search = [](const auto& base) { return matching::search_around(base->edges, 12); };
   for (const auto& index : all_devices()) {
-    std::size_t before_first = 0, before_match = 0;
-    {
-      Device device(index, kept_programs());
-      const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-      before_first = device.context()->traffic().launches;
-      frontend->process(scene.frame(0));
-      frontend->process(scene.frame(1));
-      before_match = device.context()->traffic().launches;
-    }
-    opencl::DeviceLimits limits;
-    SECTION("images") {
-      limits.launches = before_first + 1;
-      Device device = opencl::open_limited(index, kept_programs(), limits);
-      const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-      const Gate gate(*device.context());
-      CHECK_THROWS_AS(frontend->process(scene.frame(0)), DeviceError);
-      CHECK(gate.is_open());
-    }
-    SECTION("predictions") {
-      limits.launches = before_match + 1;
-      Device device = opencl::open_limited(index, kept_programs(), limits);
-      const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-      const auto base = frontend->process(scene.frame(0));
-      frontend->process(scene.frame(1));
-      const Gate gate(*device.context());
-      CHECK_THROWS_AS(frontend->match(*base, matching::search_around(base->edges, 12)), DeviceError);
-      CHECK(gate.is_open());
+    for (const auto* type : {"cpu", "gpu"}) {
+      opencl::DeviceLimits limits;
+      limits.type = type;
+      std::size_t before_first = 0, after_match = 0;
+      {
+        Device device = opencl::open_limited(index, kept_programs(), limits);
+        const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+        before_first = device.context()->traffic().launches;
+        const auto base = frontend->process(scene.frame(0));
+        frontend->process(scene.frame(1));
+        frontend->match(*base, search(base));
+        after_match = device.context()->traffic().launches;
+      }
+      DYNAMIC_SECTION("images, " << type) {
+        limits.launches = before_first + 1;
+        Device device = opencl::open_limited(index, kept_programs(), limits);
+        const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+        const Gate gate(*device.context());
+        CHECK_THROWS_AS(frontend->process(scene.frame(0)), DeviceError);
+        CHECK(gate.is_open());
+      }
+      DYNAMIC_SECTION("predictions, " << type) {
+        limits.launches = after_match - 1;  // GPUs index the points before the predictions are copied
+        Device device = opencl::open_limited(index, kept_programs(), limits);
+        const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+        const auto base = frontend->process(scene.frame(0));
+        frontend->process(scene.frame(1));
+        const Gate gate(*device.context());
+        CHECK_THROWS_AS(frontend->match(*base, search(base)), DeviceError);
+        CHECK(gate.is_open());
+      }
     }
   }
 }

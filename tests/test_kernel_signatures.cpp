@@ -80,9 +80,7 @@ TEST_CASE("kernels: a wrong host signature is reported with the argument's name"
   }
 }
 
-TEST_CASE(
-    "kernels: every kernel of every variant has its host signature, and a fixed group size if it uses local memory",
-    "[device]") {
+TEST_CASE("kernels: every kernel of every variant has its host signature", "[device]") {
   const matching::RenderedScene scene("room", 96, 64, 1);
   Config config = scene.config;
   config.stereo.sift_max = 500;  // so that every kernel is used

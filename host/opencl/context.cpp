@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <sstream>
@@ -72,6 +73,19 @@ std::string Context::kernel_text(const std::string& file) const {
   return text.str();
 }
 
+/// NVIDIA's messages count lines from the first file on, whatever #line says: file and line of the first one.
+static std::string place_of_error(const std::string& log, const std::string& source) {
+  const std::string before = "<kernel>:", marker = "#line 1 \"";
+  const std::size_t at = log.find(before);
+  if (at == std::string::npos) return {};
+  std::istringstream lines(source);
+  std::string line, file;
+  int in_file = 0;
+  for (int left = std::atoi(log.c_str() + at + before.size()); left > 0 && std::getline(lines, line); --left, ++in_file)
+    if (line.rfind(marker, 0) == 0) file = line.substr(marker.size(), line.size() - marker.size() - 1), in_file = -1;
+  return file + ":" + std::to_string(in_file) + "\n";
+}
+
 cl::Program Context::build(const std::string& source, const std::string& options, const std::string& what) const {
   cl::Program program(context_, source);
   try {
@@ -86,7 +100,7 @@ cl::Program Context::build(const std::string& source, const std::string& options
     const bool is_error_of_source = log.find("error:") != std::string::npos;
     throw DeviceError("building the kernels of " + what + " failed: " + status_name(error.err()) + " on " + name_ +
                       (is_error_of_source ? "" : "; can the driver write its files? (disk space, `ulimit -f`)") +
-                      "\noptions: " + options + "\n" + log);
+                      "\noptions: " + options + "\n" + place_of_error(log, source) + log);
   }
   return program;
 }

@@ -80,12 +80,9 @@ std::string argument_difference(const ReportedArgument& reported, const Argument
 }
 
 std::vector<std::string> kernel_faults(const cl::Kernel& kernel, const std::string& name,
-                                       const std::vector<ArgumentType>& expected, const GroupLimit& group,
-                                       const Context& context) {
+                                       const std::vector<ArgumentType>& expected) {
   std::vector<std::string> faults;
   try {
-    if (!group.required && kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(context.device()) > 0)
-      faults.push_back("kernel " + name + " uses local memory without reqd_work_group_size");
     const cl_uint count = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
     if (count != expected.size()) {
       faults.push_back("kernel " + name + " takes " + std::to_string(count) + " arguments, the host passes " +

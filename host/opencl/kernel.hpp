@@ -135,11 +135,9 @@ struct GroupLimit {
 /// \throws DeviceError if the query fails
 GroupLimit group_limit(const cl::Kernel& kernel, const std::string& name, const Context& context);
 
-/// Differences between a kernel and its host signature, one sentence each with kernel and argument; kernels that use
-/// local memory must require their group size.
+/// Differences between a kernel and its host signature, one sentence each with kernel and argument.
 std::vector<std::string> kernel_faults(const cl::Kernel& kernel, const std::string& name,
-                                       const std::vector<ArgumentType>& expected, const GroupLimit& group,
-                                       const Context& context);
+                                       const std::vector<ArgumentType>& expected);
 
 /// \throws DeviceError if the kernel needs more local memory than the device has, or the query fails
 void check_local_memory(const cl::Kernel& kernel, const std::string& name, const Context& context);
@@ -185,7 +183,7 @@ class Kernel<void(Parameters...)> {
     group_ = group_limit(kernel_, name, context);
     if (context.checks_kernels())
       context.add_kernel_faults(
-          kernel_faults(kernel_, name, {Describe<typename Passed<Parameters>::Type>::get()...}, group_, context));
+          kernel_faults(kernel_, name, {Describe<typename Passed<Parameters>::Type>::get()...}));
   }
 
   /// Enqueues the kernel; an empty range enqueues nothing. If the device cannot run groups of this size and the source
