@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <vector>
 
 /// To be placed before functions with plain loops over a fixed number of lanes. Without contraction into fused
@@ -18,6 +19,19 @@
 #endif
 
 namespace quadedge {
+
+/// Processors that the loops of one object use at most: sixteen were no faster than eight and took a third more of
+/// their time.
+class Processors {
+ public:
+  template <class Function>
+  auto run(const Function& function) {
+    return arena_.execute(function);
+  }
+
+ private:
+  tbb::task_arena arena_{std::min(8, tbb::this_task_arena::max_concurrency())};
+};
 
 constexpr std::size_t kBlockRows = 1024;
 

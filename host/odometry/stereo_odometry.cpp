@@ -6,6 +6,7 @@
 
 #include "common/disparity_range.hpp"
 #include "common/images.hpp"
+#include "common/parallel.hpp"
 #include "common/timing.hpp"
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
@@ -99,6 +100,7 @@ class StereoOdometry::Implementation {
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
   Device& device() const { return device_; }
   const Config& config() const { return config_; }
+  Processors processors;
 
  private:
   void process(const StereoFrame& frame, FrameResult& result);
@@ -446,7 +448,9 @@ StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Confi
     : implementation_(std::make_unique<Implementation>(rig, nullptr, device, checked(rig, config))) {}
 
 StereoOdometry::~StereoOdometry() = default;
-FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
+FrameResult StereoOdometry::track(const StereoFrame& frame) {
+  return implementation_->processors.run([&] { return implementation_->track(frame); });
+}
 void StereoOdometry::restart() { implementation_->restart(); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }

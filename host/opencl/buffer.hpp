@@ -162,17 +162,51 @@ class Buffer {
   std::ptrdiff_t own_bytes_ = 0;  ///< 0 for a region of a block
 };
 
+/// Host memory that devices other than CPUs copy from and to without a driver's copy of their own; mapped once.
+class PinnedMemory {
+ public:
+  PinnedMemory() = default;
+  ~PinnedMemory() { release(); }
+  PinnedMemory(const PinnedMemory&) = delete;
+  PinnedMemory& operator=(const PinnedMemory&) = delete;
+
+  /// At least `bytes`, with what was there before if it is large enough. \throws cl::Error
+  void* reserve(Context& context, std::size_t bytes) {
+    if (bytes <= capacity_) return mapped_;
+    release();
+    const std::size_t wanted = bytes + bytes / 8;
+    context_ = &context;
+    memory_ = cl::Buffer(context.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, wanted);
+    mapped_ = context.queue().enqueueMapBuffer(memory_, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, wanted);
+    capacity_ = wanted;
+    return mapped_;
+  }
+
+ private:
+  void release() noexcept {
+    if (mapped_ == nullptr) return;
+    try {
+      context_->queue().enqueueUnmapMemObject(memory_, mapped_);
+      context_->queue().finish();
+    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
+      // The device is lost, or this is a forked process: the memory goes with the context.
+    }
+    mapped_ = nullptr;
+    capacity_ = 0;
+  }
+
+  Context* context_ = nullptr;
+  cl::Buffer memory_;
+  void* mapped_ = nullptr;
+  std::size_t capacity_ = 0;  ///< bytes
+};
+
 // Results that the host reads once per frame.
 
 /// Gives the host access to the contents of buffers. On CPUs the buffer is mapped, which copies nothing; on other
-/// devices it is copied to pinned memory, which is mapped once and reused in every frame.
+/// devices it is copied to pinned memory.
 class ReadBack {
  public:
-  ReadBack() = default;
-  ~ReadBack() { release(); }
-  ReadBack(const ReadBack&) = delete;
-  ReadBack& operator=(const ReadBack&) = delete;
-
   /// Waits for everything enqueued before and calls use(const T*) with the first `count` elements of `buffer`.
   /// \throws DeviceError
   template <class T, class Use>
@@ -190,10 +224,10 @@ class ReadBack {
         use(static_cast<const T*>(mapped));
         queue.enqueueUnmapMemObject(buffer.memory(), mapped);
       } else {
-        reserve(context, bytes);
-        queue.enqueueReadBuffer(buffer.memory(), CL_TRUE, 0, bytes, pinned_, nullptr, event);
+        void* const copied = copied_.reserve(context, bytes);
+        queue.enqueueReadBuffer(buffer.memory(), CL_TRUE, 0, bytes, copied, nullptr, event);
         context.copies_done();
-        use(static_cast<const T*>(pinned_));
+        use(static_cast<const T*>(copied));
       }
     } catch (const cl::Error& error) {
       throw_device_error("reading a result", error.err(), context.name());
@@ -201,31 +235,7 @@ class ReadBack {
   }
 
  private:
-  void reserve(Context& context, std::size_t bytes) {
-    if (bytes <= capacity_) return;
-    release();
-    const std::size_t wanted = bytes + bytes / 8;
-    context_ = &context;
-    memory_ = cl::Buffer(context.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, wanted);
-    pinned_ = context.queue().enqueueMapBuffer(memory_, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, wanted);
-    capacity_ = wanted;
-  }
-  void release() noexcept {
-    if (pinned_ == nullptr) return;
-    try {
-      context_->queue().enqueueUnmapMemObject(memory_, pinned_);
-      context_->queue().finish();
-    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
-      // The device is lost, or this is a forked process: the memory goes with the context.
-    }
-    pinned_ = nullptr;
-    capacity_ = 0;
-  }
-
-  Context* context_ = nullptr;
-  cl::Buffer memory_;
-  void* pinned_ = nullptr;
-  std::size_t capacity_ = 0;  ///< bytes
+  PinnedMemory copied_;
 };
 
 }  // namespace quadedge::opencl

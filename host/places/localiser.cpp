@@ -6,6 +6,7 @@
 
 #include "common/disparity_range.hpp"
 #include "common/images.hpp"
+#include "common/parallel.hpp"
 #include "common/timing.hpp"
 #include "common/undistortion.hpp"
 #include "odometry/frame_preparation.hpp"
@@ -134,6 +135,7 @@ class Localiser::Implementation {
 
   Localisation locate(const StereoFrame& frame);
   const Config& config() const { return config_; }
+  Processors processors;
 
  private:
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
@@ -297,7 +299,9 @@ void Localiser::Implementation::set_location(const Match& match, Localisation& r
 Localiser::Localiser(const SavedMap& map, const StereoRig& rig, Device& device, const Config& config, bool follow)
     : implementation_(std::make_unique<Implementation>(map, rig, device, config, follow)) {}
 Localiser::~Localiser() = default;
-Localisation Localiser::locate(const StereoFrame& frame) { return implementation_->locate(frame); }
+Localisation Localiser::locate(const StereoFrame& frame) {
+  return implementation_->processors.run([&] { return implementation_->locate(frame); });
+}
 const Config& Localiser::config() const { return implementation_->config(); }
 
 }  // namespace quadedge

@@ -1,5 +1,6 @@
 #include "stages/images.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -91,10 +92,17 @@ void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& t
   const auto width = static_cast<std::size_t>(recorded.width) * bytes_per_pixel_;
   const auto height = static_cast<std::size_t>(recorded.height);
   target.ensure(context_, width * height);
-  context_.count_to_device(width * height);
+  const auto stride = static_cast<std::size_t>(recorded.stride);
   try {
+    if (!context_.is_cpu()) {
+      auto* const copied = static_cast<cl_uchar*>(copied_.reserve(context_, width * height));
+      for (std::size_t y = 0; y < height; ++y) std::copy_n(recorded.pixels + y * stride, width, copied + y * width);
+      target.write_later(copied, width * height);
+      return;
+    }
+    context_.count_to_device(width * height);
     context_.queue().enqueueWriteBufferRect(target.memory(), CL_FALSE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width,
-                                            0, static_cast<std::size_t>(recorded.stride), 0, recorded.pixels, nullptr,
+                                            0, stride, 0, recorded.pixels, nullptr,
                                             context_.watch(opencl::Context::Command::transfer));
     context_.copy_started();
   } catch (const cl::Error& error) {
