@@ -111,7 +111,7 @@ class Undistortion : private Stage {
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;
   opencl::Buffer<cl_uchar> recorded_;
-  opencl::PinnedMemory copied_;  ///< the recorded image on its way to a device that is no CPU
+  opencl::PinnedMemory copied_;          ///< the recorded image on its way to a device that is no CPU
   std::optional<PixelCorners> corners_;  ///< of the recorded image
   opencl::Kernel<void(const cl_uint* corners, cl_int source_width, cl_int source_height, const cl_float* source_x,
                       const cl_float* source_y, cl_uchar* image, cl_int count)>
