@@ -182,8 +182,7 @@ class Kernel<void(Parameters...)> {
     check_local_memory(kernel_, name, context);
     group_ = group_limit(kernel_, name, context);
     if (context.checks_kernels())
-      context.add_kernel_faults(
-          kernel_faults(kernel_, name, {Describe<typename Passed<Parameters>::Type>::get()...}));
+      context.add_kernel_faults(kernel_faults(kernel_, name, {Describe<typename Passed<Parameters>::Type>::get()...}));
   }
 
   /// Enqueues the kernel; an empty range enqueues nothing. If the device cannot run groups of this size and the source
