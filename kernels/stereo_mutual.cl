@@ -19,7 +19,8 @@ kernel void stereo_owner(const StereoMutualArguments args, global const int* cho
   const int anchor = cluster_anchor[chosen[i]];
   if (as_int(score[i]) == claimed[anchor]) atomic_min(owner + anchor, i);
 }
-// 3: a left edge stays if the right edge's best is this left edge or its neighbour on the same curve.
+// 3: a left edge stays if the right edge's best is this left edge, or one within mutual_radius of it, its neighbour
+// on the curve.
 kernel void stereo_mutual(const StereoMutualArguments args, global const int* chosen, global const int* cluster_anchor,
                           global const float* left_edges, global const int* owner, global int* keep) {
   const int i = (int)get_global_id(0);

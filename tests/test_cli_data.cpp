@@ -1,11 +1,13 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "damaged_sequence.hpp"
 #include "program.hpp"
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -109,4 +111,23 @@ TEST_CASE("evaluate trajectory: KITTI rows are matched by number, or with timed 
   const auto late =
       run_program({"evaluate", "trajectory", folder / "rows.txt", folder / "rows.txt", "--from-frame", "2"});
   CHECK_THAT(late.out, Contains("3 of "));
+}
+
+TEST_CASE("check: --quiet leaves the warnings of a tree, each with its recording", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string gap = folder / "tree/gap";
+  REQUIRE(run_program({"synth", gap, "--frames", "12", "--size", "160x96"}).code == 0);
+  fs::copy(gap, folder / "tree/sound", fs::copy_options::recursive);
+  std::string listing = read_text(gap + "/rgb.txt");
+  for (const char* stamp : {"0.250000000", "0.300000000", "0.350000000"}) {
+    const std::string line = std::string(stamp) + " rgb/" + stamp + ".png\n";
+    REQUIRE(listing.find(line) != std::string::npos);
+    listing.erase(listing.find(line), line.size());
+    for (const char* camera : {"/rgb/", "/rgb2/"}) fs::remove(gap + camera + stamp + ".png");
+  }
+  std::ofstream(gap + "/rgb.txt") << listing;
+  const auto result = run_program({"check", folder / "tree", "--quiet"});
+  INFO(result.err);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.out, StartsWith("warning: gap: gap of 0.200 s before frame 5") && !Contains("sound"));
 }

@@ -82,6 +82,7 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
     const auto first = frontend->process(scene.frame(0)), second = frontend->process(scene.frame(1));
     const auto matches = frontend->match_globally(*first, scene.config.temporal.wide_edges);
     CHECK(same_bytes(matches, frontend->match_globally(*first, scene.config.temporal.wide_edges)));
+    CHECK(frontend->match_globally(*first, 0).size() == 0);
     const StereoEdges& before = first->edges;
     std::size_t right = 0;
     for (std::size_t m = 0; m < matches.size(); ++m) {

@@ -109,10 +109,10 @@ class CheckCommand : public Command {
         std::printf("%-8s %s: %s\n", check.errors.empty() ? "there" : "DAMAGED", member.path.c_str(),
                     data::one_line(check).c_str());
       }
+      for (const auto& warning : check.warnings) std::printf("warning: %s: %s\n", member.path.c_str(), warning.c_str());
       for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
     }
-    if (quiet_) return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
-    std::printf("%zu there, %d of them damaged\n", members.size(), damaged);
+    if (!quiet_) std::printf("%zu there, %d of them damaged\n", members.size(), damaged);
     return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
   }
 

@@ -182,11 +182,12 @@ DatasetCheck check_opened(const std::string& path, const std::function<Dataset(F
   try {
     return read_all(open(findings), findings, seen);
   } catch (const DataError& problem) {
-    check.errors = findings.errors();
-    check.errors.push_back(problem.what());
+    findings.error(problem.what());
   } catch (const fs::filesystem_error& problem) {
-    check.errors.push_back(unreadable_place(path.empty() ? problem.path1().string() : path, problem));
+    findings.error(unreadable_place(path.empty() ? problem.path1().string() : path, problem));
   }
+  check.errors = findings.errors();
+  check.warnings = findings.warnings();
   return check;
 }
 

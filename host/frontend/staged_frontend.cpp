@@ -59,6 +59,8 @@ void StagedFrontend::match(const FrameEdges& base_edges, const TemporalSearch& s
 }
 
 void StagedFrontend::match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) {
+  matches.clear();
+  if (edges == 0) return;
   matches = search_globally(own(base), about(edges, base), about(2 * edges, *current_handle()));
 }
 

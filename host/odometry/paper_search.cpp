@@ -117,6 +117,7 @@ pose::MotionStatus PaperSearch::solve(std::uint64_t seed, MotionStep& step) {
     motion.covariance = refined.covariance;
     motion.offset = refined.offset;
     motion.learned = refined.learned;
+    if (!refined.solved || !refined.covariance.allFinite()) return pose::MotionStatus::badly_spread;
   }
   motion.inlier_ratio = static_cast<double>(motion.inliers) / static_cast<double>(step.quads.size());
   const bool agreed = motion.inliers >= config_.min_inliers && motion.inlier_ratio >= config_.min_inlier_ratio;

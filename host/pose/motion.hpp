@@ -21,7 +21,7 @@ enum class MotionStatus {
   ok,
   too_few_quads,  ///< fewer quads than config.min_inliers
   no_consensus,   ///< no motion reaches config.min_inliers and config.min_inlier_ratio
-  badly_spread,   ///< the inliers cover too small a part of the image to determine the motion
+  badly_spread,   ///< the inliers cover too small a part of the image, or the fit has no finite solution
 };
 
 /// Motion between two rigs, estimated from their quads.

@@ -176,7 +176,8 @@ class Refinement {
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
     result_.current_from_previous = both.free.current_from_previous;
-    fit_both(covariance_at(both.free.offset));
+    const OffsetFit unweighted = both;
+    if (!fit_both(covariance_at(both.free.offset))) both = unweighted;
     result_.current_from_previous = both.free.current_from_previous;
     result_.covariance = both.learned.covariance;
     result_.offset = both.free.offset;

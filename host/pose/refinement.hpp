@@ -62,7 +62,7 @@ struct Refined {
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
   int inliers = 0;
   Matrix6d covariance = Matrix6d::Zero();  ///< see MeasuredCovariance::inflated()
-  bool solved = false;  ///< false: no fit was possible; the pose is the initial one and the covariance zero
+  bool solved = false;  ///< false: the last fit had no solution; the pose is that before it and the covariance zero
   double offset = 0;    ///< free disparity offset, see OffsetFit [px]
   std::optional<PoseAndOffset> learned;  ///< see OffsetFit; without a value there was no fit with an offset
 };

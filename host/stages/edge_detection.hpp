@@ -12,7 +12,7 @@ namespace quadedge::stages {
 /// Stage 2a: the threshold of a frame's edges, from what its images show.
 /// Measures contrast and noise of a stereo pair. The threshold stays on the device, where the edge detection reads it,
 /// so the host does not wait. If edges.threshold > 0, it is used and nothing is measured. The threshold of the previous
-/// frame is kept. All variants give the same bytes.
+/// frame is kept while it is close to what the images show. All variants give the same bytes.
 class EdgeThreshold : private Stage {
  public:
   /// `variants`: stage "edge_threshold". \throws UsageError for an unknown variant.

@@ -52,6 +52,11 @@ StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std
     camera->width = size->first;
     camera->height = size->second;
   }
+  const PinholeCamera& left = calibration.left.camera;
+  if (size && (left.width != size->first || left.height != size->second))
+    throw DataError("size: found " + std::to_string(size->first) + " x " + std::to_string(size->second) +
+                    " pixels, expected " + std::to_string(left.width) + " x " + std::to_string(left.height) + ", as " +
+                    calibration.files + " says");
   StereoRig rig = make_rig(calibration, fov);
   if (!mask.is_none()) mask_rig(rig, files_of(mask));
   rig.max_value = max_value;
@@ -91,14 +96,13 @@ void bind_rig(nb::module_& module) {
               "def from_file(files: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike], *, fov: float = "
               "0, mask: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike] | None = None, size: "
               "tuple[int, int] | None = None, max_value: int = 255, rectified: bool = False) -> Rig"),
-          "Reads a calibration: Kalibr, OpenCV, ROS (camera_info), EuRoC or the native format, recognised by "
-          "content.\n\n"
+          "Reads a calibration in any of the forms of doc/your-own-data.md, recognised by content.\n\n"
           "files: one file, or a pair (left, right).\n"
           "fov: horizontal field of view of the pinhole images that distorted images are converted to [degrees]; 0 "
           "keeps\n"
           "the scale at the optical axis.\n"
           "mask: image file of the size of the recorded images, black where no edges are detected, or a pair.\n"
-          "size: (width, height) of the recorded images [px], where the file does not specify it.\n"
+          "size: (width, height) of the recorded images [px], where the file does not specify it or has several.\n"
           "max_value: value of a saturated pixel, as in the constructor.\n"
           "rectified: the images are rectified, and the files' projection matrices P describe them.\n\n"
           "Raises DataError that names the file, the entry, what was found and what was expected.")

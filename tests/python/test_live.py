@@ -41,9 +41,9 @@ class SoftwareCamera:
         if streams == 2:
             self.profiles[0].register_extrinsics_to(self.profiles[1], shift)
 
-    def play(self, frames) -> None:
+    def play(self, frames, cameras: int = 2) -> None:
         for number, one in enumerate(frames):
-            for profile, pixels in zip(self.profiles, (one.left, one.right)):
+            for profile, pixels in zip(self.profiles[:cameras], (one.left, one.right)):
                 frame = rs.software_video_frame()
                 frame.pixels, frame.stride, frame.bpp = numpy.ascontiguousarray(pixels).reshape(-1), 320, 1
                 frame.timestamp, frame.domain = 1000.0 + 50.0 * number, rs.timestamp_domain.hardware_clock
@@ -67,6 +67,28 @@ def test_the_infrared_pair_of_a_realsense(room, frames):
         assert stamp == 1_000_000_000 + number * 50_000_000
         numpy.testing.assert_array_equal(left, frames[number].left)
         numpy.testing.assert_array_equal(right, frames[number].right)
+
+
+def test_a_realsense_whose_right_camera_is_silent_ends(room, frames, monkeypatch):
+    monkeypatch.setattr("quadedge.live.realsense._SILENCE_S", 0.5)
+    software = SoftwareCamera(room.rig)
+    camera = quadedge.live.open_camera("realsense", width=320, height=200, device=software.device)
+    playing = threading.Event()
+    playing.set()
+
+    def play():
+        while playing.is_set():
+            software.play(frames[:1], cameras=1)
+
+    player = threading.Thread(target=play)
+    player.start()
+    taking = threading.Thread(target=lambda: list(camera), daemon=True)
+    taking.start()
+    taking.join(10)
+    playing.clear()
+    player.join()
+    assert not taking.is_alive()
+    camera.close()
 
 
 @pytest.mark.parametrize("make, options, words", [

@@ -1,5 +1,6 @@
 """The infrared pair of a RealSense camera, with pyrealsense2."""
 
+import time
 from collections.abc import Iterator
 
 import numpy
@@ -12,7 +13,7 @@ except ImportError as error:
     raise ImportError("quadedge.live needs pyrealsense2 for a RealSense camera; `pip install quadedge[realsense]` "
                       "installs it") from error
 
-_WAIT_MS, _SILENCES = 500, 10
+_WAIT_MS, _SILENCE_S = 500, 5.0
 
 
 def _stereo_sensor(device):
@@ -81,13 +82,13 @@ class Camera:
         self._sensor.start(self._pairs)
 
     def __iter__(self) -> Iterator[tuple[int, numpy.ndarray, numpy.ndarray]]:
-        """Ends when the camera has been silent for five seconds."""
-        silences = 0
-        while silences < _SILENCES:
+        """Ends when no pair has come for five seconds."""
+        last_s = time.monotonic()
+        while time.monotonic() - last_s < _SILENCE_S:
             arrived, frames = self._pairs.try_wait_for_frames(_WAIT_MS)
-            silences = 0 if arrived else silences + 1
             pair = [frames.get_infrared_frame(1), frames.get_infrared_frame(2)] if arrived else [None]
             if all(pair):
+                last_s = time.monotonic()
                 yield round(pair[0].get_timestamp() * 1e6), *(numpy.asanyarray(one.get_data()) for one in pair)
 
     def close(self) -> None:

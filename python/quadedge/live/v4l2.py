@@ -3,6 +3,7 @@
 import shutil
 import stat
 import subprocess
+import tempfile
 import threading
 import time
 from collections.abc import Iterator
@@ -40,16 +41,19 @@ class Camera:
         call = ["ffmpeg", "-nostdin", "-loglevel", "error", *wanted, "-i", source,
                 "-f", "yuv4mpegpipe", "-strict", "-1", "-pix_fmt", "gray", "-"]
         self.name, self.notes = source, ["stamps are times of arrival"]
-        self._ffmpeg = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        errors = tempfile.TemporaryFile()  # a pipe that nobody reads would stop ffmpeg when it is full
+        self._ffmpeg = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=errors)
         try:
             header = self._ffmpeg.stdout.readline().split()
             if not header:
-                reason = self._ffmpeg.stderr.read().decode(errors="replace").strip().replace("\n", "; ")
+                self._ffmpeg.wait()
+                errors.seek(0)
+                reason = errors.read().decode(errors="replace").strip().replace("\n", "; ")
                 raise DataError(f"{source}: found no video ({reason}), expected what ffmpeg reads")
             both = {word[:1]: int(word[1:]) for word in header[1:] if word[:1] in (b"W", b"H")}
             self._width, self._height = both[b"W"], both[b"H"]
             self.rig = Rig.from_file(calibration, size=(self._width // 2, self._height))
-        except DataError:
+        except BaseException:
             self.close()
             raise
         self._newest, self._came, self._ended = None, threading.Condition(), False
