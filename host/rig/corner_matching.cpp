@@ -191,7 +191,8 @@ CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, 
           })};
 }
 
-CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn) const {
+CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn,
+                                   std::size_t every) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
   const CoarseViews views = coarse_views(left, right, turn);
@@ -234,8 +235,8 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
     return outcome;
   };
   const auto corners = find_corners(views.left);
-  std::vector<SearchedCorner> all(corners.size());
-  tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t i) { all[i] = seek(corners[i]); });
+  std::vector<SearchedCorner> all((corners.size() + every - 1) / every);
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = seek(corners[i * every]); });
   for (const SearchedCorner& outcome : all) {
     result.searched += outcome.has_line ? 1 : 0;
     result.negative += outcome.is_negative ? 1 : 0;

@@ -53,7 +53,9 @@ class CornerMatcher {
   /// width to both sides along the line and a tenth of the image height across it. Uses images reduced to a width of
   /// about 320 px and takes some ten milliseconds.
   /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
-  CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none) const;
+  /// \param every searches for every `every`-th corner, in `every`-th of the time
+  CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none,
+                      std::size_t every = 1) const;
 
  private:
   /// An epipolar line in the right image.

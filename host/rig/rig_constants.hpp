@@ -61,6 +61,8 @@ constexpr double kTransformedFoundRatio = 0.4;
 // Findings (rig_monitor.cpp).
 
 constexpr int kMinCorners = 20, kMinMatches = 12;
+/// A search for every third corner has to find as many for its verdict to count.
+constexpr std::size_t kSparseCorners = 3, kMinSparseMatches = 24;
 /// Fraction of the corners that are found.
 constexpr double kLostFoundRatio = 0.2;
 /// Fraction of the left edges that have a match.

@@ -119,10 +119,10 @@ std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarF
   return findings;
 }
 
-/// Adds a search and its findings to the report.
-void search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const StereoFrame& frame,
-                      double max_disparity, RigReport& report) {
-  const CornerSearch search = matcher.search(frame, max_disparity);
+/// Adds a search for every `every`-th corner and its findings to the report. \returns the number of corners found
+std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const StereoFrame& frame,
+                             double max_disparity, RigReport& report, std::size_t every = 1) {
+  const CornerSearch search = matcher.search(frame, max_disparity, ImageTurn::none, every);
   // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
   std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
@@ -136,6 +136,7 @@ void search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const 
   const ImageTurn turn =
       finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity) : ImageTurn::none;
   report.findings = judge_search(search, fit, report.evidence, turn, rig.left);
+  return search.found.size();
 }
 
 /// Adds a finding if the left image is interlaced. \returns whether it is
@@ -238,7 +239,12 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   const auto repeated = find_repeated_images(frame);
   const bool is_frozen = repeated && is_mismatch(repeated->kind);
   if (!is_frozen && left_edges > 0 && needs_search(evidence)) {
-    search_and_judge(corner_matcher_, rig_, frame, max_disparity, report);
+    // If the rig was right before, a third of the corners suffices to see that it still is.
+    const bool is_right =
+        searched_ && fits_ &&
+        search_and_judge(corner_matcher_, rig_, frame, max_disparity, report, kSparseCorners) >= kMinSparseMatches &&
+        report.findings.empty();
+    if (!is_right) search_and_judge(corner_matcher_, rig_, frame, max_disparity, report);
     frames_since_search_ = 0;
     searched_ = evidence;
     fits_ = report.mismatch() == nullptr;
