@@ -1,10 +1,10 @@
 # Finds what the libraries and the program need. What is missing is named in one sentence, as Debian packages, which is
 # also what the development package depends on.
 set(development_packages ocl-icd-opencl-dev opencl-headers libeigen3-dev libtbb-dev)
-set(build_packages opencl-clhpp-headers)
+set(build_packages opencl-clhpp-headers libxxhash-dev)
 if(NOT QUADEDGE_CORE_ONLY)
   list(APPEND development_packages libopencv-features2d-dev libpng-dev libjpeg-dev libyaml-cpp-dev nlohmann-json3-dev)
-  list(APPEND build_packages libcli11-dev libtomlplusplus-dev libxxhash-dev)
+  list(APPEND build_packages libcli11-dev libtomlplusplus-dev)
 endif()
 
 include(CheckLanguage)
@@ -33,6 +33,8 @@ find_package(Eigen3 3.4 QUIET NO_MODULE)
 quadedge_expect(Eigen3_FOUND libeigen3-dev)
 find_package(TBB QUIET)
 quadedge_expect(TBB_FOUND libtbb-dev)
+find_path(XXHASH_INCLUDE_DIR xxhash.h)  # used as a header alone
+quadedge_expect(XXHASH_INCLUDE_DIR libxxhash-dev)
 if(NOT QUADEDGE_CORE_ONLY)
   list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
   find_package(OpenCVModules 4.5 QUIET COMPONENTS core imgproc features2d)
@@ -47,9 +49,7 @@ if(NOT QUADEDGE_CORE_ONLY)
   quadedge_expect(nlohmann_json_FOUND nlohmann-json3-dev)
   find_package(CLI11 2.1 QUIET)
   quadedge_expect(CLI11_FOUND libcli11-dev)
-  find_path(XXHASH_INCLUDE_DIR xxhash.h)  # used as a header alone
-  quadedge_expect(XXHASH_INCLUDE_DIR libxxhash-dev)
-  find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h)  # so is this
+  find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h)  # used as a header alone
   quadedge_expect(TOMLPLUSPLUS_INCLUDE_DIR libtomlplusplus-dev)
 endif()
 if(missing_packages)

@@ -8,6 +8,9 @@
 #include <string_view>
 #include <unistd.h>
 
+#define XXH_INLINE_ALL  // header-only
+#include <xxhash.h>
+
 #include "common/bounded_folder.hpp"
 
 namespace quadedge::opencl {
@@ -15,15 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kContent = "quadedge program 1\n";
+constexpr std::string_view kContent = "quadedge program 2\n";
 constexpr const char* kSuffix = ".program";
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo): detects damage, not manipulation.
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
-  return hash;
-}
+/// Detects damage, not manipulation.
+std::uint64_t checksum(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 std::string number(std::uint64_t value) {
   char text[24];

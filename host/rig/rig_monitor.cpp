@@ -3,8 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
+
+#define XXH_INLINE_ALL  // header-only
+#include <xxhash.h>
 
 #include "rig/interlacing.hpp"
 #include "rig/rig_constants.hpp"
@@ -12,25 +14,12 @@
 namespace quadedge::rig {
 namespace {
 
-/// A hash that practically identifies an image. Four hashes of every fourth word each are computed side by side.
+/// A hash that practically identifies an image.
 std::uint64_t fingerprint(const ImageView& image) {
-  constexpr std::size_t kHashes = 4, kStep = kHashes * sizeof(std::uint64_t);
-  std::uint64_t hashes[kHashes] = {1469598103934665603U, 2, 3, 4};
-  const auto add = [](std::uint64_t word, std::uint64_t& hash) {
-    hash = (hash ^ word) * 1099511628211U;
-    hash ^= hash >> 29U;
-  };
   const std::size_t bytes = bytes_per_pixel(image.max_value) * static_cast<std::size_t>(image.width);
-  for (int y = 0; y < image.height; ++y) {
-    const std::uint8_t* row = image.pixels + y * image.stride;
-    for (std::size_t i = 0; i < bytes; i += kStep) {
-      std::uint64_t words[kHashes] = {};
-      std::memcpy(words, row + i, std::min(kStep, bytes - i));
-      for (std::size_t k = 0; k < kHashes; ++k) add(words[k], hashes[k]);
-    }
-  }
-  for (std::size_t k = 1; k < kHashes; ++k) add(hashes[k], hashes[0]);
-  return hashes[0];
+  std::uint64_t hash = 0;
+  for (int y = 0; y < image.height; ++y) hash = XXH3_64bits_withSeed(image.pixels + y * image.stride, bytes, hash);
+  return hash;
 }
 
 /// The transformation of the right image with which a search finds most corners; none if there is no such.
