@@ -1,4 +1,4 @@
-/// \file test_generated_pages.cpp  Manual page, shell completion, `quadedge generate`.
+/// \file test_generated_pages.cpp  Manual page and shell completion.
 #include <catch2/catch.hpp>
 
 #include "program.hpp"
@@ -49,10 +49,4 @@ TEST_CASE("bash completion: completes commands, options, their values and consta
   CHECK(completions(script, {"run", "--stereo.ncc_n"}) == "--stereo.ncc_nearly_best\n");
   CHECK(completions(script, {"demo", "--odometry.key_rig", "t"}) == "true\n");
   CHECK(completions(script, {"run", "x", "--output", "res"}) == "\n");  // a file, which bash completes itself
-}
-
-TEST_CASE("generate: unknown kinds are refused", "[cli]") {
-  const auto unknown = run_program({"generate", "cake"});
-  CHECK(unknown.code == 2);
-  CHECK_THAT(unknown.err, Contains("cake") && Contains("expected configuration"));
 }

@@ -83,6 +83,5 @@ std::unique_ptr<Command> make_variants_command();
 std::unique_ptr<Command> make_synth_command();
 std::unique_ptr<Command> make_evaluate_trajectory_command();
 std::unique_ptr<Command> make_evaluate_matching_command();
-std::unique_ptr<Command> make_generate_command();
 
 }  // namespace quadedge::cli

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
           cli::make_report_command, cli::make_edges_command, cli::make_match_command,
           cli::make_evaluate_trajectory_command, cli::make_evaluate_matching_command, cli::make_bench_command,
           cli::make_compare_command, cli::make_synth_command, cli::make_check_command, cli::make_devices_command,
-          cli::make_variants_command, cli::make_generate_command})
+          cli::make_variants_command})
       commands.push_back(make());
     const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
     if (parsed.command == nullptr) return parsed.exit_code;
