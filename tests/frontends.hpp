@@ -1,6 +1,9 @@
 #pragma once
 /// \file frontends.hpp  Small rendered scenes and runs of the whole frontend on them.
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -74,6 +77,27 @@ inline FrontendOutput run_frontend(const RenderedScene& scene, const std::string
                                    const Variants& variants = {}, Tap* tap = nullptr, float radius = 12, int step = 1) {
   Device device(device_name, kept_programs());
   return run_frontend(scene, device, variants, tap, radius, step);
+}
+
+/// The fraction of rows of `a` that `b` contains, by left position and right column within 0.02 px.
+template <class Rows>
+double contained(const Rows& a, const Rows& b) {
+  std::multimap<long, std::size_t> columns;  // of b, in hundredths of a pixel
+  for (std::size_t i = 0; i < b.size(); ++i) columns.emplace(std::lround(100 * b.left_x[i]), i);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const long column = std::lround(100 * a.left_x[i]);
+    found += std::any_of(columns.lower_bound(column - 2), columns.upper_bound(column + 2), [&](const auto& entry) {
+      const std::size_t k = entry.second;
+      return std::abs(a.left_y[i] - b.left_y[k]) < 0.025F && std::abs(a.right_x[i] - b.right_x[k]) < 0.02F;
+    });
+  }
+  return a.size() == 0 ? 1 : static_cast<double>(found) / static_cast<double>(a.size());
+}
+/// The smaller fraction of both directions. Devices round differently, so candidates near a threshold may differ.
+template <class Rows>
+double agreement(const Rows& a, const Rows& b) {
+  return std::min(contained(a, b), contained(b, a));
 }
 
 inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {

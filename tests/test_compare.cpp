@@ -173,8 +173,7 @@ TEST_CASE("compare: a variant with a different result is refused and never saved
       compare_arguments({"--stage", "patches", "--json", folder / "compare.json", "--kernels", folder / "kernels"}));
   INFO(result.err << result.out);
   CHECK(result.code == 1);
-  CHECK_THAT(result.out,
-             Contains("REFUSED: differs from the reference") && Contains("first: stereo edge of the first frame"));
+  CHECK_THAT(result.out, Contains("REFUSED: differs from the reference at patches: "));
   const Json stage = Json::parse(read_text(folder / "compare.json"))["stages"][0];
   for (const auto& variant : stage["variants"]) {
     CHECK(variant["agrees"] == (variant["name"] == "edge"));
@@ -228,21 +227,4 @@ TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
   CHECK(run_program({"compare", "--repetitions", "0"}).code == 2);
   CHECK(run_program({"compare", "--edges", "-1"}).code == 2);
   CHECK(run_program({"compare", "--device", "reference"}).code == 2);
-}
-
-TEST_CASE("agreement: equal, shifted and missing rows are distinguished", "[bench]") {
-  frontend::FrontendOutput a;
-  for (int i = 0; i < 1000; ++i) {
-    a.current.left_x.push_back(static_cast<float>(i));
-    a.current.left_y.push_back(5);
-    a.current.right_x.push_back(static_cast<float>(i) - 3);
-    a.current.left_index.push_back(i);
-  }
-  CHECK(frontend::agreement(a, a).good());
-  auto b = a;
-  b.current.right_x[10] += 0.5f;
-  CHECK(frontend::agreement(a, b).stereo == Approx(0.999));
-  CHECK(frontend::agreement(a, b).good());
-  for (int i = 20; i < 26; ++i) b.current.left_x[static_cast<std::size_t>(i)] += 0.1f;
-  CHECK_FALSE(frontend::agreement(a, b).good());
 }

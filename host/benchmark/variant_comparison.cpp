@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -15,7 +14,7 @@
 #include "frontend/prediction.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/synthetic.hpp"
+#include "quadedge/self_test.hpp"
 #include "report/json_values.hpp"
 #include "report/statistics.hpp"
 
@@ -86,52 +85,6 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
 
 }  // namespace
 
-struct ReferenceCheck::Small {
-  SyntheticSequence sequence;
-  Config config;
-  FramePrefetcher::Frame frames[2];
-  frontend::FrontendOutput expected;
-
-  static SyntheticOptions options() {
-    SyntheticOptions options;
-    options.width = 161;  // no multiple of any work-group
-    options.height = 97;
-    options.focal = 0.575 * options.width;
-    options.baseline = 0.15;
-    options.frames = 2;
-    return options;
-  }
-  explicit Small(const Config& method) : sequence(options()), config(method) {
-    config.stereo.max_disparity = sequence.rig().max_disparity;
-    config.stereo.min_depth = 0;
-    config.variants.clear();
-    if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run
-    config.stereo.coarse_ties = 0;
-    for (int i = 0; i < 2; ++i) frames[i] = sequence.pair(i);
-    Device reference("reference");
-    expected = frontend::run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0].view(),
-                                      frames[1].view(), config);
-  }
-};
-
-ReferenceCheck::ReferenceCheck(const Config& config) : small_(std::make_unique<Small>(config)) {}
-ReferenceCheck::~ReferenceCheck() = default;
-
-std::string ReferenceCheck::difference(Device& device, const std::map<std::string, std::string>& variants) const {
-  Config config = small_->config;
-  config.variants = variants;
-  const auto frontend = frontend::make_frontend(small_->sequence.rig(), device, config);
-  const auto agreeing =
-      agreement(run_frontend(*frontend, small_->frames[0].view(), small_->frames[1].view(), config), small_->expected);
-  if (agreeing.good()) return {};
-  char text[320];
-  std::snprintf(
-      text, sizeof text,
-      "differs from the reference: %.1f %% of the stereo edges and %.1f %% of the quads are the same; first: %s",
-      100 * agreeing.stereo, 100 * agreeing.quads, agreeing.first.c_str());
-  return text;
-}
-
 std::string StageResult::best() const {
   std::string best;
   double fastest = 1;
@@ -147,7 +100,7 @@ std::string StageResult::best() const {
 }
 
 // LONG: four steps on one list of candidates: check, compare, measure, relate.
-StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
+StageResult compare_variants(const std::string& stage, const VariantInput& input,
                              const std::function<void(const std::string&)>& progress) {
   StageResult result;
   result.stage = stage;
@@ -165,9 +118,11 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     if (row.is_default) by_default = result.variants.size();
     try {
       const Config config = with_variant(input.config, stage, variant.name);
-      row.why = check.difference(*candidate.device, config.variants);
-      row.agrees = row.why.empty();
-      if (row.agrees) {
+      const SelfTestResult test = self_test(*candidate.device, config.variants);
+      row.agrees = test.passed();
+      if (!row.agrees) {
+        row.why = "differs from the reference at " + test.stage + ": " + test.difference;
+      } else {
         candidate.frontend = frontend::make_frontend(input.rig, *candidate.device, config);
         candidate.output = run_frontend(*candidate.frontend, input.first.view(), input.second.view(), config);
       }

@@ -18,9 +18,9 @@ namespace quadedge::bench {
 struct VariantResult {
   std::string name;
   bool is_default = false;
-  bool runs = true;     ///< false: the device cannot run it, for the reason in `why`
-  bool agrees = false;  ///< with the reference on a small input, and byte for byte with the default on the measured one
-  std::string why;      ///< the reason if there is no time, else empty
+  bool runs = true;      ///< false: the device cannot run it, for the reason in `why`
+  bool agrees = false;   ///< with the reference in the self-test, and byte for byte with the default on the input
+  std::string why;       ///< the reason if there is no time, else empty
   double median_ms = 0;  ///< of the stage in one frame by OpenCL events; NaN without a time
   double p10_ms = 0, p90_ms = 0;
   double ratio_to_default = 0;  ///< median over the repetitions of the ratio to the default's time
@@ -47,26 +47,10 @@ struct VariantInput {
   int repetitions = 9;
 };
 
-/// A small input and its result by the plain C++ reference; used for all stages.
-class ReferenceCheck {
- public:
-  /// `config`: constants of the method; the search range is set to that of the small input.
-  explicit ReferenceCheck(const Config& config);
-  ~ReferenceCheck();
-  ReferenceCheck(const ReferenceCheck&) = delete;
-  ReferenceCheck& operator=(const ReferenceCheck&) = delete;
-  /// The difference between the device with these variants and the reference; empty if they agree. \throws DeviceError.
-  std::string difference(Device& device, const std::map<std::string, std::string>& variants) const;
-
- private:
-  struct Small;
-  std::unique_ptr<Small> small_;
-};
-
 /// Checks all variants of a stage, then measures them alternately; one that takes more than twice the default's time in
 /// each of its first three measurements is not measured again. `progress` is called with the current activity.
 /// \throws DeviceError if the default variant does not run.
-StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
+StageResult compare_variants(const std::string& stage, const VariantInput& input,
                              const std::function<void(const std::string&)>& progress);
 
 /// Names of all stages with variants, in order.

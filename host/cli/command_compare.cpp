@@ -79,7 +79,6 @@ class CompareCommand : public Command {
     FrameSource source(scene);
     const auto first = source.next(), second = source.next();
     config = with_disparity_range(config, source.rig());
-    const bench::ReferenceCheck check(config);
     if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, *device, config);
     std::printf("%s\n\n%-20s %-10s %-8s %12s %9s %9s %7s %7s\n", info.name.c_str(), "stage", "variant", "", "median",
                 "p10", "p90", "ratio", "p90");
@@ -92,7 +91,7 @@ class CompareCommand : public Command {
     StatusLine status(quiet_);
     std::vector<bench::StageResult> results;
     for (const auto& stage : stages) {
-      results.push_back(bench::compare_variants(stage, input, check, [&](const std::string& what) {
+      results.push_back(bench::compare_variants(stage, input, [&](const std::string& what) {
         if (status.due()) status.show(what);
       }));
       print_stage(results.back());

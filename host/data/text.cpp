@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 
 #include "quadedge/error.hpp"
 
@@ -63,16 +64,11 @@ std::string read_text(const std::string& file) {
 }
 
 std::vector<Line> text_lines(const std::string& file) {
-  const std::string all = read_text(file);
+  std::istringstream all(read_text(file));
   std::vector<Line> lines;
-  int number = 0;
-  for (std::size_t begin = 0; begin < all.size();) {
-    const std::size_t end = std::min(all.find('\n', begin), all.size());
-    std::string text = all.substr(begin, end - begin);
-    ++number;
-    begin = end + 1;
+  for (std::string text; std::getline(all, text);) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
-    lines.push_back({number, std::move(text)});
+    lines.push_back({static_cast<int>(lines.size()) + 1, std::move(text)});
   }
   return lines;
 }

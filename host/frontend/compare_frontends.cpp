@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <future>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "frontend/prediction.hpp"
@@ -243,55 +242,6 @@ std::string difference(const StageRows& found, const StageRows& expected, double
 
 namespace {
 
-/// A position in the left image in hundredths of a pixel. Rows are matched by position, because one additional edge in
-/// a list shifts all indices.
-using Key = std::pair<long, long>;
-Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
-
-/// Rows of `a` that `b` contains as well, by left position and right column.
-struct Shared {
-  double fraction = 1;
-  std::optional<std::size_t> first_missing;
-};
-template <class Rows>
-Shared shared(const Rows& a, const Rows& b) {
-  Shared result;
-  if (a.size() == 0) return result;
-  std::multimap<Key, float> known;
-  for (std::size_t i = 0; i < b.size(); ++i) known.emplace(key(b.left_x[i], b.left_y[i]), b.right_x[i]);
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Key middle = key(a.left_x[i], a.left_y[i]);
-    bool hit = false;
-    for (long dx = -2; dx <= 2 && !hit; ++dx) {
-      for (long dy = -2; dy <= 2 && !hit; ++dy) {
-        const auto [begin, end] = known.equal_range({middle.first + dx, middle.second + dy});
-        hit = std::any_of(begin, end, [&](const auto& row) { return std::abs(a.right_x[i] - row.second) < 0.02F; });
-      }
-    }
-    found += hit ? 1 : 0;
-    if (!hit && !result.first_missing) result.first_missing = i;
-  }
-  result.fraction = static_cast<double>(found) / static_cast<double>(a.size());
-  return result;
-}
-
-/// The smaller fraction of both directions. Sets `first`, if empty, to the first row that one side lacks.
-template <class Rows>
-double both_ways(const char* what, const Rows& a, const Rows& b, std::string& first) {
-  const Shared forth = shared(a, b), back = shared(b, a);
-  const auto tell = [&](const Rows& rows, const std::optional<std::size_t>& row, const char* whose) {
-    if (!row || !first.empty()) return;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s %zu at (%.2f, %.2f), right column %.2f, is %s", what, *row, rows.left_x[*row],
-                  rows.left_y[*row], rows.right_x[*row], whose);
-    first = text;
-  };
-  tell(a, forth.first_missing, "not in the reference");
-  tell(b, back.first_missing, "in the reference alone");
-  return std::min(forth.fraction, back.fraction);
-}
-
 /// The first differing value of parallel arrays.
 class Difference {
  public:
@@ -370,17 +320,6 @@ std::string first_difference(const FrontendOutput& a, const FrontendOutput& b) {
   return found;
 }
 
-Agreement agreement(const FrontendOutput& a, const FrontendOutput& b) {
-  Agreement result;
-  const double previous = both_ways("stereo edge of the first frame", a.previous, b.previous, result.first),
-               current = both_ways("stereo edge of the second frame", a.current, b.current, result.first),
-               coarse = both_ways("quad of the coarse search", a.coarse, b.coarse, result.first),
-               quads = both_ways("quad", a.quads, b.quads, result.first);
-  result.stereo = std::min(previous, current);
-  result.quads = std::min(coarse, quads);
-  return result;
-}
-
 }  // namespace quadedge::frontend
 
 namespace quadedge {
@@ -410,6 +349,15 @@ class KernelCheck {
   opencl::Context* context_;
 };
 
+/// What the reference finds, computed once.
+const std::vector<frontend::StageRows>& expected_rows() {
+  static const std::vector<frontend::StageRows> rows = [] {
+    Device reference("reference");
+    return frontend::observe_stages(frontend::small_sequence(), reference, {});
+  }();
+  return rows;
+}
+
 }  // namespace
 
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
@@ -420,13 +368,9 @@ SelfTestResult self_test(Device& device, const std::map<std::string, std::string
     const std::string difference = stages::long_loop_difference(*device.context());
     if (!difference.empty()) return {"long_loop", difference + kernels.text()};
   }
-  const auto sequence = frontend::small_sequence();
-  auto computed = std::async(std::launch::async, [&] {  // while the device's kernels are built
-    Device reference("reference");
-    return frontend::observe_stages(sequence, reference, {});
-  });
-  const auto found = frontend::observe_stages(sequence, device, variants);
-  const auto expected = computed.get();
+  auto computed = std::async(std::launch::async, [] { return &expected_rows(); });  // while kernels are built
+  const auto found = frontend::observe_stages(frontend::small_sequence(), device, variants);
+  const auto& expected = *computed.get();
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const std::string difference = frontend::difference(found.at(i), expected[i], kAllowed);
     if (!difference.empty()) return {expected[i].stage, difference + kernels.text()};

@@ -62,13 +62,4 @@ FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const 
 /// `a` and in `b`. Empty if positions, directions, indices and similarities are identical in every byte.
 std::string first_difference(const FrontendOutput& a, const FrontendOutput& b);
 
-/// Fractions of the stereo edges and of the quads that both outputs contain, within 0.02 px; the smaller fraction of
-/// the two directions. A device and the reference round differently, so candidates near a threshold may differ.
-struct Agreement {
-  double stereo = 0, quads = 0;
-  std::string first;  ///< the first row that only one output contains, in the order of the stages; empty if none
-  bool good() const { return stereo > 0.995 && quads > 0.99; }
-};
-Agreement agreement(const FrontendOutput& a, const FrontendOutput& b);
-
 }  // namespace quadedge::frontend

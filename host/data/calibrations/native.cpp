@@ -1,11 +1,10 @@
 /// \file native.cpp  The program's own calibration format: ten entries, exact numbers.
 
-#include <charconv>
-
 #include "common/calibration.hpp"
 #include "data/atomic_file.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
+#include "data/toml_file.hpp"
 
 namespace quadedge {
 namespace data {
@@ -30,18 +29,7 @@ StatedLens read_lens(const YamlMap& file, const std::string& side) {
   return stated;
 }
 
-/// The shortest decimal number that reads back as the same double.
-std::string shortest(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
-std::string list(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double value : values) text += (text.size() > 1 ? ", " : "") + shortest(value);
-  return text + "]\n";
-}
+std::string list(const std::vector<double>& values) { return toml_text(values) + "\n"; }  // as in YAML
 
 std::string lens_lines(const Lens& lens, const std::string& side) {
   const PinholeCamera& camera = lens.camera;
