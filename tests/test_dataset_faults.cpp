@@ -69,11 +69,11 @@ TEST_CASE("dataset: errors about unreadable calibrations name the file and the v
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k"), calib = kitti + "/calib.txt", good = read_text(calib);
   write_text(calib, "P0: 100 0 15 0 0 100 11 0 0 0 1\n");
-  check_fault(kitti, "calib.txt:1", "11 columns");
+  check_fault(kitti, "calib.txt:1", "11 numbers");
   write_text(calib, "P0: 100 0 15 0 0 1oo 11 0 0 0 1 0\n");
   check_fault(kitti, "calib.txt:1", "\"1oo\"");
   write_text(calib, good.substr(0, good.find("P1")));
-  check_fault(kitti, "calib.txt", "no row P1");
+  check_fault(kitti, "calib.txt", "no entry P1");
   std::filesystem::remove(calib);
   check_fault(kitti, "calib.txt", "a file that cannot be opened");
   const std::string euroc = write_euroc(folder / "e");
@@ -204,7 +204,7 @@ TEST_CASE("dataset: duplicate entries and paths outside the folder are refused w
              "cam0=[50 0 20; 0 51 15; 0 0 1]\ncam1=[50 0 20; 0 51 15; 0 0 1]\nbaseline=100\nwidth=32\nheight=24\n");
   const std::string list = euroc + "/mav0/cam0/data.csv", yaml = euroc + "/mav0/cam1/sensor.yaml";
   for (const auto& [file, from, to, place, found] :
-       std::vector<Fault>{{kitti + "/calib.txt", "P2:", "P0:", "calib.txt:3", "a second row P0"},
+       std::vector<Fault>{{kitti + "/calib.txt", "P2:", "P0:", "calib.txt:3", "a second entry P0"},
                           {pair + "/calib.txt", "cam1=", "cam0=", "calib.txt:2", "a second entry cam0"},
                           {pair + "/calib.txt", "width=32", "width=32.5", "calib.txt:4", "32.5"},
                           {pair + "/calib.txt", "width=32", "width=1e300", "calib.txt:4", "1e300"},

@@ -167,14 +167,10 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
       return;
     }
     set_sizes_from_first_frame(dataset);
-    const ImageSize left{dataset.rig.left.width, dataset.rig.left.height};
-    const ImageSize right{dataset.rig.right.width, dataset.rig.right.height};
+    const PinholeCamera left = dataset.rig.left;
     dataset.rig = rectified_rig(left.width > kWideColumns ? kFocalWide : kFocalNarrow, (left.width - 1) / 2.0,
                                 (left.height - 1) / 2.0, (left.width - 1) / 2.0, kTwoViewBaseline);
-    dataset.rig.left.width = left.width;
-    dataset.rig.left.height = left.height;
-    dataset.rig.right.width = right.width;
-    dataset.rig.right.height = right.height;
+    set_sizes_from_first_frame(dataset);
     dataset.notes.push_back("no calib.txt: nominal calibration (f " + std::to_string(dataset.rig.left.fx) +
                             " px, baseline 0.06 m); matches are valid, depths and poses are nominal");
   });

@@ -3,7 +3,6 @@
 /// oxts/data/0000000000.txt as ground truth. Image number k belongs to row k of timestamps.txt. KITTI-360 has its
 /// images in data_rect and data_rgb, its calibration in calibration/perspective.txt above data_2d_raw/DRIVE.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -12,7 +11,6 @@
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -24,51 +22,11 @@ fs::path images_of(const fs::path& camera) {
   return camera / "data_rgb";
 }
 
-/// The drive: `folder` itself, or its only drive, or the one that --sequence names.
-fs::path drive_folder(const fs::path& folder, const std::string& wanted) {
-  if (is_kitti_raw_drive(folder)) return folder;
-  std::vector<std::string> drives;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_kitti_raw_drive(entry.path())) drives.push_back(entry.path().filename().string());
-  std::sort(drives.begin(), drives.end());
-  for (const std::string& drive : drives)
-    if (drive == wanted || (wanted.empty() && drives.size() == 1)) return folder / drive;
-  std::string list;
-  for (const auto& drive : drives) list += (list.empty() ? "" : ", ") + drive;
-  throw UsageError(folder.string() +
-                   (wanted.empty() ? " holds the drives " : " has no drive " + in_quotes(wanted) + "; there are ") +
-                   list + (wanted.empty() ? ": give the folder of one" : ""));
-}
-
 /// A calibration file in the drive's folder or the one above, where KITTI has it.
 std::string calibration_beside(const fs::path& drive, const char* name) {
   for (const fs::path& place : {drive / name, drive / ".." / name, drive / ".." / ".." / "calibration" / name})
     if (fs::exists(place)) return place.lexically_normal().string();
   return (drive / ".." / name).lexically_normal().string();
-}
-
-std::size_t number_in(const std::string& image, std::size_t otherwise) {
-  const std::string stem = fs::path(image).stem().string();
-  const bool is_number =
-      !stem.empty() && stem.size() <= 10 && stem.find_first_not_of("0123456789") == std::string::npos;
-  return is_number ? std::stoul(stem) : otherwise;
-}
-
-void read_frames(Dataset& dataset, const fs::path& left, const fs::path& right, std::vector<std::size_t>& rows,
-                 Findings& findings) {
-  const std::string times_file = (left / "timestamps.txt").string();
-  const std::vector<std::int64_t> stamps = read_time_rows(times_file).stamps_ns;
-  const auto names = image_names(images_of(left));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::size_t row = number_in(names[i], i);
-    if (row >= stamps.size()) {
-      findings.error(times_file, counted(stamps.size(), "row"), "a time for the image " + names[i]);
-      return;
-    }
-    const std::size_t before = dataset.frames.size();
-    add_frame(dataset, stamps[row], images_of(left) / names[i], images_of(right) / names[i], findings);
-    if (dataset.frames.size() > before) rows.push_back(row);
-  }
 }
 
 Eigen::Isometry3d read_transform(const std::string& file) {
@@ -137,15 +95,19 @@ bool is_kitti_raw(const fs::path& folder) {
 }
 
 Dataset read_kitti_raw(const fs::path& root, const DatasetOptions& options, Findings& findings) {
-  const fs::path drive = drive_folder(root, options.sequence);
+  const fs::path drive = sequence_in(root, is_kitti_raw_drive, options.sequence,
+                                     "drives that hold image_00 and image_01 (or image_02 and image_03)");
   const bool is_grey = fs::is_directory(drive / "image_00");
   const std::string left = is_grey ? "00" : "02", right = is_grey ? "01" : "03";
   Dataset dataset;
   dataset.path = drive.string();
   dataset.name = folder_name(drive);
   std::vector<std::size_t> rows;  // of timestamps.txt, one per frame
-  findings.attempt(
-      [&] { read_frames(dataset, drive / ("image_" + left), drive / ("image_" + right), rows, findings); });
+  findings.attempt([&] {
+    const std::string times_file = (drive / ("image_" + left) / "timestamps.txt").string();
+    rows = add_numbered_frames(dataset, images_of(drive / ("image_" + left)), images_of(drive / ("image_" + right)),
+                               read_time_rows(times_file).stamps_ns, times_file, findings);
+  });
   findings.attempt([&] {
     const std::string of_360 = calibration_beside(drive, "perspective.txt"),
                       file = fs::exists(of_360) ? of_360 : calibration_beside(drive, "calib_cam_to_cam.txt");

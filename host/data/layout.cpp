@@ -82,6 +82,49 @@ void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, co
   if (complete) dataset.frames.push_back({stamp_ns, left.string(), right.string()});
 }
 
+std::vector<std::size_t> add_numbered_frames(Dataset& dataset, const fs::path& left, const fs::path& right,
+                                             const std::vector<std::int64_t>& stamps_ns, const std::string& times_file,
+                                             Findings& findings) {
+  constexpr std::size_t kMostDigits = 10;
+  std::vector<std::size_t> rows;
+  const auto names = image_names(left);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string stem = fs::path(names[i]).stem().string();
+    const bool is_number = stem.size() <= kMostDigits && stem.find_first_not_of("0123456789") == std::string::npos;
+    const std::size_t row = is_number ? std::stoul(stem) : i;
+    if (row >= stamps_ns.size()) {
+      findings.error(times_file, counted(stamps_ns.size(), "row"), "a time for the image " + names[i]);
+      return rows;
+    }
+    const std::size_t before = dataset.frames.size();
+    add_frame(dataset, stamps_ns[row], left / names[i], right / names[i], findings);
+    if (dataset.frames.size() > before) rows.push_back(row);
+  }
+  return rows;
+}
+
+fs::path sequence_in(const fs::path& folder, bool (*is_recording)(const fs::path&), const std::string& wanted,
+                     const std::string& expected) {
+  if (is_recording(folder)) {
+    if (!wanted.empty() && wanted != folder_name(folder))
+      fail(folder.string(), "the sequence " + folder_name(folder), "the sequence " + wanted + " asked for");
+    return folder;
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_recording(entry.path())) names.push_back(entry.path().filename().string());
+  if (names.empty()) fail(folder.string(), "no sequence", expected);
+  std::sort(names.begin(), names.end());
+  if (wanted.empty() && names.size() == 1) return folder / names[0];
+  if (std::find(names.begin(), names.end(), wanted) != names.end()) return folder / wanted;
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  if (!wanted.empty())
+    throw UsageError(folder.string() + " has no sequence " + in_quotes(wanted) + "; there are " + list);
+  throw UsageError(folder.string() + " holds the sequences " + list + ": give the folder of one, such as " +
+                   (folder / names[0]).string());
+}
+
 void set_sizes_from_first_frame(Dataset& dataset) {
   if (dataset.frames.empty()) return;
   const ImageSize left = image_size(dataset.frames[0].left), right = image_size(dataset.frames[0].right);

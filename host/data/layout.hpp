@@ -112,6 +112,17 @@ std::string image_with_stem(const fs::path& folder, const std::string& stem);
 void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right,
                Findings& findings);
 
+/// Adds the frames of folders whose images are numbered from 0: number k has the k-th time of `times_file`. \returns k
+/// of every frame
+std::vector<std::size_t> add_numbered_frames(Dataset& dataset, const fs::path& left, const fs::path& right,
+                                             const std::vector<std::int64_t>& stamps_ns, const std::string& times_file,
+                                             Findings& findings);
+
+/// The recording that a folder is, or that it holds: the one called `wanted`, or the only one if that is empty.
+/// \throws UsageError that lists them, DataError with `expected` if there is none
+fs::path sequence_in(const fs::path& folder, bool (*is_recording)(const fs::path&), const std::string& wanted,
+                     const std::string& expected);
+
 /// Sets width and height of both cameras from the first frame's images.
 void set_sizes_from_first_frame(Dataset& dataset);
 

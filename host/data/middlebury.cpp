@@ -38,14 +38,11 @@ std::string if_there(const std::string& file) { return fs::exists(file) ? file :
 /// `offset`: dmin in full-size pixels.
 void set_reduced_rig(Dataset& dataset, int full_rows, double offset) {
   set_sizes_from_first_frame(dataset);
-  const PinholeCamera left = dataset.rig.left, right = dataset.rig.right;
+  const PinholeCamera left = dataset.rig.left;
   const double reduction = std::max(1.0, std::round(static_cast<double>(full_rows) / std::max(left.height, 1)));
   const double cx = (left.width - 1) / 2.0, cy = (left.height - 1) / 2.0;
   dataset.rig = rectified_rig(kFullFocal / reduction, cx, cy, cx + offset / reduction, kBaseline);
-  dataset.rig.left.width = left.width;
-  dataset.rig.left.height = left.height;
-  dataset.rig.right.width = right.width;
-  dataset.rig.right.height = right.height;
+  set_sizes_from_first_frame(dataset);
   dataset.rig.max_disparity = (kLargestGrey + offset) / reduction;
   dataset.disparity_truth_scale = 1 / reduction;
 }

@@ -1,5 +1,6 @@
 #include "data/calibrations/forms.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
@@ -306,7 +307,7 @@ Eigen::Vector3d projection_offset(const YamlMap& camera, const std::string& key)
   if (p[1] != 0 || p[4] != 0) camera.complain(key, "skew", "0 beside fx' and fy', as rectified images have it");
   if (p[8] != 0 || p[9] != 0 || p[10] != 1)
     camera.complain(key, "a last row other than 0 0 1", "that of a rectified camera");
-  return {(p[3] - p[2] * p[11]) / p[0], (p[7] - p[6] * p[11]) / p[5], p[11]};
+  return PinholeCamera{p[0], p[5], p[2], p[6], 0, 0}.matrix().inverse() * Eigen::Vector3d(p[3], p[7], p[11]);
 }
 
 StatedCalibration rectified_cameras(const YamlMap& left, const std::string& left_key, ImageSize left_size,
