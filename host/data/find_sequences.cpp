@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <filesystem>
 #include <iomanip>
 #include <map>
 #include <set>
 #include <sstream>
-#include <sys/stat.h>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -41,23 +40,12 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return folders;
 }
 
-/// Device and inode of a folder, the same under all of its paths.
-using FolderId = std::pair<dev_t, ino_t>;
-
-/// \throws fs::filesystem_error for a folder that cannot be reached.
-FolderId id_of(const fs::path& folder) {
-  struct stat facts {};
-  if (stat(folder.c_str(), &facts) != 0)
-    throw fs::filesystem_error("stat", folder, std::error_code(errno, std::generic_category()));
-  return {facts.st_dev, facts.st_ino};
-}
-
 /// Adds the recordings in and below a folder, and folders that cannot be read, without a format. `seen` contains the
-/// folders so far, so that circular links end.
-void search(const fs::path& folder, bool with_pairs, std::set<FolderId>& seen, std::vector<FoundRecording>& found) {
+/// folders so far, without links, so that circular ones end.
+void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, std::vector<FoundRecording>& found) {
   std::vector<fs::path> folders;
   try {
-    if (!seen.insert(id_of(folder)).second) return;
+    if (!seen.insert(fs::canonical(folder)).second) return;
     if (const std::string format = recording_format(folder, with_pairs); !format.empty()) {
       found.push_back({folder.string(), format, {}});
       return;
@@ -71,7 +59,7 @@ void search(const fs::path& folder, bool with_pairs, std::set<FolderId>& seen, s
 }
 
 std::vector<FoundRecording> search_list(const std::string& list) {
-  std::set<FolderId> seen;
+  std::set<fs::path> seen;
   std::vector<FoundRecording> found;
   const std::string folder = fs::path(list).parent_path().string();
   for (const auto& line : data_lines(list)) {
@@ -83,7 +71,7 @@ std::vector<FoundRecording> search_list(const std::string& list) {
     const auto last = line.text.find_last_not_of(" \t");
     const fs::path entry = fs::path(folder) / line.text.substr(0, last + 1);
     std::error_code error;
-    const bool known = fs::exists(entry, error) && seen.count(id_of(entry)) > 0;
+    const bool known = fs::exists(entry, error) && seen.count(fs::canonical(entry)) > 0;
     const std::size_t before = found.size();
     if (fs::is_directory(entry, error)) search(entry, false, seen, found);
     if (found.size() == before && !known) found.push_back({entry.string(), "", {}});
@@ -128,7 +116,7 @@ std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) 
 }  // namespace
 
 std::vector<FoundRecording> find_recordings(const std::string& root, bool with_pairs) {
-  std::set<FolderId> seen;
+  std::set<fs::path> seen;
   std::vector<FoundRecording> found;
   search(root, with_pairs, seen, found);
   return found;
@@ -172,34 +160,24 @@ std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
 
 namespace {
 
-/// An option with a text value.
-struct Word {
-  const char* option;
-  std::string StereoSource::*value;
-  bool is_path;
+/// An option that a line may have.
+struct SourceOption {
+  const char* name;
+  std::variant<std::string StereoSource::*, double StereoSource::*, bool StereoSource::*> value;
+  bool is_path = false;
 };
-constexpr Word kWords[] = {{"--left", &StereoSource::left, true},
-                           {"--right", &StereoSource::right, true},
-                           {"--video", &StereoSource::video, true},
-                           {"--split", &StereoSource::split, false},
-                           {"--calibration", &StereoSource::calibration, true},
-                           {"--times", &StereoSource::times, true},
-                           {"--mask", &StereoSource::mask, true}};
-
-/// An option with a numeric value.
-struct Number {
-  const char* option;
-  double StereoSource::*value;
-};
-constexpr Number kNumbers[] = {
-    {"--fps", &StereoSource::fps}, {"--fov", &StereoSource::fov}, {"--tolerance", &StereoSource::tolerance_ms}};
-
-/// An option without a value.
-struct Flag {
-  const char* option;
-  bool StereoSource::*value;
-};
-constexpr Flag kFlags[] = {{"--rectified", &StereoSource::rectified}, {"--restarts", &StereoSource::restarts}};
+constexpr SourceOption kOptions[] = {{"--left", &StereoSource::left, true},
+                                     {"--right", &StereoSource::right, true},
+                                     {"--video", &StereoSource::video, true},
+                                     {"--split", &StereoSource::split},
+                                     {"--calibration", &StereoSource::calibration, true},
+                                     {"--times", &StereoSource::times, true},
+                                     {"--mask", &StereoSource::mask, true},
+                                     {"--fps", &StereoSource::fps},
+                                     {"--fov", &StereoSource::fov},
+                                     {"--tolerance", &StereoSource::tolerance_ms},
+                                     {"--rectified", &StereoSource::rectified},
+                                     {"--restarts", &StereoSource::restarts}};
 
 /// Prepends `folder` to each of the comma-separated paths.
 std::string in_folder(const std::string& paths, const fs::path& folder) {
@@ -222,41 +200,41 @@ bool is_source_line(const std::string& text) { return text.rfind("--", 0) == 0; 
 StereoSource parse_source_line(const std::string& text, const std::string& folder, const std::string& file, int line) {
   StereoSource source;
   const auto words = words_of(text);
-  const auto set = [&](const std::string& option, const std::string& value) {
-    for (const auto& word : kWords)
-      if (option == word.option) return source.*word.value = word.is_path ? in_folder(value, folder) : value, true;
-    for (const auto& number : kNumbers)
-      if (option == number.option) return source.*number.value = parse_number(value, file, line, option), true;
-    return false;
-  };
-  for (std::size_t i = 0; i < words.size(); i += 2) {
-    const auto* flag =
-        std::find_if(std::begin(kFlags), std::end(kFlags), [&](const Flag& each) { return words[i] == each.option; });
-    if (flag != std::end(kFlags)) {
-      source.*flag->value = true;
-      --i;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto* option = std::find_if(std::begin(kOptions), std::end(kOptions),
+                                      [&](const SourceOption& each) { return words[i] == each.name; });
+    const bool is_known = option != std::end(kOptions), has_value = i + 1 < words.size();
+    if (const auto* flag = is_known ? std::get_if<bool StereoSource::*>(&option->value) : nullptr) {
+      source.** flag = true;
       continue;
     }
-    const bool has_value = i + 1 < words.size();
-    if (has_value && set(words[i], words[i + 1])) continue;
-    std::string options;
-    for (const auto& word : kWords) options += std::string(word.option) + " ";
-    for (const auto& number : kNumbers) options += std::string(number.option) + " ";
-    for (const auto& each : kFlags) options += std::string(each.option) + " ";
-    fail(file, line, in_quotes(words[i]) + (has_value ? "" : " without a value"),
-         "one of " + options + "with its value");
+    if (!is_known || !has_value) {
+      std::string options;
+      for (const SourceOption& each : kOptions) options += std::string(each.name) + " ";
+      fail(file, line, in_quotes(words[i]) + (has_value ? "" : " without a value"),
+           "one of " + options + "with its value");
+    }
+    const std::string& value = words[++i];
+    if (const auto* word = std::get_if<std::string StereoSource::*>(&option->value))
+      source.** word = option->is_path ? in_folder(value, folder) : value;
+    else
+      source.*std::get<double StereoSource::*>(option->value) = parse_number(value, file, line, option->name);
   }
   return source;
 }
 
 std::vector<std::string> source_words(const StereoSource& source) {
   std::vector<std::string> words;
-  for (const auto& word : kWords)
-    if (!(source.*word.value).empty()) words.insert(words.end(), {word.option, source.*word.value});
-  for (const auto& number : kNumbers)
-    if (source.*number.value != 0) words.insert(words.end(), {number.option, format_exact(source.*number.value)});
-  for (const auto& flag : kFlags)
-    if (source.*flag.value) words.emplace_back(flag.option);
+  for (const SourceOption& option : kOptions) {
+    const auto add = [&](const auto& value) {
+      using Value = std::decay_t<decltype(value)>;
+      if (value == Value()) return;
+      words.emplace_back(option.name);
+      if constexpr (std::is_same_v<Value, std::string>) words.push_back(value);
+      if constexpr (std::is_same_v<Value, double>) words.push_back(format_exact(value));
+    };
+    std::visit([&](const auto member) { add(source.*member); }, option.value);
+  }
   return words;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <ctime>
 #include <map>
 #include <set>
 
@@ -60,13 +61,6 @@ std::optional<std::vector<std::int64_t>> integer_stamps(const std::vector<std::s
   return numbers;
 }
 
-/// Days since 1970-01-01 in the Gregorian calendar.
-std::int64_t days_since_epoch(int year, int month, int day) {
-  const int shifted = year - (month <= 2 ? 1 : 0), era = shifted / 400, of_era = shifted % 400;
-  const int of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return std::int64_t{era} * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
-}
-
 /// "2011-09-26 13:02:25.967790592", as UTC. \throws DataError
 std::int64_t dated_stamp(const std::vector<std::string>& words, const std::string& file, int line) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, end = 0;
@@ -75,8 +69,11 @@ std::int64_t dated_stamp(const std::vector<std::string>& words, const std::strin
   const bool is_time = is_date && std::sscanf(words[1].c_str(), "%2d:%2d:%n", &hour, &minute, &end) == 2;
   if (!is_time || year < 1970 || month < 1 || month > 12 || day < 1 || day > 31 || hour > 23 || minute > 59)
     fail(file, line, in_quotes(words[0] + " " + words[1]), "YYYY-MM-DD HH:MM:SS.fraction");
-  const std::int64_t minutes = (days_since_epoch(year, month, day) * 24 + hour) * 60 + minute;
-  return minutes * 60'000'000'000 + parse_seconds(words[1].substr(static_cast<std::size_t>(end)), file, line);
+  std::tm whole_minutes{};
+  whole_minutes.tm_year = year - 1900, whole_minutes.tm_mon = month - 1, whole_minutes.tm_mday = day;
+  whole_minutes.tm_hour = hour, whole_minutes.tm_min = minute;
+  return timegm(&whole_minutes) * 1'000'000'000 +
+         parse_seconds(words[1].substr(static_cast<std::size_t>(end)), file, line);
 }
 
 }  // namespace

@@ -161,45 +161,14 @@ std::vector<double> parse_row(const Line& line, const std::string& file, std::si
 }
 
 std::int64_t parse_seconds(const std::string& token, const std::string& file, int line) {
+  static_assert(std::numeric_limits<long double>::digits >= 64, "nanoseconds of clocks need them");
   const std::string expected = "a time in seconds";
   parse_number(token, file, line, expected);  // checks that the token is a single decimal number
-  const bool negative = token[0] == '-';
-  std::string digits;
-  long exponent = 9;  // power of ten, in nanoseconds, of the last digit in `digits`
-  bool after_point = false;
-  for (std::size_t i = negative || token[0] == '+' ? 1 : 0; i < token.size(); ++i) {
-    if (token[i] == '.') {
-      after_point = true;
-    } else if (token[i] == 'e' || token[i] == 'E') {
-      const std::size_t start = token[i + 1] == '+' ? i + 2 : i + 1;
-      long written = 0;
-      std::from_chars(token.data() + start, token.data() + token.size(), written);
-      exponent += written;
-      break;
-    } else {
-      digits += token[i];
-      if (after_point) --exponent;
-    }
-  }
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
-  if (digits.empty()) return 0;
-  constexpr long kMostDigits = 19;  // digits of a 64-bit number of nanoseconds
-  if (static_cast<long>(digits.size()) + exponent > kMostDigits)
-    fail(file, line, in_quotes(token), expected + " below 9.2e9");
-  bool round_up = false;
-  if (exponent < 0) {
-    const long kept = static_cast<long>(digits.size()) + exponent;
-    round_up = kept >= 0 && digits[static_cast<std::size_t>(kept)] >= '5';
-    digits.resize(kept > 0 ? static_cast<std::size_t>(kept) : 0);
-  } else {
-    digits.append(static_cast<std::size_t>(exponent), '0');
-  }
-  std::int64_t value = 0;
-  if (!digits.empty() && std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc()) {
-    fail(file, line, in_quotes(token), expected + " below 9.2e9");
-  }
-  if (round_up) ++value;
-  return negative ? -value : value;
+  long double seconds = 0;
+  std::from_chars(token.data() + (token[0] == '+' ? 1 : 0), token.data() + token.size(), seconds);
+  const long double nanoseconds = std::round(seconds * 1e9L);
+  if (!(std::abs(nanoseconds) < 0x1p63L)) fail(file, line, in_quotes(token), expected + " below 9.2e9");
+  return static_cast<std::int64_t>(nanoseconds);
 }
 
 std::int64_t parse_nanoseconds(const std::string& token, const std::string& file, int line) {

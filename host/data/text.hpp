@@ -65,8 +65,7 @@ int parse_whole(const std::string& token, const std::string& file, int line, con
 /// Parses exactly `count` finite numbers on one line. `what` describes the row, e.g. "timestamp tx ty tz qx qy qz qw".
 std::vector<double> parse_row(const Line& line, const std::string& file, std::size_t count, const std::string& what);
 
-/// Converts decimal seconds (possibly with an exponent) to nanoseconds exactly; fractions of 1 ns are rounded half away
-/// from zero.
+/// Converts decimal seconds (possibly with an exponent) to the nearest nanosecond, exactly up to 4.6e9 s.
 std::int64_t parse_seconds(const std::string& token, const std::string& file, int line);
 
 /// Parses integer nanoseconds. \throws DataError

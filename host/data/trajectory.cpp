@@ -31,19 +31,24 @@ std::int64_t stamp_of(const std::string& word, const std::string& file, int line
   return data::parse_seconds(word, file, line);
 }
 
-StampedPose tum_pose(const data::Line& line, const std::string& path) {
-  const auto values = data::parse_row(line, path, 8, kTumColumns);
-  const Eigen::Quaterniond rotation(values[7], values[4], values[5], values[6]);
-  if (std::abs(rotation.norm() - 1) > kRotationInFiles) {
-    data::fail(path, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
-               "a unit quaternion qx qy qz qw");
-  }
+/// \param order of the quaternion in the file \throws DataError for one that is not a rotation's
+StampedPose pose_at(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation, const char* order,
+                    const std::string& file, int line) {
+  if (std::abs(rotation.norm() - 1) > kRotationInFiles)
+    data::fail(file, line, "a quaternion of length " + std::to_string(rotation.norm()),
+               std::string("a unit quaternion ") + order);
   StampedPose pose;
+  pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
+  pose.world_from_left.translation() = position;
+  return pose;
+}
+
+StampedPose tum_pose(const data::Line& line, const std::string& path) {
+  const auto v = data::parse_row(line, path, 8, kTumColumns);
+  StampedPose pose = pose_at({v[1], v[2], v[3]}, {v[7], v[4], v[5], v[6]}, "qx qy qz qw", path, line.number);
   const std::string stamp = data::split(line.text)[0];
   pose.stamp_ns = are_nanoseconds(stamp) ? data::parse_nanoseconds(stamp.substr(0, stamp.find('.')), path, line.number)
                                          : data::parse_seconds(stamp, path, line.number);
-  pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
-  pose.world_from_left.translation() << values[1], values[2], values[3];
   return pose;
 }
 
@@ -63,16 +68,8 @@ Trajectory read_euroc_poses(const std::string& file) {
     if (cells.size() < kColumns) fail(file, line.number, in_quotes(line.text), expected);
     double v[kColumns];
     for (std::size_t i = 1; i < kColumns; ++i) v[i] = parse_number(cells[i], file, line.number, expected);
-    const Eigen::Quaterniond rotation(v[4], v[5], v[6], v[7]);
-    if (std::abs(rotation.norm() - 1) > kRotationInFiles) {
-      fail(file, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
-           "a unit quaternion q_w q_x q_y q_z");
-    }
-    StampedPose pose;
-    pose.stamp_ns = stamp_of(cells[0], file, line.number);
-    pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
-    pose.world_from_left.translation() << v[1], v[2], v[3];
-    trajectory.push_back(pose);
+    trajectory.push_back(pose_at({v[1], v[2], v[3]}, {v[4], v[5], v[6], v[7]}, "q_w q_x q_y q_z", file, line.number));
+    trajectory.back().stamp_ns = stamp_of(cells[0], file, line.number);
   }
   return trajectory;
 }
