@@ -238,9 +238,7 @@ void write_variants_file(const std::string& path, const DeviceInfo& device,
   json["version"] = QUADEDGE_VERSION;
   json["device"] = {{"name", device.name}, {"platform", device.platform}, {"driver", device.driver}};
   json["variants"] = variants;
-  std::error_code failed;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), failed);
-  if (failed) throw DataError(path + ": its folder cannot be created: " + failed.message());
+  data::make_folder(std::filesystem::path(path).parent_path());
   data::write_atomically(path, report::json_text(json));
 }
 

@@ -12,6 +12,7 @@
 
 #include "cli/console.hpp"
 #include "cli/processes.hpp"
+#include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/content_hash.hpp"
 #include "data/find_sequences.hpp"
@@ -111,7 +112,6 @@ int default_jobs(const DeviceInfo& device, const BatchOptions& options) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kError = "/error.txt";  // of a member at work
@@ -124,13 +124,12 @@ struct RunningMember {
   std::string folder;  ///< unfinished
   report::FolderLock lock;
   ChildProcess child;
-  FrameCounter counter;
 };
 
-void remove_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::remove_all(folder, error);
-  if (error) throw DataError(folder.string() + ": cannot be removed: " + error.message());
+/// Finished frames of a running sequence, whose trajectory_kitti.txt gets a row per frame.
+int finished_frames(const std::string& folder) {
+  std::ifstream file(folder + "/trajectory_kitti.txt", std::ios::binary);
+  return static_cast<int>(std::count(std::istreambuf_iterator<char>(file), {}, '\n'));
 }
 
 /// Why a child failed, from its end and the file with its error. (What follows the first line names the folder of that
@@ -149,24 +148,27 @@ std::string failure(const ChildEnd& end, const std::string& error) {
 
 class BatchRunner {
  public:
-  BatchRunner(const MethodOptions& method, const BatchOptions& options, int jobs, int to_run, int finished,
+  /// `to_run`, `pixels`: of all that has to be run now; `already`: sequences that were finished before.
+  BatchRunner(const MethodOptions& method, const BatchOptions& options, int jobs, int to_run, int already,
               double pixels)
-      : method_(method), options_(options), jobs_(jobs), progress_(options.quiet, to_run, finished, pixels) {}
+      : method_(method),
+        options_(options),
+        jobs_(jobs),
+        status_(options.quiet),
+        sequences_(already + to_run),
+        over_(already),
+        pixels_(pixels) {}
 
   void start(const BatchMember& member) {
     const std::string& name = member.sequence.name;
     const fs::path unfinished = fs::path(options_.output) / "unfinished";
     const std::string folder = (unfinished / name).string();
-    std::error_code error;
-    fs::create_directories(unfinished, error);
-    if (error) throw DataError(unfinished.string() + ": cannot be made: " + error.message());
+    data::make_folder(unfinished);
     report::FolderLock lock((unfinished / (name + ".lock")).string(), false, folder);
-    remove_folder(folder);
-    fs::create_directories(folder, error);
-    if (error) throw DataError(folder + ": cannot be made: " + error.message());
+    data::remove_all(folder);
+    data::make_folder(folder);
     running_.push_back({member, folder, std::move(lock),
-                        ChildProcess(arguments(member, folder), folder + "/log.txt", folder + kError),
-                        FrameCounter(folder)});
+                        ChildProcess(arguments(member, folder), folder + "/log.txt", folder + kError)});
   }
 
   /// Takes in the members that are over.
@@ -183,15 +185,26 @@ class BatchRunner {
   }
 
   void show_progress() {
-    if (!progress_.due()) return;
-    std::vector<BatchProgress::Running> lines;
-    double pixels = 0;
-    for (auto& running : running_) {
-      const int done = running.counter.frames(), frames = running.member.frames;
-      lines.push_back({running.member.sequence.name, done, frames});
-      if (frames > 0) pixels += running.member.pixels * done / frames;
+    if (!status_.due()) return;
+    const double seconds = milliseconds_since(start_) / 1000;
+    std::string text = numbers();
+    int frames = frames_;
+    double pixels = pixels_over_;
+    const char* separator = " ";
+    for (const auto& running : running_) {
+      const int done = finished_frames(running.folder), all = running.member.frames;
+      text += separator + running.member.sequence.name;
+      if (all > 0) text += " frame " + std::to_string(done) + "/" + std::to_string(all);
+      if (all > 0) pixels += running.member.pixels * done / all;
+      frames += done;
+      separator = ", ";
     }
-    progress_.update(lines, pixels);
+    char rate[48];
+    std::snprintf(rate, sizeof rate, "  %.1f frames/s", frames / seconds);
+    if (frames > 0) text += rate;
+    // Pixels tell more about the time that is left than frames: sequences differ in their size.
+    if (pixels > 0) text += ", " + duration_text(seconds * std::max(0.0, pixels_ - pixels) / pixels) + " left";
+    status_.show(text);
   }
 
   /// Ends all children and removes what they have begun.
@@ -204,12 +217,14 @@ class BatchRunner {
     std::vector<std::string> folders;
     for (const auto& running : running_) folders.push_back(running.folder);
     running_.clear();  // kills the ones that are left
-    for (const auto& folder : folders) remove_folder(folder);
+    for (const auto& folder : folders) data::remove_all(folder);
   }
 
   std::size_t running() const { return running_.size(); }
 
  private:
+  std::string numbers() const { return "[" + std::to_string(over_) + "/" + std::to_string(sequences_) + "]"; }
+
   std::vector<std::string> arguments(const BatchMember& member, const std::string& folder) const {
     std::vector<std::string> arguments = {"run",
                                           "--output",
@@ -249,10 +264,13 @@ class BatchRunner {
     fs::remove(running.folder + kError, error);
     data::write_atomically(running.folder + "/member.json", report::member_json(record));
     const std::string folder = report::member_folder(options_.output, member.sequence.name);
-    remove_folder(folder);
+    data::remove_all(folder);
     fs::rename(running.folder, folder, error);
     if (error) throw DataError(folder + ": the finished folder cannot be put here: " + error.message());
-    progress_.finished(member.sequence.name, member.frames, member.pixels, outcome(folder, record));
+    ++over_;
+    frames_ += member.frames;
+    pixels_over_ += member.pixels;
+    status_.say(numbers() + " " + member.sequence.name + ": " + outcome(folder, record));
   }
 
   std::string outcome(const std::string& folder, const report::MemberRecord& record) const {
@@ -271,60 +289,14 @@ class BatchRunner {
   const MethodOptions& method_;
   const BatchOptions& options_;
   int jobs_;
-  BatchProgress progress_;
+  StatusLine status_;
+  Clock::time_point start_ = Clock::now();
+  int sequences_, over_, frames_ = 0;  ///< of the batch, of these finished; frames finished now
+  double pixels_, pixels_over_ = 0;    ///< to run, and finished
   std::list<RunningMember> running_;
 };
 
 }  // namespace
-
-int FrameCounter::frames() {
-  std::ifstream file(file_, std::ios::binary);
-  if (!file) return frames_;
-  file.seekg(read_);
-  char buffer[4096];
-  while (file.read(buffer, sizeof buffer), file.gcount() > 0) {
-    read_ += file.gcount();
-    frames_ += static_cast<int>(std::count(buffer, buffer + file.gcount(), '\n'));
-  }
-  return frames_;
-}
-
-BatchProgress::BatchProgress(bool quiet, int sequences, int already, double pixels)
-    : status_(quiet),
-      start_(std::chrono::steady_clock::now()),
-      sequences_(sequences),
-      already_(already),
-      pixels_(pixels) {}
-
-void BatchProgress::finished(const std::string& name, int frames, double pixels, const std::string& sentence) {
-  ++over_;
-  frames_ += frames;
-  pixels_over_ += pixels;
-  status_.say("[" + std::to_string(already_ + over_) + "/" + std::to_string(already_ + sequences_) + "] " + name +
-              ": " + sentence);
-}
-
-void BatchProgress::update(const std::vector<Running>& running, double pixels) {
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  std::string text = "[" + std::to_string(already_ + over_) + "/" + std::to_string(already_ + sequences_) + "]";
-  int frames = frames_;
-  const char* separator = " ";
-  for (const auto& sequence : running) {
-    text += separator + sequence.name;
-    if (sequence.frames > 0) text += " frame " + std::to_string(sequence.done) + "/" + std::to_string(sequence.frames);
-    separator = ", ";
-    frames += sequence.done;
-  }
-  const double done = pixels_over_ + pixels;
-  if (frames > 0 && seconds > 0) {
-    char rate[48];
-    std::snprintf(rate, sizeof rate, "  %.1f frames/s", frames / seconds);
-    text += rate;
-  }
-  // Pixels tell more about the time that is left than frames: sequences differ in their size.
-  if (done > 0) text += ", " + duration_text(seconds * std::max(0.0, pixels_ - done) / done) + " left";
-  status_.show(text);
-}
 
 int run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method, const BatchOptions& options,
               const Interruption& interruption) {

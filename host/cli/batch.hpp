@@ -1,12 +1,9 @@
 #pragma once
 /// \file batch.hpp  What a batch has to do, and how it is done: each sequence in its own process and folder.
 
-#include <chrono>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "cli/console.hpp"
 #include "cli/method_options.hpp"
 #include "cli/processes.hpp"
 #include "data/find_sequences.hpp"
@@ -43,48 +40,8 @@ std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequ
 
 /// Sequences at the same time where the user leaves it open: as many as do not disturb one another. An OpenCL device
 /// carries one (a CPU gives it all cores, and on a GPU the kernels of others delay it), the plain C++ reference one per
-/// core. One with --timing or
-/// --profile.
+/// core. One with --timing or --profile.
 int default_jobs(const DeviceInfo& device, const BatchOptions& options);
-
-// Runs the sequences of a batch, each in its own process and folder, and tells how far it is.
-
-/// Counts the finished frames of a running sequence by the rows of its trajectory_kitti.txt, which gets one per frame.
-class FrameCounter {
- public:
-  explicit FrameCounter(std::string folder) : file_(std::move(folder) + "/trajectory_kitti.txt") {}
-  /// Frames finished by now.
-  int frames();
-
- private:
-  std::string file_;
-  std::int64_t read_ = 0;  ///< bytes
-  int frames_ = 0;
-};
-
-/// The status line of a batch.
-class BatchProgress {
- public:
-  /// One running sequence.
-  struct Running {
-    std::string name;
-    int done = 0, frames = 0;
-  };
-
-  /// `sequences`, `pixels`: of all that has to be run now; `already`: sequences that were finished before.
-  BatchProgress(bool quiet, int sequences, int already, double pixels);
-  /// A sequence has ended; `sentence` describes how.
-  void finished(const std::string& name, int frames, double pixels, const std::string& sentence);
-  /// `pixels`: of the finished frames of all running sequences.
-  void update(const std::vector<Running>& running, double pixels);
-  bool due() const { return status_.due(); }
-
- private:
-  StatusLine status_;
-  std::chrono::steady_clock::time_point start_;
-  int sequences_, already_, over_ = 0, frames_ = 0;
-  double pixels_, pixels_over_ = 0;
-};
 
 /// Runs every member that is not finished, `options.jobs` (at least 1) at a time. Each one writes to
 /// OUT/unfinished/NAME, which becomes OUT/sequences/NAME in one step when it is over, with a member.json that says how

@@ -73,11 +73,6 @@ class BatchCommand : public Command {
 
   fs::path output() const { return batch_.output; }
 
-  void prepare() const {
-    std::error_code error;
-    fs::create_directories(output() / "sequences", error);
-    if (error) throw DataError(batch_.output + ": cannot create the output folder: " + error.message());
-  }
   /// The configuration that all runs read.
   void write_config() const {
     data::write_atomically((output() / "config.toml").string(),
@@ -92,12 +87,12 @@ class BatchCommand : public Command {
   }
 
   int run_all(const std::vector<data::FoundSequence>& sequences) {
-    prepare();
+    data::make_folder(output() / "sequences");
     const report::FolderLock lock((output() / ".lock").string(), false, batch_.output);
     const Interruption interruption;
     write_config();
     const auto members = plan(sequences);
-    remove_unfinished();  // of a batch that was killed
+    data::remove_all(output() / "unfinished");  // of a batch that was killed; only while the lock is held alone
     note_progress(members);
     const bool complete =
         std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
@@ -105,7 +100,7 @@ class BatchCommand : public Command {
     const auto before =
         std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
     const auto finished = before + run_batch(members, method_, batch_, interruption);
-    remove_unfinished();
+    data::remove_all(output() / "unfinished");
     if (interruption.signal() != 0) {
       note("interrupted; " + std::to_string(finished) + " of " + data::counted(members.size(), "sequence") +
            " finished, results in " + (output() / "sequences").string() + "; repeat the command to go on");
@@ -119,7 +114,7 @@ class BatchCommand : public Command {
         std::find_if(sequences.begin(), sequences.end(), [&](const auto& sequence) { return sequence.name == only_; });
     if (found == sequences.end())
       throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list prints all");
-    prepare();
+    data::make_folder(output() / "sequences");
     const report::FolderLock lock((output() / ".lock").string(), true, batch_.output);
     const Interruption interruption;
     write_config();
@@ -131,19 +126,8 @@ class BatchCommand : public Command {
     return row.member.exit_code;
   }
 
-  /// Only while the lock of OUT is held alone.
-  void remove_unfinished() const {
-    std::error_code error;
-    fs::remove_all(output() / "unfinished", error);
-    if (error) throw DataError((output() / "unfinished").string() + ": cannot be removed: " + error.message());
-  }
-
   void remove_summary() const {
-    for (const char* name : {"summary.json", "summary.md", "report.html"}) {
-      std::error_code error;
-      fs::remove(output() / name, error);
-      if (error) throw DataError((output() / name).string() + ": cannot remove the old summary: " + error.message());
-    }
+    for (const char* name : {"summary.json", "summary.md", "report.html"}) data::remove_all(output() / name);
   }
 
   void note_progress(const std::vector<BatchMember>& members) const {

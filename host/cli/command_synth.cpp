@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/source_options.hpp"
+#include "data/atomic_file.hpp"
 #include "data/eth3d_slam.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
@@ -52,8 +53,7 @@ class SynthCommand : public Command {
       if (!force_)
         throw UsageError(output_ + ": the folder holds a sequence (" + name +
                          "); choose another folder, or replace it with --force");
-      std::filesystem::remove_all(folder / name, error);
-      if (error) throw DataError((folder / name).string() + ": cannot be removed: " + error.message());
+      data::remove_all(folder / name);
     }
   }
 

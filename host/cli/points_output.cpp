@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
@@ -39,11 +38,7 @@ void PointFiles::check(bool force) const {
   report::check_output_file(ply, force);
   report::refuse_full_folder(colmap, force);
   if (colmap.empty()) return;
-  std::error_code error;
-  for (const char* folder : {"/images", "/sparse/0"}) {
-    std::filesystem::create_directories(colmap + folder, error);
-    if (error) throw DataError(colmap + folder + ": cannot create the folder: " + error.message());
-  }
+  for (const char* folder : {"/images", "/sparse/0"}) data::make_folder(colmap + folder);
   report::check_output_file(colmap + "/sparse/0/points3D.txt", force);
 }
 

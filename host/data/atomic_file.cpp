@@ -51,6 +51,18 @@ void check_writable(const std::string& path) {
   std::filesystem::remove(name, error);
 }
 
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) refuse(path.string(), "make the folder", error.value());
+}
+
+void remove_all(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove_all(path, error);
+  if (error) refuse(path.string(), "remove what is there", error.value());
+}
+
 void write_atomically(const std::string& path, std::string_view bytes) {
   const bool replace = is_replaced(path);
   const std::string target = target_of(path), name = replace ? unfinished_name(target) : target;

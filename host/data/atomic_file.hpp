@@ -1,6 +1,7 @@
 #pragma once
 /// \file atomic_file.hpp  Output files, written completely or not at all, and the folders of a user.
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,12 @@ namespace quadedge::data {
 
 /// Checks, before long work, that write_atomically() can put a file here. \throws DataError with the system's reason
 void check_writable(const std::string& path);
+
+/// Makes a folder and those above it. \throws DataError with the system's reason
+void make_folder(const std::filesystem::path& path);
+
+/// Removes a file, or a folder with all in it, if there is one. \throws DataError with the system's reason
+void remove_all(const std::filesystem::path& path);
 
 /// Writes to a temporary name in the same folder and renames it, so that readers never see an incomplete file and a
 /// failure leaves an existing file unchanged. Devices and pipes are written directly. \throws DataError with the

@@ -16,7 +16,6 @@
 #include "data/image_file.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
-#include "quadedge/error.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -138,14 +137,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem)
-    throw DataError(folder.string() + ": cannot make the folder: " + problem.message() +
-                    "; expected a writable location");
-}
-
 void write_png(const fs::path& file, const Image& image) {
   const cv::Mat pixels(image.height, image.width, image.max_value > kMaxValue8 ? CV_16U : CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
@@ -171,7 +162,7 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
   if (fs::exists(root / "rgb") || fs::exists(root / "rgb2")) {
     data::fail(folder, "an existing sequence", "an empty or new folder");
   }
-  for (const char* name : {"rgb", "rgb2", "depth", "depth2"}) make_folder(root / name);
+  for (const char* name : {"rgb", "rgb2", "depth", "depth2"}) data::make_folder(root / name);
   const StereoRig& rig = sequence.rig();
   const bool is_left_first = sequence.options().rig == "rectified";
   const Side first = is_left_first ? Side::left : Side::right;

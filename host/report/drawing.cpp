@@ -8,10 +8,10 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "data/atomic_file.hpp"
 #include "data/find_sequences.hpp"
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
 #include "report/canvas.hpp"
 #include "report/statistics.hpp"
 
@@ -367,9 +367,7 @@ std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
                                                  const std::vector<evaluation::MatchingResult>& results,
                                                  const evaluation::MatchingTolerance& tolerance) {
   std::vector<WrittenDrawing> written;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw DataError(folder + ": the folder cannot be made: " + error.message());
+  data::make_folder(folder);
   std::map<std::string, int> used;
   for (const auto& result : results) {
     if (!result.drawn) continue;

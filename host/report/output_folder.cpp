@@ -121,9 +121,8 @@ bool FolderLock::is_removed() const {
 
 FolderLock prepare_output_folder(const std::string& path, bool force) {
   const fs::path folder(path);
+  data::make_folder(folder / "pictures");
   std::error_code error;
-  fs::create_directories(folder / "pictures", error);
-  if (error) throw DataError(path + ": cannot create the output folder: " + error.message());
   FolderLock lock((folder / ".lock").string(), false, path);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder, error))
@@ -133,8 +132,7 @@ FolderLock prepare_output_folder(const std::string& path, bool force) {
     if (!force)
       throw UsageError(path + ": the folder holds results (" + file.filename().string() +
                        "); choose another folder with -o, or replace them with --force");
-    fs::remove(file, error);
-    if (error) throw DataError(file.string() + ": cannot remove the old result: " + error.message());
+    data::remove_all(file);
   }
   for (const auto& entry : fs::directory_iterator(folder / "pictures", error)) {
     if (is_picture(entry.path())) fs::remove(entry.path(), error);

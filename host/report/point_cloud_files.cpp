@@ -4,11 +4,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "quadedge/error.hpp"
 #include "quadedge/point_cloud.hpp"
 
 namespace quadedge {
@@ -115,9 +113,7 @@ double reprojection_error(const StereoRig& rig, const std::vector<CloudView>& vi
 }  // namespace
 
 void write_colmap(const std::string& folder, const StereoRig& rig, const PointCloud& cloud) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw DataError(folder + ": the folder cannot be made: " + error.message());
+  data::make_folder(folder);
   const auto points = cloud.points();
   const auto sightings = cloud.sightings();
   std::vector<std::vector<Place>> places(cloud.views().size());
