@@ -114,13 +114,8 @@ void require_schema(const Result& result, const char* key, int known) {
 }
 
 Result read_result(const std::string& file) {
-  Result result{file, {}};
   constexpr const char* kExpected = "a result of `quadedge bench --json`";
-  try {
-    result.json = Json::parse(data::read_text(file));
-  } catch (const Json::exception&) {
-    data::fail(file, "no JSON", kExpected);
-  }
+  Result result{file, report::read_json(file, kExpected)};
   if (!result.json.is_object() || !result.json.contains("bench_schema")) data::fail(file, "other JSON", kExpected);
   require_schema(result, "bench_schema", kBenchSchema);
   require_schema(result, "schema", report::kReportSchema);

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "common/disparity_range.hpp"
 #include "rig/rig_correction.hpp"
 #include "rig/rig_monitor.hpp"
 
 namespace quadedge::cli {
+namespace {
 
-void check_numbers(const StereoRig& rig, DatasetCheck& check) {
-  for (const auto& finding : rig::implausible_numbers(rig)) check.warnings.push_back(rig::warning(finding).text);
-}
-
+/// Tests the calibration on one frame: adds the figures, and warnings where it does not fit.
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
   const rig::RigReport report = rig::RigMonitor::examine(
       dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(dataset.rig));
@@ -34,6 +31,8 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
   if (const std::string proposal = rectified_proposal(dataset, pair); !proposal.empty())
     check.warnings.push_back(frame + proposal);
 }
+
+}  // namespace
 
 std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair) {
   if (!dataset.calibration || dataset.calibration->of_rectified.empty()) return {};
@@ -59,13 +58,27 @@ std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair) {
          figures(recorded) + "): are they rectified? --rectified takes P";
 }
 
-bool RowEvidence::wants(int frame, std::size_t frames) {
+void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
+  if (!dataset_) {
+    dataset_ = dataset;
+    dataset_->stream = nullptr;  // which is read elsewhere
+    for (const auto& finding : rig::implausible_numbers(dataset.rig))
+      found_.warnings.push_back(rig::warning(finding).text);
+  }
+  const auto frames = static_cast<int>(dataset.frames.size());
+  last_ = std::nullopt;
   constexpr int kFrames = 12;
-  if (frames == 0) return (frame & (frame - 1)) == 0;  // ever fewer
-  return frame % std::max(1, static_cast<int>(frames) / kFrames) == 0;
+  const bool shows_rows = frames == 0 ? (pair.number & (pair.number - 1)) == 0  // ever fewer
+                                      : pair.number % std::max(1, frames / kFrames) == 0;
+  if (shows_rows) see_rows(dataset.rig, pair);
+  if (pair.number == 0 || pair.number == frames / 2) {
+    check_rig_evidence(dataset, pair, found_);
+  } else {
+    last_ = pair;
+  }
 }
 
-void RowEvidence::see(const StereoRig& rig, const StereoPair& pair) {
+void RigEvidenceCollector::see_rows(const StereoRig& rig, const StereoPair& pair) {
   std::vector<rig::CornerMatch> matches =
       rig::CornerMatcher(rig).search({pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(rig)).found;
   matches.erase(std::remove_if(matches.begin(), matches.end(), [](const auto& match) { return !match.is_aligned; }),
@@ -74,54 +87,15 @@ void RowEvidence::see(const StereoRig& rig, const StereoPair& pair) {
   rows_->add(matches);
 }
 
-StereoCalibration RowEvidence::finish(const Dataset& dataset, DatasetCheck& check) const {
-  StereoCalibration calibration = dataset.calibration.value_or(pinhole_calibration(dataset.rig));
-  if (!rows_ || rows_->sums().frames < 2) return calibration;  // one frame does not show how certain its rows are
-  const rig::RigCorrection correction = rig::correction_of(dataset.rig, *rows_);
-  check.facts.push_back(correction.text());
-  return correction.applied(calibration);
-}
-
-StereoCalibration check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {
-  check_numbers(dataset.rig, check);
-  RowEvidence rows;
-  if (dataset.frames.empty()) return rows.finish(dataset, check);
-  for (const std::size_t i : std::set<std::size_t>{0, dataset.frames.size() / 2, dataset.frames.size() - 1}) {
-    const FrameFiles& files = dataset.frames[i];
-    check_rig_evidence(dataset,
-                       {static_cast<int>(i), files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)},
-                       check);
-  }
-  for (std::size_t i = 0; i < dataset.frames.size(); ++i) {
-    if (!RowEvidence::wants(static_cast<int>(i), dataset.frames.size())) continue;
-    const FrameFiles& files = dataset.frames[i];
-    rows.see(dataset.rig,
-             {static_cast<int>(i), files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)});
-  }
-  return rows.finish(dataset, check);
-}
-
-void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
-  if (!dataset_) {
-    dataset_ = dataset;
-    dataset_->stream = nullptr;  // which is read elsewhere
-    check_numbers(dataset.rig, found_);
-  }
-  const auto middle = static_cast<int>(dataset.frames.size() / 2);
-  last_ = std::nullopt;
-  if (RowEvidence::wants(pair.number, dataset.frames.size())) rows_.see(dataset.rig, pair);
-  if (pair.number == 0 || pair.number == middle) {
-    check_rig_evidence(dataset, pair, found_);
-  } else {
-    last_ = pair;
-  }
-}
-
 StereoCalibration RigEvidenceCollector::finish(DatasetCheck& check) {
   if (last_) check_rig_evidence(*dataset_, *last_, found_);
   check.facts.insert(check.facts.end(), found_.facts.begin(), found_.facts.end());
   check.warnings.insert(check.warnings.end(), found_.warnings.begin(), found_.warnings.end());
-  return rows_.finish(*dataset_, check);
+  StereoCalibration calibration = dataset_->calibration.value_or(pinhole_calibration(dataset_->rig));
+  if (!rows_ || rows_->sums().frames < 2) return calibration;  // one frame does not show how certain its rows are
+  const rig::RigCorrection correction = rig::correction_of(dataset_->rig, *rows_);
+  check.facts.push_back(correction.text());
+  return correction.applied(calibration);
 }
 
 }  // namespace quadedge::cli

@@ -9,34 +9,12 @@
 
 namespace quadedge::cli {
 
-/// Adds a warning for each implausible value of the calibration.
-void check_numbers(const StereoRig& rig, DatasetCheck& check);
-
 /// A sentence that proposes --rectified, if a pair fits the cameras of rectified images better than those that record;
 /// otherwise empty.
 std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
 
-/// Tests the calibration on one frame: adds the figures, and warnings where it does not fit.
-void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check);
-
-/// What some frames of a dataset show of its right camera's rows.
-class RowEvidence {
- public:
-  /// Whether a frame of `frames` (0: unknown) is one of those that are examined.
-  static bool wants(int frame, std::size_t frames);
-  void see(const StereoRig& rig, const StereoPair& pair);
-  /// Adds what was found as a fact. \returns the calibration with what is certain
-  StereoCalibration finish(const Dataset& dataset, DatasetCheck& check) const;
-
- private:
-  std::optional<rig::RowModel> rows_;
-};
-
-/// Tests the first, the middle and the last frame of a dataset of files, the values of the calibration, and the rows of
-/// some frames. \returns the corrected calibration
-StereoCalibration check_rig_evidence(const Dataset& dataset, DatasetCheck& check);
-
-/// The same for pairs that arrive one by one. Without a known number of pairs there is no middle one.
+/// Tests the values of a calibration, its first, middle and last frame, and the rows of some frames, of pairs that
+/// arrive one by one. Without a known number of pairs there is no middle one.
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
@@ -46,10 +24,12 @@ class RigEvidenceCollector {
   StereoCalibration finish(DatasetCheck& check);
 
  private:
+  void see_rows(const StereoRig& rig, const StereoPair& pair);
+
   DatasetCheck found_;
   std::optional<Dataset> dataset_;
   std::optional<StereoPair> last_;
-  RowEvidence rows_;
+  std::optional<rig::RowModel> rows_;  ///< of the right camera
 };
 
 }  // namespace quadedge::cli

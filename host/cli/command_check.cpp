@@ -43,33 +43,22 @@ class CheckCommand : public Command {
     if (correct_ && calibration_.empty()) throw UsageError("--correct is for --write-calibration");
     report::check_output_file(calibration_, force_);
     if (!source_.is_own_camera() && is_tree()) return check_tree();
-    return print(source_.is_own_camera() ? check_own_camera() : check_layout());
+    return print(check_recording());
   }
 
  private:
-  DatasetCheck check_layout() const {
-    const DatasetOptions options = source_.layout(options_);
-    DatasetCheck check = check_dataset(path_, options);
-    if (!check.errors.empty()) return check;
-    const Dataset dataset = open_dataset(path_, options);
-    write_cameras(dataset, check_rig_evidence(dataset, check));
-    return check;
-  }
-
-  DatasetCheck check_own_camera() const {
+  DatasetCheck check_recording() const {
     RigEvidenceCollector evidence;
-    DatasetCheck check = check_stereo_source(
-        source_.own_camera(), [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); });
+    const auto see = [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); };
+    DatasetCheck check = source_.is_own_camera() ? check_stereo_source(source_.own_camera(), see)
+                                                 : check_dataset(path_, source_.layout(options_), see);
     if (!check.errors.empty()) return check;
     const StereoCalibration corrected = evidence.finish(check);
-    write_cameras(evidence.dataset(), corrected);
-    return check;
-  }
-
-  void write_cameras(const Dataset& dataset, const StereoCalibration& corrected) const {
+    const Dataset& dataset = evidence.dataset();
     if (!calibration_.empty())
       write_calibration(calibration_,
                         correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
+    return check;
   }
 
   int print(const DatasetCheck& check) const {

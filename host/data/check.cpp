@@ -193,9 +193,10 @@ DatasetCheck check_opened(const std::string& path, const std::function<Dataset(F
 
 }  // namespace data
 
-DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options) {
-  return data::check_opened(path, [&](data::Findings& findings) { return data::read_dataset(path, options, findings); },
-                            {});
+DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options,
+                           const std::function<void(const Dataset&, const StereoPair&)>& seen) {
+  return data::check_opened(
+      path, [&](data::Findings& findings) { return data::read_dataset(path, options, findings); }, seen);
 }
 
 }  // namespace quadedge

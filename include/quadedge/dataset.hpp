@@ -71,7 +71,9 @@ struct DatasetCheck {
   std::vector<std::string> warnings;  ///< gaps between timestamps, ground truth that covers only some frames
   std::vector<std::string> errors;    ///< problems that would stop a run
 };
-DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options = {});
+/// \param seen called with every pair that could be read
+DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options = {},
+                           const std::function<void(const Dataset&, const StereoPair&)>& seen = {});
 
 /// Reads a grey image at its full bit depth. Colour images are converted to luminance.
 /// \throws DataError for a missing, truncated or undecodable file.
