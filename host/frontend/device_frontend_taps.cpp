@@ -2,25 +2,29 @@
 /// is a tap.
 #include "common/filter_limits.hpp"
 #include "frontend/device_frontend.hpp"
+#include "frontend/tap_lists.hpp"
 
 namespace quadedge::frontend {
 namespace {
 
 constexpr float kAllDirections = 4.0f;  // rad, larger than any angle
 
-/// The scores that a filter compares; null for filters that use neither.
-template <class Filter>
-const std::vector<float>* scores_for(const stages::JudgedCandidates& lists, Filter filter) {
-  if (filter == Filter::sift || filter == Filter::nearly_best_sift) return &lists.sift;
-  if (filter == Filter::ncc || filter == Filter::nearly_best_ncc) return &lists.ncc;
-  return nullptr;
-}
+/// Candidates with their scores and the decisions of the filters.
+struct Judged {
+  reference::Candidates lists;
+  reference::CandidateScores scores;  ///< undefined where no filter has computed them
 
-/// The candidates that a filter leaves, with the scores that the next filter compares.
-template <class Filter>
-CandidateLists passing(const stages::JudgedCandidates& lists, Filter filter) {
-  return lists.alive_after(order_of(filter), scores_for(lists, next(filter)));
-}
+  explicit Judged(const stages::DeviceCandidates& read)
+      : lists{read.first.read(static_cast<std::size_t>(read.rows) + 1), read.target.read(size(read))},
+        scores{read.ncc.read(size(read)), read.sift.read(size(read)), read.state.read(size(read))} {}
+  static std::size_t size(const stages::DeviceCandidates& read) { return static_cast<std::size_t>(read.host_total); }
+
+  /// The candidates that a filter leaves, with the scores that the next filter compares.
+  template <class Filter>
+  CandidateLists after(Filter filter) const {
+    return reference::alive_after(filter, lists, scores);
+  }
+};
 
 }  // namespace
 
@@ -33,46 +37,37 @@ void DeviceFrontend::tap_stereo() {
                            range_.probe(left_.edges.host_count), lists);
     tap_->stereo_filter(filter, lists.read());
   }
-  const auto judged = candidates_.read_judged();
+  const Judged judged(candidates_);
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
-    tap_->stereo_filter(filter, passing(judged, filter));
+    tap_->stereo_filter(filter, judged.after(filter));
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
   const auto count = clusters_.count.read(rows);
   const auto position = clusters_.packed.read(size),
              similarity = clusters_.packed.read(size, 2 * static_cast<std::size_t>(clusters_.stride));
-  const auto anchor = clusters_.anchor.read(size);
+  const reference::StereoClusters clusters{judged.lists.first,
+                                           {position.begin(), position.end()},
+                                           {},
+                                           clusters_.anchor.read(size),
+                                           {similarity.begin(), similarity.end()}};
   const auto x = left_.edges.packed.read(rows),
              y = left_.edges.packed.read(rows, static_cast<std::size_t>(left_.edges.stride));
-  const auto clusters_that = [&](const auto& pass) {
-    CandidateLists lists;
-    lists.first.assign(1, 0);
-    for (std::size_t i = 0; i < rows; ++i) {
-      const auto line = epipolar_line(range_.geometry(), x[i], y[i]);
-      const auto begin = static_cast<std::size_t>(judged.first[i]);
-      for (std::size_t k = begin; k < begin + static_cast<std::size_t>(count[i]); ++k) {
-        if (!pass(i, k)) continue;
-        lists.target.push_back(anchor[k]);
-        lists.x.push_back(line.x + position[k] * line.ex);
-        lists.y.push_back(line.y + position[k] * line.ey);
-        lists.cue.push_back(similarity[k]);
-      }
-      lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
-    }
-    return lists;
+  const auto tap_clusters = [&](StereoFilter filter, const auto& passes) {
+    const auto exists = [&](std::size_t i, std::size_t k) {
+      return k < static_cast<std::size_t>(clusters.first[i] + count[i]) && passes(i, k);
+    };
+    tap_->stereo_filter(filter, clusters_that(clusters, range_.geometry(), x, y, exists));
   };
-  tap_->stereo_filter(StereoFilter::refinement, clusters_that([](std::size_t, std::size_t) { return true; }));
+  tap_clusters(StereoFilter::refinement, [](std::size_t, std::size_t) { return true; });
   // As in the kernel: clusters that pass compete, and the others are not marked.
-  tap_->stereo_filter(StereoFilter::similarity, clusters_that([&](std::size_t, std::size_t k) {
-                        return similarity[k] >= lowest_similarity(config_.stereo);
-                      }));
+  tap_clusters(StereoFilter::similarity,
+               [&](std::size_t, std::size_t k) { return similarity[k] >= lowest_similarity(config_.stereo); });
   const auto chosen = relaxed_.chosen.read(rows);
   const auto is_chosen = [&](std::size_t i, std::size_t k) { return chosen[i] == static_cast<std::int32_t>(k); };
-  tap_->stereo_filter(StereoFilter::relaxation, clusters_that(is_chosen));
+  tap_clusters(StereoFilter::relaxation, is_chosen);
   const auto owner = owners_.owner.read(static_cast<std::size_t>(right_.edges.host_count));
-  tap_->stereo_filter(StereoFilter::one_to_one, clusters_that([&](std::size_t i, std::size_t k) {
-                        return is_chosen(i, k) &&
-                               owner[static_cast<std::size_t>(anchor[k])] == static_cast<std::int32_t>(i);
-                      }));
+  tap_clusters(StereoFilter::one_to_one, [&](std::size_t i, std::size_t k) {
+    return is_chosen(i, k) && owner[static_cast<std::size_t>(clusters.anchor[k])] == static_cast<std::int32_t>(i);
+  });
 }
 
 /// Both sides, up to the agreement. The kernel combines filter 1 with filter 2: for filter 1 it runs again with the
@@ -84,12 +79,12 @@ void DeviceFrontend::tap_temporal(const TemporalSearch& search) {
                              lists);
     tap_->temporal_filter(TemporalFilter::displacement, side, lists.read());
   }
-  const auto left = temporal_left_.read_judged(), right = temporal_right_.read_judged();
+  const Judged left(temporal_left_), right(temporal_right_);
   for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter)) {
-    tap_->temporal_filter(filter, Side::left, passing(left, filter));
-    tap_->temporal_filter(filter, Side::right, passing(right, filter));
+    tap_->temporal_filter(filter, Side::left, left.after(filter));
+    tap_->temporal_filter(filter, Side::right, right.after(filter));
   }
-  const auto agreeing = passing(left, TemporalFilter::agreement);
+  const auto agreeing = left.after(TemporalFilter::agreement);
   for (const Side side : kSides) tap_->temporal_filter(TemporalFilter::agreement, side, agreeing);
 }
 

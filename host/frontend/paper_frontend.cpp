@@ -7,6 +7,7 @@
 
 #include "common/disparity_range.hpp"
 #include "frontend/prediction.hpp"
+#include "frontend/tap_lists.hpp"
 #include "paper/grid_edges.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/images.hpp"
@@ -132,24 +133,11 @@ void PaperFrontend::tap_stereo(const paper::StereoMatching& matching) {
   }
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
     tap_->stereo_filter(filter, reference::alive_after(filter, matching.candidates, matching.scores));
-  const reference::StereoClusters& clusters = matching.clusters;
   for (const auto filter : {StereoFilter::refinement, StereoFilter::similarity}) {
-    CandidateLists lists;
-    lists.first.push_back(0);
-    for (std::size_t i = 0; i < left_edges_.size(); ++i) {
-      const EpipolarLine line = epipolar_line(geometry_, left_edges_.x[i], left_edges_.y[i]);
-      for (auto k = static_cast<std::size_t>(clusters.first[i]); k < static_cast<std::size_t>(clusters.first[i + 1]);
-           ++k) {
-        if (filter == StereoFilter::similarity && clusters.similarity[k] < config_.stereo.refined_ncc_min) continue;
-        const auto s = static_cast<float>(clusters.position[k]);
-        lists.target.push_back(clusters.anchor[k]);
-        lists.x.push_back(line.x + s * line.ex);
-        lists.y.push_back(line.y + s * line.ey);
-        lists.cue.push_back(static_cast<float>(clusters.similarity[k]));
-      }
-      lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
-    }
-    tap_->stereo_filter(filter, lists);
+    const auto passes = [&](std::size_t, std::size_t k) {
+      return filter == StereoFilter::refinement || matching.clusters.similarity[k] >= config_.stereo.refined_ncc_min;
+    };
+    tap_->stereo_filter(filter, clusters_that(matching.clusters, geometry_, left_edges_.x, left_edges_.y, passes));
   }
 }
 

@@ -1,6 +1,7 @@
 /// \file reference_frontend_taps.cpp  Passes data of the reference to a tap after each filter, from the candidate lists
 /// on.
 #include "frontend/reference_frontend.hpp"
+#include "frontend/tap_lists.hpp"
 #include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
@@ -13,28 +14,12 @@ constexpr float kAnyDirection = 4.0f;  // rad, larger than any angle
 void ReferenceFrontend::tap_stereo() {
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
     tap_->stereo_filter(filter, reference::alive_after(filter, candidates_, scores_));
-  const auto lists_that = [&](const auto& pass) {
-    CandidateLists lists;
-    lists.first.assign(1, 0);
-    for (std::size_t i = 0; i + 1 < clusters_.first.size(); ++i) {
-      const auto line = epipolar_line(range_.geometry(), left_edges_.x[i], left_edges_.y[i]);
-      for (auto k = static_cast<std::size_t>(clusters_.first[i]); k < static_cast<std::size_t>(clusters_.first[i + 1]);
-           ++k) {
-        if (!pass(i, k)) continue;
-        const auto position = static_cast<float>(clusters_.position[k]);
-        lists.target.push_back(clusters_.anchor[k]);
-        lists.x.push_back(line.x + position * line.ex);
-        lists.y.push_back(line.y + position * line.ey);
-        lists.cue.push_back(static_cast<float>(clusters_.similarity[k]));
-      }
-      lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
-    }
-    return lists;
+  const auto tap_clusters = [&](StereoFilter filter, const auto& passes) {
+    tap_->stereo_filter(filter, clusters_that(clusters_, range_.geometry(), left_edges_.x, left_edges_.y, passes));
   };
-  tap_->stereo_filter(StereoFilter::refinement, lists_that([](std::size_t, std::size_t) { return true; }));
-  tap_->stereo_filter(StereoFilter::relaxation, lists_that([&](std::size_t i, std::size_t k) {
-                        return relaxation_.chosen[i] == static_cast<std::int32_t>(k);
-                      }));
+  tap_clusters(StereoFilter::refinement, [](std::size_t, std::size_t) { return true; });
+  tap_clusters(StereoFilter::relaxation,
+               [&](std::size_t i, std::size_t k) { return relaxation_.chosen[i] == static_cast<std::int32_t>(k); });
 }
 
 void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result) {

@@ -11,16 +11,6 @@
 
 namespace quadedge::stages {
 
-/// Compressed rows: row r owns first[r] .. first[r + 1] of the other arrays.
-struct JudgedCandidates {
-  std::vector<std::int32_t> first, target;
-  std::vector<std::uint8_t> state;  ///< alive, rejected by or represented: kernels/layouts.cl
-  std::vector<float> ncc, sift;     ///< similarity and distance; undefined where no filter has computed them
-
-  /// Candidates that no filter of order <= `order` has rejected. `cue`: ncc, sift or null.
-  CandidateLists alive_after(int order, const std::vector<float>* cue) const;
-};
-
 /// Candidate lists in compressed rows, with the scores of every candidate. If the capacity is exceeded, the buffers
 /// grow and the sweep runs again, so no candidate is lost.
 struct DeviceCandidates {
@@ -66,9 +56,8 @@ struct DeviceCandidates {
         std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
   }
 
-  /// All candidates without scores; with scores and the decisions of the filters, for a tap.
+  /// All candidates without scores, for a tap.
   CandidateLists read() const;
-  JudgedCandidates read_judged() const;
 };
 
 /// Descriptions of a set of edges.
