@@ -19,9 +19,8 @@ PIL = pytest.importorskip("PIL.Image")
 
 from quadedge import report  # noqa: E402
 from quadedge.report import numbers, results, sequence_figures  # noqa: E402
-from quadedge.report.figure import COLOURS, Figure, Series, thinned  # noqa: E402
+from quadedge.report.figure import COLOURS, Figure, rounded, thinned, write_figure  # noqa: E402
 from quadedge.report.page import LARGEST_PAGE  # noqa: E402
-from quadedge.report.plotly_figures import to_plotly  # noqa: E402
 from quadedge.report.table import Cell, Table, to_csv, to_latex, to_markdown  # noqa: E402
 
 ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses coincide)"
@@ -223,9 +222,9 @@ def test_a_run_with_loops_shows_the_corrected_path_and_its_closures(tmp_path):
     run = results.read_run(tmp_path / "street")
     assert np.allclose(run.corrected.positions, run.truth.positions)
     _, above, *_ = sequence_figures.trajectory_figures(run, [], 100)
-    series = {series.name: series for series in above.series}
-    assert np.allclose(series["QuadEdge, loops closed"].y, series["ground truth"].y)
-    ends = np.array(series["closures"].y).reshape(2, 3)
+    series = {trace["name"]: trace for trace in above.traces}
+    assert np.allclose(series["QuadEdge, loops closed"]["y"], series["ground truth"]["y"])
+    ends = np.array(series["closures"]["y"]).reshape(2, 3)
     assert np.isnan(ends[:, 2]).all()
     assert np.allclose(sorted(ends[0, :2]), run.truth.positions[[2, 20], 2])
     assert "2 closures kept of 3 compared" in page_of(tmp_path / "street").text
@@ -241,8 +240,9 @@ def test_closures_and_the_corrected_path_have_a_colour_that_no_segment_has(tmp_p
     *_, last = run.segments()
     run.segments = lambda: [(k, last[1]) for k in range(7)]
     _, above, *_ = sequence_figures.trajectory_figures(run, [], 100)
-    segments = {series.style for series in above.series if series.name.startswith("QuadEdge, segment")}
-    others = [series.style for series in above.series if series.name in ("QuadEdge, loops closed", "closures")]
+    colours = [(trace["name"], trace["line"]["color"]) for trace in above.traces if "line" in trace]
+    segments = {colour for name, colour in colours if name.startswith("QuadEdge, segment")}
+    others = [colour for name, colour in colours if name in ("QuadEdge, loops closed", "closures")]
     assert len(others) == 2 and len(set(others) | segments) == 2 + len(segments)
 
 
@@ -428,17 +428,18 @@ def test_every_table_and_figure_becomes_a_file(tmp_path):
 
 
 def test_the_same_figure_gives_the_same_bytes(tmp_path):
-    from quadedge.report.matplotlib_figures import write_figure
-
-    figure = Figure("f", "t", "x", "y", series=[Series("a", [0, 1], [1, 2]), Series("b", [0], [1], points=True)])
+    figure = Figure("f", "t", "x", "y")
+    figure.add("a", [0, 1], [1, 2])
+    figure.add("b", [0], [1], points=True)
     first = [file.read_bytes() for file in write_figure(figure, tmp_path)]
     assert [file.read_bytes() for file in write_figure(figure, tmp_path)] == first
     assert b"<text" in first[0]  # text stays text
 
 
 def test_curves_are_interrupted_where_there_is_no_value():
-    figure = Figure("f", "t", "x", "y", series=[Series("a", [0, 1, 2], [1, np.nan, 3])])
-    assert to_plotly(figure)["data"][0]["y"] == [1, None, 3]
+    figure = Figure("f", "t", "x", "y")
+    figure.add("a", [0, 1, 2], [1, np.nan, 3])
+    assert rounded(figure.plotly()["data"][0]["y"]) == [1, None, 3]
 
 
 def test_trajectories_are_aligned_at_the_first_time_that_both_know(tmp_path):

@@ -1,52 +1,29 @@
-"""Figures as data, independent of how they are drawn: by plotly on pages, by matplotlib in files."""
+"""Figures in plotly's format: pages give them to plotly in the browser, write_figure() draws them with matplotlib."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 # Blue, orange, magenta, green, violet, grey, brown: distinguishable for colour-blind readers on light and dark pages.
 COLOURS = ("#2f80d0", "#e08a00", "#c63f9d", "#2a9d7c", "#7a5af0", "#8a8f98", "#a0522d")
 GREY = 5
-# Each series also has a line style and a marker, with plotly's names.
-DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "solid", "longdashdot")
-SYMBOLS = ("circle", "triangle-up", "x", "square", "diamond", "cross", "star")
+# Each style also has a line style and a marker; plotly has fewer markers in space. Beside plotly's names matplotlib's.
+_DASHES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-.", "longdash": (0, (8, 3)),
+           "longdashdot": (0, (8, 3, 1, 3))}
+_DASH_OF_STYLE = ("solid", "dash", "dot", "dashdot", "longdash", "solid", "longdashdot")
+_SYMBOLS = {"circle": "o", "triangle-up": "^", "x": "x", "square": "s", "diamond": "D", "cross": "P", "star": "*"}
+_SPATIAL_SYMBOLS = ("circle", "square", "diamond", "circle-open", "square-open", "diamond-open", "circle")
+_MATPLOTLIB = {"svg.hashsalt": "quadedge", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
+               "grid.alpha": 0.35, "axes.spines.top": False, "axes.spines.right": False}
 _SHORTEST = 0.25  # of the longest axis of a 3D plot
+_DIGITS = 5
 FEWEST_FRAMES = 10  # fewer frames are not plotted
 
 
 @dataclass
-class Series:
-    """A curve or point cloud. NaN in `y` interrupts a curve."""
-
-    name: str
-    x: np.ndarray | list
-    y: np.ndarray | list
-    z: np.ndarray | list | None = None
-    style: int = 0
-    """Index of colour, line style and marker."""
-    points: bool = False
-    """Markers instead of a curve."""
-    fill: str = ""
-    """Fills the area down to zero ("zero") or to the previous series ("below")."""
-    dash: str = ""
-    """Line style instead of that of `style`."""
-    times: np.ndarray | None = None
-    """Times of the points [s], if no axis shows them."""
-    hover: list[str] | None = None
-    """A hover text per point."""
-
-
-@dataclass
-class Marker:
-    """A labelled vertical line."""
-
-    x: float
-    text: str
-
-
-@dataclass
 class Figure:
-    """A plot of series with two axes, or three if the series have a z."""
+    """A plot of curves and point clouds with two axes, or three if they have a z."""
 
     name: str
     """Name of its files; unique on a page."""
@@ -54,8 +31,10 @@ class Figure:
     x_label: str
     y_label: str
     z_label: str = ""
-    series: list[Series] = field(default_factory=list)
-    markers: list[Marker] = field(default_factory=list)
+    traces: list[dict] = field(default_factory=list)
+    """Curves and point clouds, as plotly takes them, with unrounded arrays."""
+    markers: list[tuple[float, str]] = field(default_factory=list)
+    """Labelled vertical lines."""
     categories: list[str] | None = None
     """Labels of the x values 0, 1, ..."""
     x_range: tuple[float, float] | None = None
@@ -65,24 +44,141 @@ class Figure:
     wide: bool = False
     """Spans the width of the page."""
 
+    def add(self, name: str, x, y, z=None, *, style: int = 0, points: bool = False, fill: str = "", dash: str = "",
+            times: np.ndarray | None = None, hover: list[str] | None = None) -> None:
+        """Adds a curve, which NaN in y interrupts, or a cloud of points.
+
+        style: index of colour, line style and marker. dash: another line style. fill: fills the area down to zero
+        ("zero") or to the previous curve ("below"). times: of the points [s], if no axis shows them. hover: texts.
+        """
+        spatial, colour = z is not None, COLOURS[style % len(COLOURS)]
+        symbol = (_SPATIAL_SYMBOLS if spatial else tuple(_SYMBOLS))[style % len(_SYMBOLS)]
+        axes = dict(zip("xyz", (np.asarray(values, float) for values in (x, y, z) if values is not None)))
+        trace = {"name": name, "type": "scatter3d" if spatial else "scatter", **axes}
+        if self.categories:
+            trace["x"] = [self.categories[int(i)] for i in x]
+        if points:
+            trace |= {"mode": "markers", "marker": {"color": colour, "symbol": symbol, "size": 3 if spatial else 6}}
+        else:
+            line = dash or ("solid" if fill else _DASH_OF_STYLE[style % len(_DASH_OF_STYLE)])
+            trace |= {"mode": "lines", "line": {"color": colour, "dash": line, "width": 4 if spatial else 2}}
+            if self.categories:
+                trace |= {"mode": "lines+markers", "marker": {"symbol": symbol, "size": 7}}
+        if fill:
+            trace |= {"fill": "tozeroy" if fill == "zero" else "tonexty", "fillcolor": colour + "55"}
+        if times is not None:
+            position = "(%{x}, %{y}, %{z})" if spatial else "(%{x}, %{y})"
+            trace |= {"customdata": times, "hovertemplate": position + "<br>%{customdata} s"}
+        if hover:
+            trace |= {"text": hover, "hoverinfo": "text+x+y" + ("+z" if spatial else "")}
+        self.traces.append(trace)
+
     @property
     def is_spatial(self) -> bool:
-        return any(series.z is not None for series in self.series)
+        return any("z" in trace for trace in self.traces)
 
     def lengths(self, longest: float) -> list[float]:
         """Lengths of the three axes, at least a quarter of the longest, so that a straight path remains visible."""
         return [longest * max(share, _SHORTEST) for share in self._shares()]
 
-    def spatial_title(self) -> str:
-        """The title, with a remark if the axes are not to one scale."""
-        return self.title + ("" if min(self._shares()) >= _SHORTEST else " (axes not to one scale)")
+    def full_title(self) -> str:
+        """The title, with a remark if the axes of space are not to one scale."""
+        distorted = self.is_spatial and min(self._shares()) < _SHORTEST
+        return self.title + (" (axes not to one scale)" if distorted else "")
 
     def _shares(self) -> list[float]:
-        extents = []
-        for axis in ("x", "y", "z"):
-            values = np.concatenate([np.asarray(getattr(series, axis), float) for series in self.series])
-            extents.append(float(np.nanmax(values) - np.nanmin(values)))
+        extents = [float(np.nanmax(values) - np.nanmin(values)) for values in
+                   (np.concatenate([trace[axis] for trace in self.traces]) for axis in "xyz")]
         return [extent / max(*extents, 1e-9) for extent in extents]
+
+    def _axis(self, axis: str) -> dict:
+        limits = getattr(self, f"{axis}_range", None)
+        shown = {"title": {"text": getattr(self, f"{axis}_label")}, "automargin": True}
+        return shown | ({"range": list(limits)} if limits else {})
+
+    def plotly(self) -> dict:
+        """The `data` and `layout` arguments of Plotly.newPlot. The page adds size, fonts and background colours."""
+        layout: dict = {"title": {"text": self.full_title()}}
+        if self.is_spatial:
+            layout["scene"] = {f"{axis}axis": self._axis(axis) for axis in "xyz"} | {
+                "aspectmode": "manual", "aspectratio": dict(zip("xyz", self.lengths(1.4))),
+                "camera": {"eye": {"x": -0.85, "y": -1.5, "z": 0.8}, "center": {"x": 0, "y": 0, "z": -0.12}}}
+            return {"data": self.traces, "layout": layout}
+        x, y = layout["xaxis"], layout["yaxis"] = self._axis("x"), self._axis("y")
+        if self.categories:
+            x |= {"type": "category", "categoryarray": self.categories, "categoryorder": "array", "tickangle": -40}
+        if self.y_logarithmic:
+            y |= {"type": "log", "dtick": 1}
+        elif self.y_range is None and not self.equal_units and all(np.nanmin(trace["y"], initial=0) >= 0
+                                                                   for trace in self.traces):
+            y["rangemode"] = "tozero"
+        if self.equal_units:
+            y |= {"scaleanchor": "x", "scaleratio": 1}
+        layout["shapes"] = [{"type": "line", "x0": place, "x1": place, "yref": "paper", "y0": 0, "y1": 1,
+                             "line": {"dash": "dash", "width": 1.5, "color": COLOURS[GREY]}}
+                            for place, _ in self.markers]
+        layout["annotations"] = [{"x": place, "yref": "paper", "y": 1, "yanchor": "bottom", "showarrow": False,
+                                  "text": text} for place, text in self.markers if text]
+        return {"data": self.traces, "layout": layout}
+
+
+def rounded(values: np.ndarray) -> list:
+    """An array as JSON has it: few digits, None for NaN."""
+    return [float("%.*g" % (_DIGITS, value)) if value == value else None for value in values.tolist()]
+
+
+def _draw(axes, traces: list[dict]) -> None:
+    for before, trace in zip([None, *traces], traces):
+        line, marker = trace.get("line", {}), trace.get("marker", {})
+        colour = line.get("color") or marker["color"]
+        axes.plot(*(trace[axis] for axis in "xyz" if axis in trace), linewidth=1.4, color=colour, markersize=4,
+                  linestyle=_DASHES[line["dash"]] if line else "", label=trace["name"],
+                  marker=_SYMBOLS[marker["symbol"].removesuffix("-open")] if marker else "")
+        if "fill" in trace:
+            floor = before["y"] if trace["fill"] == "tonexty" and before else 0
+            axes.fill_between(trace["x"], floor, trace["y"], color=colour, alpha=0.3, linewidth=0)
+
+
+def _finish(axes, figure: Figure) -> None:
+    axes.set(title=figure.full_title(), xlabel=figure.x_label, ylabel=figure.y_label)
+    if figure.is_spatial:
+        axes.set_zlabel(figure.z_label)
+        axes.set_box_aspect(figure.lengths(1), zoom=0.85)
+        axes.locator_params(nbins=4)
+        return
+    for place, text in figure.markers:
+        axes.axvline(place, color=COLOURS[GREY], linestyle="--", linewidth=1, label=text or None)
+    if figure.categories:
+        axes.set_xticks(range(len(figure.categories)), figure.categories, rotation=40, ha="right")
+    if figure.x_range:
+        axes.set_xlim(*figure.x_range)
+    if figure.y_range:
+        axes.set_ylim(*figure.y_range)
+    if figure.y_logarithmic:
+        axes.set_yscale("log")
+    if figure.equal_units:
+        axes.set_aspect("equal", adjustable="datalim")
+
+
+def write_figure(figure: Figure, folder: Path) -> list[Path]:
+    """Writes FOLDER/NAME.svg and FOLDER/NAME.pdf and returns their paths. The same figure gives the same bytes."""
+    import matplotlib  # slow to import
+
+    matplotlib.use("Agg")  # no window
+    from matplotlib import pyplot
+
+    with pyplot.rc_context(_MATPLOTLIB):
+        picture, axes = pyplot.subplots(figsize=(7 if figure.wide else 5, 4), layout="constrained",
+                                        subplot_kw={"projection": "3d"} if figure.is_spatial else {})
+        _draw(axes, figure.traces)
+        _finish(axes, figure)
+        if any(trace["name"] for trace in figure.traces):
+            axes.legend(fontsize=8, framealpha=0.6)
+        files = [folder / f"{figure.name}.svg", folder / f"{figure.name}.pdf"]
+        for file, date in zip(files, ("Date", "CreationDate")):
+            picture.savefig(file, metadata={date: None})
+        pyplot.close(picture)
+    return files
 
 
 def thinned(x: np.ndarray, y: np.ndarray, limit: int) -> tuple[np.ndarray, np.ndarray]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .figure import Figure, Marker, Series
+from .figure import Figure
 from .matching_tables import POOLS
 from .numbers import exists, length_unit, short_count
 
@@ -22,8 +22,8 @@ def filter_figure(key: str, title: str, summary: dict) -> Figure:
         shown = [row for row in summary[f"{key}{suffix}"] if not row.get("off")]
         for style, share in enumerate(("recall", "precision")):
             values = [100 * row[share] if exists(row[share]) else np.nan for row in shown]
-            figure.series.append(Series(f"{share}, {pool}", np.arange(len(values)), values, style=style + 2 * number,
-                                        dash="dash" if number else "solid"))
+            figure.add(f"{share}, {pool}", np.arange(len(values)), values, style=style + 2 * number,
+                       dash="dash" if number else "solid")
     return figure
 
 
@@ -79,14 +79,14 @@ def _shown_range(cue: dict) -> tuple[float, float]:
     return max(cue["low"], low - (air if low else 0)), min(cue["high"], high + air)
 
 
-def _thresholds(cue: dict) -> list[Marker]:
+def _thresholds(cue: dict) -> list[tuple[float, str]]:
     """Markers at the thresholds. Several thresholds, as pooled data sets may have, share one label."""
     thresholds = sorted(cue["thresholds"])
     sign = "\u2264" if cue["keeps_small"] else "\u2265"
     label = f"{sign} {thresholds[-1]:.4g}" if thresholds else ""
     if len(thresholds) > 1:
         label = f"{thresholds[0]:.4g} to {thresholds[-1]:.4g}, per data set"
-    return [Marker(value, label if value == thresholds[-1] else "") for value in thresholds]
+    return [(value, label if value == thresholds[-1] else "") for value in thresholds]
 
 
 def cue_figures(cue: dict) -> list[Figure]:
@@ -107,9 +107,9 @@ def cue_figures(cue: dict) -> list[Figure]:
             curves = _Curves(cue["low"], cue["high"], counts, shown)
             text = kind if f"{kind}_all" not in cue else f"{kind}, {pool}"
             dash = "dash" if number else "solid"
-            density.series.append(Series(f"{text} ({short_count(curves.total)})", curves.values, curves.density,
-                                         style=style, dash=dash, fill="" if number else "zero"))
-            cumulative.series.append(Series(text, curves.ends, curves.cumulative, style=style, dash=dash))
+            density.add(f"{text} ({short_count(curves.total)})", curves.values, curves.density, style=style,
+                        dash=dash, fill="" if number else "zero")
+            cumulative.add(text, curves.ends, curves.cumulative, style=style, dash=dash)
     return [density, cumulative]
 
 
@@ -121,15 +121,14 @@ def disparity_figures(pooled: dict) -> list[Figure]:
         return []
     curves = _Curves(errors["low"], errors["high"], errors, (errors["low"], errors["high"]))
     density = Figure("disparity_error", "Error of the disparity", "error [px]", "density [1/px]")
-    density.series.append(Series(f"final stereo edges ({short_count(total)})", curves.values, curves.density,
-                                 fill="zero"))
+    density.add(f"final stereo edges ({short_count(total)})", curves.values, curves.density, fill="zero")
     bins = np.array(errors["bins"], float)
     half = len(bins) // 2
     within = 100 * np.append(0, np.cumsum(bins[half:] + bins[:half][::-1])) / total
     limits = np.linspace(0, errors["high"], half + 1)
     cumulative = Figure("disparity_error_within", "Error within a limit", "largest absolute error [px]",
                         "share of edges [%]", y_range=(0, 102))
-    cumulative.series.append(Series("final stereo edges", limits, within))
+    cumulative.add("final stereo edges", limits, within)
     return [density, cumulative]
 
 
@@ -150,8 +149,8 @@ def count_figures(pairs: list[dict]) -> list[Figure]:
         for style, (column, text) in enumerate(series):
             values = [frame[column] if not in_time or frame["temporal_left"] > 0 else np.nan for frame in frames]
             if np.isfinite(values).any():
-                figure.series.append(Series(text, np.arange(len(values)), values, style=style))
-        if figure.series:
+                figure.add(text, np.arange(len(values)), values, style=style)
+        if figure.traces:
             figures.append(figure)
     return figures
 
@@ -160,15 +159,15 @@ def count_distribution_figures(pairs: list[dict]) -> list[Figure]:
     """Figure 2: how often an image or a frame has so many edges, stereo edges, matches in time and quads."""
     figures = []
     for figure in count_figures(pairs):
-        values = [np.asarray(series.y, float) for series in figure.series]
+        values = [trace["y"] for trace in figure.traces]
         values = [counts[np.isfinite(counts)] for counts in values]
         ends = np.histogram_bin_edges(np.concatenate(values), bins="sturges")
         shown = Figure(f"{figure.name}_distribution", figure.title, "count", "images" if "edges" in figure.name else
-                       "frames", series=[])
-        for series, counts in zip(figure.series, values):
+                       "frames")
+        for style, (trace, counts) in enumerate(zip(figure.traces, values)):
             heights = np.histogram(counts, ends)[0]
-            shown.series.append(Series(series.name, np.repeat(ends, 2), np.pad(np.repeat(heights, 2), 1),
-                                       style=series.style, fill="zero"))
+            shown.add(trace["name"], np.repeat(ends, 2), np.pad(np.repeat(heights, 2), 1), style=style,
+                      fill="zero")
         figures.append(shown)
     return figures
 
@@ -188,13 +187,13 @@ def accuracy_figures(pairs: list[dict], pooled: dict) -> list[Figure]:
             points = [frame["pairs"][order] for frame in frames]
             points = [point for point in points if exists(point["precision"]) and exists(point[key])]
             if points:
-                single.series.append(Series(name, [100 * point["precision"] for point in points],
-                                            [factor * point[key] for point in points], style=order, points=True))
+                single.add(name, [100 * point["precision"] for point in points],
+                           [factor * point[key] for point in points], style=order, points=True)
         whole = Figure(f"motions_of_quads_{quantity}", f"Motion of all quads: {quantity}",
                        "precision of the pairs, all constraints [%]", f"error [{unit_name}]", y_logarithmic=True)
         chosen = [frame for frame in frames if key in frame and exists(frame["pairs"][-1]["precision"])]
         if chosen:
-            whole.series.append(Series("one frame", [100 * frame["pairs"][-1]["precision"] for frame in chosen],
-                                       [factor * frame[key] for frame in chosen], points=True))
-        figures += [figure for figure in (single, whole) if figure.series]
+            whole.add("one frame", [100 * frame["pairs"][-1]["precision"] for frame in chosen],
+                      [factor * frame[key] for frame in chosen], points=True)
+        figures += [figure for figure in (single, whole) if figure.traces]
     return figures

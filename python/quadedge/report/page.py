@@ -17,8 +17,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from .figure import Figure
-from .plotly_figures import to_plotly
+from .figure import Figure, rounded, write_figure
 from .table import Table, to_csv, to_latex, to_markdown
 
 LARGEST_PAGE = 6_000_000  # bytes
@@ -173,8 +172,8 @@ def to_html(page: Page) -> str:
         numbers={id(figure): number for number, figure in enumerate(figures)}, id=id,
         style=Markup((files / "page.css").read_text(encoding="utf-8")),
         script=Markup((files / "page.js").read_text(encoding="utf-8")),
-        figures=_packed(json.dumps([to_plotly(figure) for figure in figures], separators=(",", ":"),
-                                   allow_nan=False).encode()),
+        figures=_packed(json.dumps([figure.plotly() for figure in figures], separators=(",", ":"),
+                                   allow_nan=False, default=rounded).encode()),
         plotly=_plotly_code() if figures else "", plotly_version=metadata.version("plotly"))
 
 
@@ -229,8 +228,6 @@ def write_markdown(page: Page, file: Path) -> None:
 
 def write_figures(page: Page, folder: Path) -> None:
     """Writes every figure as SVG and PDF."""
-    from .matplotlib_figures import write_figure  # slow to import
-
     folder.mkdir(parents=True, exist_ok=True)
     for figure in page.figures():
         write_figure(figure, folder)

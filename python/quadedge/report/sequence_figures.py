@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .figure import FEWEST_FRAMES, GREY, Figure, Series, every, thinned
+from .figure import FEWEST_FRAMES, GREY, Figure, every, thinned
 from .numbers import DEGREE, length_unit
 from .results import Errors, Run, Trajectory, is_lost
 
@@ -73,13 +73,13 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
             continue
         x, y, z = (positions * unit.factor).T
         common = {"style": style, "points": is_cloud, "dash": dash, "times": stamps - run.start}
-        space.series.append(Series(text, x, z, -y, **common))
-        above.series.append(Series(text, x, z, **common))
-        side.series.append(Series(text, z, -y, **common))
+        space.add(text, x, z, -y, **common)
+        above.add(text, x, z, **common)
+        side.add(text, z, -y, **common)
     lines = _closures(run)
     if len(lines):
         x, y, z = (lines * unit.factor).T
-        above.series.append(Series("closures", x, z, style=CLOSURE_STYLE, dash="dot"))
+        above.add("closures", x, z, style=CLOSURE_STYLE, dash="dot")
     return [space, above, side, *_deviation(run, others, points)]
 
 
@@ -106,7 +106,7 @@ def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
         figure = Figure(f"{run.name}_{key}_deviation", title, "distance along the line [m]", f"deviation [{unit.name}]")
         for text, path, style, dash in paths:
             way, off = (path.positions - base[0]) @ along, (path.positions - base[0]) @ axis * unit.factor
-            figure.series.append(Series(text, *thinned(way, off, points), style=style, dash=dash))
+            figure.add(text, *thinned(way, off, points), style=style, dash=dash)
         figures.append(figure)
     return figures
 
@@ -126,17 +126,17 @@ def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
         unit = length_unit(values) if key.endswith("_m") else DEGREE
         figure = Figure(f"{run.name}_{key.rsplit('_', 1)[0]}", title, TIME, f"{quantity} [{unit.name}]")
         for text, errors, style in systems:
-            figure.series.append(Series(text, *thinned(errors.stamps - run.start, getattr(errors, key) * unit.factor,
-                                                       points), style=style))
+            figure.add(text, *thinned(errors.stamps - run.start, getattr(errors, key) * unit.factor, points),
+                       style=style)
         if key == "ape_translation_m" and run.stated_error_m:
             stamps, stated = run.stated_error_m
             within = " within the segment" if run.report.get("segments", 1) > 1 else ""
             curve = thinned(stamps - run.start, stated * unit.factor, points)
-            figure.series.append(Series("stated by the covariance" + within, *curve, style=GREY, dash="dot"))
+            figure.add("stated by the covariance" + within, *curve, style=GREY, dash="dot")
         rigs = _at(run.errors.stamps, _key_rig_stamps(run))
         rigs = rigs[every(len(rigs), points)]
-        figure.series.append(Series("new key rig", run.errors.stamps[rigs] - run.start,
-                                    getattr(run.errors, key)[rigs] * unit.factor, style=2, points=True))
+        figure.add("new key rig", run.errors.stamps[rigs] - run.start,
+                   getattr(run.errors, key)[rigs] * unit.factor, style=2, points=True)
         figures.append(figure)
     return figures
 
@@ -148,16 +148,15 @@ def frame_figures(run: Run, points: int) -> list[Figure]:
     edges = Figure(f"{run.name}_edges", "Edges", TIME, "edges per frame")
     for style, (column, text) in enumerate((("edges_left", "left"), ("edges_right", "right"),
                                             ("stereo_edges", "stereo edges"))):
-        edges.series.append(Series(text, *thinned(run.times, run.column(column), points), style=style))
+        edges.add(text, *thinned(run.times, run.column(column), points), style=style)
     quads = Figure(f"{run.name}_quads", "Quads, and the inliers of the pose", TIME, "quads per frame")
     for style, column in enumerate(("quads", "inliers")):
-        quads.series.append(Series(column, *thinned(run.times, run.column(column), points), style=style))
+        quads.add(column, *thinned(run.times, run.column(column), points), style=style)
     lost = np.array([is_lost(status) for status in run.frames["status"]], bool)
     if lost.any():
         chosen = np.nonzero(lost)[0][every(int(lost.sum()), points)]
         hover = [run.frames["status"][index] for index in chosen]
-        quads.series.append(Series("lost frame", run.times[chosen], np.zeros(len(chosen)), style=2, points=True,
-                                   hover=hover))
+        quads.add("lost frame", run.times[chosen], np.zeros(len(chosen)), style=2, points=True, hover=hover)
     return [edges, quads, _latency(run, points)]
 
 
@@ -175,10 +174,9 @@ def _latency(run: Run, points: int) -> Figure:
     floor = np.zeros(len(chosen))
     for style, stage in enumerate(stages):
         floor = floor + np.nan_to_num(run.column(stage)[chosen])
-        figure.series.append(Series(stage.removesuffix("_ms"), run.times[chosen], floor, style=style % 5,
-                                    fill="below" if style else "zero"))
-    figure.series.append(Series("rest", run.times[chosen], np.maximum(latency[chosen], floor), style=GREY,
-                                fill="below"))
+        figure.add(stage.removesuffix("_ms"), run.times[chosen], floor, style=style % 5,
+                   fill="below" if style else "zero")
+    figure.add("rest", run.times[chosen], np.maximum(latency[chosen], floor), style=GREY, fill="below")
     return figure
 
 
