@@ -11,7 +11,7 @@ import csv
 import json
 import statistics
 
-from stamped import save_svg
+from stamped import drawing, save_svg
 
 SCENES = ("room", "cables", "facade")
 # Option of `quadedge demo` -> (label, values, further options)
@@ -67,12 +67,7 @@ def measure(scene, kind, value, threshold, frames_and_size, programs):
 
 def plot(rows, folder):
     """One plot per disturbance: the mean error of a step, with the numbers of lost and wrong steps at the points."""
-    import matplotlib
-
-    matplotlib.use("Agg")  # no window
-    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # reproducible bytes
-    from matplotlib import pyplot
-
+    pyplot = drawing()
     kinds = [kind for kind in KINDS if any(row["kind"] == kind for row in rows)]
     figure, axes = pyplot.subplots(2, len(kinds), figsize=(3.6 * len(kinds), 6), layout="constrained", squeeze=False,
                                    sharey="row")

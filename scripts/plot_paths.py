@@ -4,16 +4,12 @@ import json
 
 import tables
 from measurements import SYSTEMS
-from stamped import save_svg
+from stamped import drawing, save_svg
 
 
 def plot(scene, rows, options):
     """The paths from above, and the distance of each pose from the true one."""
-    import matplotlib
-
-    matplotlib.use("Agg")  # no window
-    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # reproducible bytes
-    from matplotlib import pyplot
+    pyplot = drawing()
 
     def positions(file):
         poses = [line.split() for line in open(file, encoding="utf-8") if line.strip() and not line.startswith("#")]

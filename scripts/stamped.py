@@ -13,13 +13,11 @@ def commit():
     """Of the sources, followed by "+" if they have uncommitted changes outside the documentation."""
 
     def git(*arguments):
-        return subprocess.run(
-            ["git", "-C", REPOSITORY, *arguments], stdout=subprocess.PIPE, text=True, check=True
-        ).stdout.strip()
+        command = ["git", "-C", REPOSITORY, *arguments]
+        return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
 
-    return git("rev-parse", "--short=7", "HEAD") + (
-        "+" if git("status", "--porcelain", "--", ".", ":!doc", ":!README.md") else ""
-    )
+    changed = git("status", "--porcelain", "--", ".", ":!doc", ":!README.md")
+    return git("rev-parse", "--short=7", "HEAD") + ("+" if changed else "")
 
 
 def stamped(result, measured=None):
@@ -31,6 +29,17 @@ def stamped(result, measured=None):
 def write(result, file):
     """Writes `result` as JSON to the path `file`."""
     file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+
+
+def drawing():
+    """matplotlib's pyplot, without windows. Raises ImportError without matplotlib."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # reproducible bytes
+    from matplotlib import pyplot
+
+    return pyplot
 
 
 def save_svg(figure, file):

@@ -15,7 +15,7 @@ import numpy
 from ..run_frames import read_frames
 from ..shell import exit_code, program
 from . import Recording, open_bag, write_mcap
-from .recording import TOLERANCE_NS
+from .topics import add_topic_options
 
 _TOO_FEW_TRACKED = 5  # exit code of a finished run
 
@@ -29,23 +29,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("bag", nargs="+", help="the recording; a ROS 1 recording may consist of several .bag files")
     parser.add_argument("-o", "--output", metavar="OUT",
                         help="results folder; without it the recording is described but not tracked")
-    parser.add_argument("--left", default="", metavar="TOPIC",
-                        help="image topic of the left camera; by default found by its name")
-    parser.add_argument("--right", default="", metavar="TOPIC", help="image topic of the right camera")
-    parser.add_argument("--left-info", default="", metavar="TOPIC",
-                        help="camera_info of the left camera; by default the one beside its images")
-    parser.add_argument("--right-info", default="", metavar="TOPIC", help="camera_info of the right camera")
-    parser.add_argument("--rectified", action="store_true", default=None,
-                        help="the images are rectified: P of camera_info describes them, not K and D")
+    add_topic_options(parser)
     parser.add_argument("--sort-stamps", action="store_true",
                         help="take the images in the order of their stamps; by default one that goes back is refused")
     parser.add_argument("--restarts", action="store_true",
                         help="start a new segment of the trajectory where a stamp goes back: a clock was set, or a "
                              "simulation restarted")
-    parser.add_argument("--calibration", metavar="FILE[,FILE]",
-                        help="calibration to use instead of the recorded camera_info; one file, or left and right")
-    parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
-                        help="largest difference between the stamps of a pair [ms]; default: %(default)g")
     parser.add_argument("--optical-axes", action="store_true",
                         help="write odometry of the left camera with optical axes (x right, y down, z forward) instead "
                              "of base_link with those of REP 103 (x forward, y left, z up)")

@@ -14,9 +14,7 @@ from ..ros_messages import message_store, stamp_ns
 from .calibration import rig_of, write_calibration
 from .images import grey_image
 from .pairing import Pairing, pair_parts, pair_stamps
-from .topics import StereoTopics, find_topics
-
-TOLERANCE_NS = 5_000_000
+from .topics import TOLERANCE_NS, StereoTopics, find_topics
 
 
 @dataclass(frozen=True)

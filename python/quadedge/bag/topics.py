@@ -1,10 +1,12 @@
 """Finds the topics of the two cameras in a recording."""
 
+import argparse
 import re
 from dataclasses import dataclass
 
 from .. import DataError
 
+TOLERANCE_NS = 5_000_000
 IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 
@@ -13,6 +15,21 @@ _SIDES = (("left", "right"), ("cam0", "cam1"), ("cam_0", "cam_1"), ("camera0", "
           ("infra1", "infra2"), ("image_0", "image_1"), ("fisheye1", "fisheye2"), ("camera1", "camera2"),
           ("stereo_l", "stereo_r"), ("Infrared_1", "Infrared_2"), ("Fisheye_1", "Fisheye_2"))
 _NO_GREY = re.compile(r"depth|disparity|compressedDepth|theora|mask|label")
+
+
+def add_topic_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options that say where the images of both cameras and their calibration are."""
+    for name, what in (("left", "image topic of the left camera; by default found by its name"),
+                       ("right", "image topic of the right camera"),
+                       ("left-info", "camera_info of the left camera; by default the one beside its images"),
+                       ("right-info", "camera_info of the right camera")):
+        parser.add_argument(f"--{name}", default="", metavar="TOPIC", help=what)
+    parser.add_argument("--rectified", action="store_true", default=None,
+                        help="the images are rectified: P of camera_info describes them, not K and D")
+    parser.add_argument("--calibration", metavar="FILE[,FILE]",
+                        help="calibration to use instead of camera_info; one file, or left and right")
+    parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
+                        help="largest difference between the stamps of a pair [ms]; default: %(default)g")
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from ..bag.recording import TOLERANCE_NS
+from ..bag.topics import add_topic_options
 from ..errors import UsageError
 from ..session import add_session_options, say_on_stderr, stopped_by_signals
 from ..shell import exit_code
@@ -22,16 +22,7 @@ A std_msgs/Empty on /quadedge/reset starts again at the origin. The domain is th
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m quadedge.ros2", description=_HELP,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name, what in (("left", "image topic of the left camera; by default found by its name"),
-                       ("right", "image topic of the right camera"),
-                       ("left-info", "camera_info of the left camera; by default the one beside its images"),
-                       ("right-info", "camera_info of the right camera")):
-        parser.add_argument(f"--{name}", default="", metavar="TOPIC", help=what)
-    parser.add_argument("--rectified", action="store_true", default=None,
-                        help="the images are rectified: P of camera_info describes them, not K and D")
-    parser.add_argument("--calibration", metavar="FILE[,FILE]", help="calibration to use instead of camera_info")
-    parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
-                        help="largest difference between the stamps of a pair [ms]; default: %(default)g")
+    add_topic_options(parser)
     parser.add_argument("--reliable", action="store_true",
                         help="have lost images sent again; by default they are not, as for sensors")
     parser.add_argument("--remap", action="append", default=[], metavar="FROM:=TO", help="publish under another name")
