@@ -54,8 +54,12 @@ def drift(row):
     return f"{number(row['end_drift_percent'], 2)} %" if row.get("path_length_m", 0) > 0.5 else "-"
 
 
+def origin(result):
+    return f"{result.get('commit', 'a commit not noted')}, {result['date']}"
+
+
 def stamp(result):
-    return f"Commit {result['commit']}, {result['date']}.\n" if "commit" in result else "The commit was not noted.\n"
+    return f"Commit {origin(result)}.\n" if "commit" in result else "The commit was not noted.\n"
 
 
 def command_list(rows):
@@ -64,16 +68,17 @@ def command_list(rows):
     return "\n".join(["| what | commands |", "|---|---|", *lines]) + "\n"
 
 
-def on_other_path(row):
-    """A rendered scene on another path than the ellipse: those are in a separate table."""
-    return "-" in row["sequence"]
+def judged_rows(results):
+    """The rows but those judged step by step, and of rendered scenes on other paths than the ellipse, which have tables
+    of their own."""
+    return [row for row in results["accuracy"]["rows"] if row["sequence"] != STEPS and "-" not in row["sequence"]]
 
 
 def errors(results, systems):
     """One row per sequence and system."""
     rows, shown = [], None
-    for row in results["accuracy"]["rows"]:
-        if row["system"] not in systems or row["sequence"] == STEPS or on_other_path(row):
+    for row in judged_rows(results):
+        if row["system"] not in systems:
             continue
         cells = ["" if named(row) == shown else named(row), SYSTEMS[row["system"]],
                  f"{row['tracked']} / {row['frames']}"]
@@ -147,9 +152,8 @@ def beside(results):
     """Errors from frame to frame beside other systems, for the README."""
     others = results["peers"]
     by_title = {}
-    for row in results["accuracy"]["rows"]:
-        if row["sequence"] != STEPS and not on_other_path(row):
-            by_title.setdefault(row["title"], {})[row["system"]] = row
+    for row in judged_rows(results):
+        by_title.setdefault(row["title"], {})[row["system"]] = row
 
     def error(row):
         judged = row and "rpe_translation_m" in row
@@ -167,12 +171,12 @@ def pace(results):
     for title, timed in others["frames_per_second"].items():
         own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
                if row["title"].startswith(title) and row.get("preset", "default") == "default"]
-        rows.append([title.removesuffix(", flight"), *own[:1], "-", timed.get("OpenCV", "-")])
+        rows.append([title.removesuffix(", flight"), *own[:1], "-", timed.get("OpenCV", "-"), origin(results["speed"])])
     for title, timed in others["libviso2"]["in_turn"].items():
         both = [f"{1000 / statistics.median(timed[name]):.0f}" for name in ("quadedge_ms", "libviso2_ms")]
-        rows.append([f"{title}, in turn, {timed['date']}", *both, "-"])
-    return table(["frames per second", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
-                 f"{stamp(results['speed']).rstrip()} {others['timed']}\n")
+        rows.append([f"{title}, in turn", *both, "-", origin(timed)])
+    return table(["frames per second", "QuadEdge", "libviso2", "OpenCV SIFT + PnP", "QuadEdge of"], rows,
+                 others["timed"] + "\n")
 
 
 POOL_RATES = ["paired: recall", "precision", "all: recall", "precision"]
@@ -218,8 +222,8 @@ def presets(results):
     times = {(row.get("preset", "default"), row["title"].rsplit(",", 1)[0]): row for row in results["speed"]["rows"]}
     timed = list(dict.fromkeys(title for _, title in times))
     errors_of = {}
-    for row in results["accuracy"]["rows"]:
-        if row["sequence"] != STEPS and not on_other_path(row) and "rpe_translation_m" in row:
+    for row in judged_rows(results):
+        if "rpe_translation_m" in row:
             errors_of.setdefault(named(row), {})[row["system"]] = row
     rows = []
     for title in timed:
@@ -285,9 +289,7 @@ def drift_over_scenes(results):
 def consistency(results):
     """Errors of motions over several lengths beside the deviations that their covariances predict."""
     rows, shown = [], None
-    for row in results["accuracy"]["rows"]:
-        if row["sequence"] == STEPS or on_other_path(row):
-            continue
+    for row in judged_rows(results):
         for step in row.get("consistency", []):
             if step["frames"] not in (1, 10, 20, 40, 100):
                 continue
@@ -304,9 +306,9 @@ def consistency(results):
 def normalised_errors(results):
     """Normalised squared errors of motions over 1 and 20 frames, per sequence."""
     rows = []
-    for row in results["accuracy"]["rows"]:
+    for row in judged_rows(results):
         steps = [step for step in row.get("consistency", []) if step["frames"] in (1, 20)]
-        if row["sequence"] != STEPS and not on_other_path(row) and steps:
+        if steps:
             rows.append([named(row), *(number(step[f"normalised_error_squared{by}"]["pose"])
                                        for by in ("_by_edges", "") for step in steps)])
     head = ["NEES", "edges alone, 1 frame", "20 frames", "with the calibration, 1 frame", "20 frames"]
