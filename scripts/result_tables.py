@@ -39,6 +39,9 @@ PAGES = {
               " leaves about ten grey levels. Light applies to all frames, with camera noise of 8 grey levels, gamma to"
               " both cameras. The fixed edge threshold is 2 grey levels per pixel."
               " [accuracy.md](../accuracy.md#disturbances) sums up.", ("light",)),
+    "paper": ("The paper's method", "Errors from frame to frame of the default without an extension, and of the paper's"
+              " method with one alone, where it has the step. [paper.md](../paper.md) explains them.",
+              ("paper-extensions", "paper-commands")),
 }
 NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
 
@@ -57,7 +60,7 @@ def page(part, results):
         return f"# {title}\n\n{render(part, results)}"
     blocks = [f"# {title}\n", f"Made by `scripts/measure.py --only {part}`. {about}\n",
               *(render(name, results) for name in names)]
-    if "commands" in results[part]["rows"][0]:
+    if "commands" in results[part]["rows"][0] and part != "paper":  # whose commands are a table
         blocks += [f"## Commands\n\n{NAMES}\n", command_list(results[part]["rows"])]
     return "\n".join(blocks)
 
