@@ -82,6 +82,13 @@ class Programs:
         if result.returncode not in allowed:
             raise Problem(f"{shlex.join(command)}\nended with code {result.returncode}: {result.stderr.strip()}")
 
+    def result(self, what, file, command, allowed=(0,)):
+        """The JSON that a command writes to the path `file`; --keep reuses it. `what` is printed before it runs."""
+        if not (self.options.keep and file.exists()):
+            print(what, file=sys.stderr, flush=True)
+            self.call([*command, "--quiet", "--force"], allowed)
+        return json.loads(file.read_text(encoding="utf-8"))
+
     def text(self, command):
         """The command with DATA, OUT and plain program names instead of the paths of this machine."""
         names = {str(self.options.quadedge): "quadedge", str(self.options.baseline): "opencv_baseline"}
@@ -168,10 +175,7 @@ def matching_row(title, places, programs):
     paths = [places] if isinstance(places, str) else [options.data / place for place in places]
     command = [options.quadedge, "evaluate", "matching", *paths, *frames]
     file = options.work / f"matching_{title.replace(' ', '_').replace(',', '')}.json"
-    if not (options.keep and file.exists()):
-        print(f"matching: {title}", file=sys.stderr, flush=True)
-        programs.call([*command, "--quiet", "--force", "--json", file])
-    pooled = json.loads(file.read_text(encoding="utf-8"))["pooled"]
+    pooled = programs.result(f"matching: {title}", file, [*command, "--json", file])["pooled"]
 
     def figures(table):
         return {name: table[name] for name in ("recall", "precision")}

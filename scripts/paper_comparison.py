@@ -2,9 +2,7 @@
 least squares added to it, and with the defaults (scripts/measure.py --only paper), and the tables made from them.
 """
 
-import json
 import statistics
-import sys
 from pathlib import Path
 
 METHODS = {"paper": ["--preset", "paper"], "fitted": ["--preset", "paper", "--pose.refine", "true"], "default": []}
@@ -70,10 +68,7 @@ def matching_row(title, method, programs):
     place, *frames = MATCHED[title]
     command = [options.quadedge, "evaluate", "matching", source(place, options), *frames, *METHODS[method]]
     file = options.work / f"paper_{title.replace(' ', '_')}_{method}.json"
-    if not (options.keep and file.exists()):
-        print(f"paper: {title}, {method}", file=sys.stderr, flush=True)
-        programs.call([*command, "--quiet", "--force", "--json", file])
-    pooled = json.loads(file.read_text(encoding="utf-8"))["pooled"]
+    pooled = programs.result(f"paper: {title}, {method}", file, [*command, "--json", file])["pooled"]
     row = {"title": title, "method": method, "commands": [programs.text(command)], "quads": pooled.get("quads")}
     for table in ("stereo", "temporal_left"):
         row[table] = [{"filter": line["filter"], **{name: line[name] for name in SHOWN}}
@@ -92,10 +87,8 @@ def tracked(title, label, method, seeds, programs):
     errors, found, total = {name: [] for name in ERRORS}, 0, 0
     for seed in range(1, seeds + 1):
         output = options.work / f"paper_{place.replace('/', '_')}_{label}_{seed}"
-        if not (options.keep and (output / "report.json").exists()):
-            print(f"paper: {title}, {label}, seed {seed}", file=sys.stderr, flush=True)
-            programs.call([*command, "--seed", seed, "-o", output, "--quiet", "--force"], allowed=(0, 5))
-        report = json.loads((output / "report.json").read_text(encoding="utf-8"))
+        report = programs.result(f"paper: {title}, {label}, seed {seed}", output / "report.json",
+                                 [*command, "--seed", seed, "-o", output], allowed=(0, 5))
         found, total = found + report["frames_tracked"], total + report["frames_tracked"] + report["frames_lost"]
         for name in ERRORS if report.get("accuracy") else ():
             errors[name].append(report["accuracy"]["origin_aligned"][name]["mean"])

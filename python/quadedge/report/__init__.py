@@ -36,17 +36,13 @@ def make_page(results: str | Path, output: str | Path | None = None, *, comparis
 
     results = Path(results)
     if results.is_file():
-        output = Path(output or results.with_suffix(".html"))
-        matching = read_matching(results)
-        page, text = smallest_loss(lambda detail: matching_page(matching, detail))
+        content, page_of = read_matching(results), matching_page
     elif (results / "summary.json").is_file():
-        output = Path(output or results / "report.html")
-        batch = read_batch(results, comparison and Path(comparison))
-        page, text = smallest_loss(lambda detail: batch_page(batch, detail))
+        content, page_of = read_batch(results, comparison and Path(comparison)), batch_page
     else:
-        output = Path(output or results / "report.html")
-        run = read_run(results)
-        page, text = smallest_loss(lambda detail: run_page(run, detail))
+        content, page_of = read_run(results), run_page
+    output = Path(output or (results.with_suffix(".html") if results.is_file() else results / "report.html"))
+    page, text = smallest_loss(lambda detail: page_of(content, detail))
     write_atomically(output, text)
     if markdown:
         write_markdown(page, Path(markdown))

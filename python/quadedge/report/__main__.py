@@ -3,9 +3,19 @@
 import argparse
 import sys
 
-from . import DamagedResults, make_page
+from ..errors import DataError
+from ..shell import exit_code
+from . import make_page
 
-DATA_ERROR = 3  # an exit code of the program
+
+def _make(options: dict) -> None:
+    quiet = options.pop("quiet")
+    try:
+        file = make_page(**options)
+    except OSError as problem:
+        raise DataError(f"{problem.filename or ''}: {problem.strerror}; expected a writable location") from problem
+    if not quiet:
+        print(file)
 
 
 def main() -> int:
@@ -18,20 +28,7 @@ def main() -> int:
     parser.add_argument("--latex", metavar="DIR", help="also write every table as LaTeX")
     parser.add_argument("--figures", metavar="DIR", help="also write every figure as SVG and PDF")
     parser.add_argument("--quiet", action="store_true", help="do not print the name of the page")
-    options = vars(parser.parse_args())
-    quiet = options.pop("quiet")
-    try:
-        file = make_page(**options)
-    except DamagedResults as problem:
-        print(f"quadedge: {problem}", file=sys.stderr)
-        return DATA_ERROR
-    except OSError as problem:
-        print(f"quadedge: {problem.filename or ''}: {problem.strerror}; expected a writable location",
-              file=sys.stderr)
-        return DATA_ERROR
-    if not quiet:
-        print(file)
-    return 0
+    return exit_code("quadedge", lambda: _make(vars(parser.parse_args())))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from .numbers import DASH, PLUS_MINUS, count, exists, percent
 from .table import Cell, Table
 
 OFF = "off"
+NOTHING = {"recall": None, "precision": None}
 POOLS = (("paired", ""), ("all", "_all"))
 QUANTITIES = (("edges_left", "edges, left", False), ("edges_right", "edges, right", False),
               ("stereo_edges", "stereo edges", False), ("temporal_left", "with a match in time, left", True),
@@ -22,11 +23,16 @@ def _share(value: float | None, deviation: float | None = None) -> Cell:
     return Cell(text, 100 * value if exists(value) else None)
 
 
+def _shares(row: dict) -> list[Cell]:
+    """Recall and precision."""
+    return [_share(row[key], row.get(f"{key}_std")) for key in ("recall", "precision")]
+
+
 def _number(value: float | None, decimals: int) -> Cell:
     return Cell(f"{value:.{decimals}f}" if exists(value) else DASH, value)
 
 
-def _count(value: float) -> Cell:
+def _count(value: float | None) -> Cell:
     return Cell(count(value), value)
 
 
@@ -45,11 +51,11 @@ def overview_table(pairs: list[dict], pooled: dict) -> Table:
         cells = [Cell(name), _count(frames), _count(summary["left_edges"]["detected"])]
         cells += [_count(summary["stereo_edges"][kind]) for kind in ("correct", "inaccurate", "wrong", "occluded")]
         for _, suffix in POOLS:
-            last = (summary[f"stereo{suffix}"] or [{"recall": None, "precision": None}])[-1]
+            last = (summary[f"stereo{suffix}"] or [NOTHING])[-1]
             cells += [_share(last["recall"]), _share(last["precision"])]
         cells.append(_number(summary["disparity_error_px"]["median"], 3))
         for _, suffix in POOLS:
-            quads = summary.get(f"quads{suffix}", {"recall": None, "precision": None})
+            quads = summary.get(f"quads{suffix}", NOTHING)
             cells += [_share(quads["recall"]), _share(quads["precision"])]
         table.add(*cells)
     return table
@@ -69,8 +75,7 @@ def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
             if row.get("off"):
                 cells += [Cell(OFF)] * 6
             else:
-                cells += [_share(row["recall"], row["recall_std"]), _share(row["precision"], row["precision_std"]),
-                          _share(row.get("precision_per_edge")), _number(row["ambiguity_mean"], 3),
+                cells += [*_shares(row), _share(row.get("precision_per_edge")), _number(row["ambiguity_mean"], 3),
                           _number(row.get("ambiguity_of_pool"), 3), _number(row["ambiguity_max"], 0)]
         table.add(*cells)
     table.result_rows = 1
@@ -97,8 +102,7 @@ def quad_table(name: str, summary: dict) -> Table:
         ambiguity = _number(quads.get("ambiguity_mean"), 3)
         if exists(quads.get("ambiguity_std")):
             ambiguity.text += PLUS_MINUS + f"{quads['ambiguity_std']:.3f}"
-        table.add(pool, _count(quads["edges"]), _count(quads["kept"]), _share(quads["recall"], quads["recall_std"]),
-                  _share(quads["precision"], quads["precision_std"]), ambiguity)
+        table.add(pool, _count(quads["edges"]), _count(quads["kept"]), *_shares(quads), ambiguity)
     return table
 
 
@@ -107,8 +111,7 @@ def constraint_table(name: str, summary: dict) -> Table:
     table = Table(name, f"Table 3: pairs of quads after each constraint, {count(rows[0]['pairs'])} pairs drawn",
                   ["", "constraint", "recall [%]", "precision [%]"], text_columns=2, result_rows=1)
     for row in rows:
-        table.add(row["order"], row["constraint"], _share(row["recall"], row["recall_std"]),
-                  _share(row["precision"], row["precision_std"]))
+        table.add(row["order"], row["constraint"], *_shares(row))
     return table
 
 
@@ -121,8 +124,6 @@ def count_table(pairs: list[dict]) -> Table:
         if not len(values):
             continue
         spread = float(values.std()) if len(values) > 1 else None
-        table.add(text, _count(len(values)), _count(float(values.mean())), Cell(count(spread), spread),
-                  _count(float(values.min())),
-                  _count(float(np.median(values))),
-                  _count(float(values.max())))
+        table.add(text, *[_count(value) for value in (len(values), float(values.mean()), spread, float(values.min()),
+                                                      float(np.median(values)), float(values.max()))])
     return table
