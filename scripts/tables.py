@@ -272,17 +272,14 @@ def peers(results):
 
 
 def drift_over_scenes(results):
-    """End errors of long rendered sequences, and those of other versions where they were measured."""
+    """End errors of long rendered sequences."""
     rows = []
     for row in results["drift"]["rows"]:
-        for name, found in (("before", row.get("before")), ("all edges", row.get("all_edges")), ("now", row)):
-            if found is None:
-                continue
-            ends = " ".join(number(run["end_mm"], 2) for run in found["runs"])
-            parts = ", ".join(f"{part:+.1f}" for part in found["mean_end_parts_mm"])
-            rows.append([row["scene"], name, f"{ends} mm", f"{found['end_percent']:.3f} %", f"({parts}) mm",
-                         f"{number(found['rms_mm'], 2)} mm"])
-    head = ["scene", "", "end error of each texture", "mean, of the path length", "mean vector", "rms along the path"]
+        ends = " ".join(number(run["end_mm"], 2) for run in row["runs"])
+        parts = ", ".join(f"{part:+.1f}" for part in row["mean_end_parts_mm"])
+        rows.append([row["scene"], f"{ends} mm", f"{row['end_percent']:.3f} %", f"({parts}) mm",
+                     f"{number(row['rms_mm'], 2)} mm"])
+    head = ["scene", "end error of each texture", "mean, of the path length", "mean vector", "rms along the path"]
     return table(head, rows, stamp(results["drift"]))
 
 
