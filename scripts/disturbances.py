@@ -29,6 +29,8 @@ LIGHT = {
     "light": ("light, noise 8", (1, 0.3, 0.15), ("--noise", 8)),
     "gamma": ("gamma", (0.45, 2.2), ()),
 }
+# Steps are a few cm: a limit of 5 cm would hide any error.
+STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
 OPTIONS = {"contrast16": "contrast"}  # of kinds that are not named after their option
 COLUMNS = ("scene", "kind", "value", "threshold", "edge_threshold", "edges", "frames", "tracked", "right", "wrong",
            "lost", "rpe_translation_m", "rpe_rotation_deg", "end_drift_percent")
@@ -54,9 +56,8 @@ def measure(scene, kind, value, threshold, frames_and_size, programs):
         return row
     judged = output / "evaluation.json"
     programs.call([quadedge, "evaluate", "trajectory", output / "trajectory.txt", output / "groundtruth.txt", "--steps",
-                   "--step-metres", 0.005, "--step-degrees", 0.25, "--json", judged, "--force"])
-    with open(judged, encoding="utf-8") as file:
-        evaluation = json.load(file)
+                   *STEP_OF_RENDERED, "--json", judged, "--force"])
+    evaluation = json.loads(judged.read_text(encoding="utf-8"))
     row.update({name: evaluation["steps"][name] for name in ("right", "wrong", "lost")})
     errors = evaluation["accuracy"]["origin_aligned"]
     row.update(rpe_translation_m=errors["rpe_translation_m"]["mean"],

@@ -37,8 +37,6 @@ JUDGED = (
     *((f"rendered {scene}" + (f", {path}" if path != "ellipse" else ""), run, 0)
       for run, (scene, path) in RENDERED.items()),
 )
-# Steps are a few cm: a limit of 5 cm would hide any error.
-STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
 PRESETS = ("fast", "default", "dense")
 SYSTEMS = ("default", "fast", "dense", "opencv")
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
@@ -142,8 +140,9 @@ def judge(system, title, run, first, programs):
     estimate, judged = output / "trajectory.txt", output / f"evaluation_{first}.json"
     frames = sum(1 for _ in open(output / "trajectory_kitti.txt", encoding="utf-8"))
     tracked = sum(1 for line in open(estimate, encoding="utf-8") if not line.startswith("#"))
-    evaluate = [programs.options.quadedge, "evaluate", "trajectory", estimate, truth, "--steps",
-                *(STEP_OF_RENDERED if run in RENDERED else ()), *(["--from-frame", first] if first else [])]
+    steps = disturbances.STEP_OF_RENDERED if run in RENDERED else ()
+    evaluate = [programs.options.quadedge, "evaluate", "trajectory", estimate, truth, "--steps", *steps,
+                *(["--from-frame", first] if first else [])]
     row = {"system": system, "title": title, "sequence": run, "frames": frames, "tracked": tracked, "from_frame": first,
            "commands": [programs.text(command), programs.text(evaluate)]}
     if tracked - first < 3:

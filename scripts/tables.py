@@ -296,7 +296,7 @@ def consistency(results):
                          *(number(value) for value in squares)])
             shown = named(row)
     head = ["sequence", "frames apart", "translation: error, rms", "predicted", "rotation: error [deg]", "predicted",
-            "NEES, edges alone", "NEES, with the rig"]
+            "NEES, edges alone", "NEES, with the calibration"]
     return table(head, rows, stamp(results["accuracy"]))
 
 

@@ -1,4 +1,4 @@
-"""Tracks frames as they come, for the programs that track live: says what is doubtful, and keeps results."""
+"""Tracks frames as they come, for the programs that track live: prints warnings, and keeps results."""
 
 import argparse
 import signal
@@ -58,7 +58,7 @@ class Session:
         return result
 
     def keep(self, result) -> None:
-        """Writes the result of the next frame and says what is doubtful. Raises DataError if it cannot be written."""
+        """Writes the result of the next frame and prints its warnings. Raises DataError if it cannot be written."""
         if self._files:
             self._files.add(result)
         last, self._last = self._last, result

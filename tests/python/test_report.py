@@ -118,7 +118,7 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     rows = page.tables["Errors against the ground truth"]
     assert rows[2] == ["", "APE translation", "mm", "50.00", "25.00", "55.00", "150.0"]
     assert rows[4] == ["", "RPE translation", "mm", "4.000", "2.000", "4.400", "12.00"]
-    promises = page.tables["Errors of motions and what their covariances promise, root mean squares"]
+    promises = page.tables["Errors of motions and what their covariances predict, root mean squares"]
     assert promises[0][1] == "position [mm]"
     assert promises[2] == ["5", "7", "20.0", "10.0", "0.100", numbers.DASH, "4.50", "1.20"]
     assert page.pictures == 3 and "left and right image of frame 6" in page.text

@@ -78,7 +78,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
 
 
 def warnings(run: Run) -> list[Text]:
-    """Why the run ended early, and what was doubtful about its recording or its frames."""
+    """Why the run ended early, and the warnings about its recording or its frames."""
     texts = [f"The run ended early: {run.report['ended_early']}."] if run.report.get("ended_early") else []
     for warning in run.report["warnings"]:
         frame = warning["frame"]
@@ -154,7 +154,7 @@ def segment_tables(accuracy: dict) -> list[Table]:
 
 
 def consistency_tables(accuracy: dict) -> list[Table]:
-    """What the covariances promise beside the errors, of whole poses and of motions over so many frames."""
+    """The errors beside what the covariances predict, of whole poses and of motions over several frames."""
     tables = []
     squared = accuracy.get("normalised_error_squared")
     if squared:
@@ -166,9 +166,9 @@ def consistency_tables(accuracy: dict) -> list[Table]:
     steps = accuracy.get("consistency", [])
     if steps:
         unit = length_unit(step[key] for step in steps for key in ("error_m", "promised_m"))
-        promises = Table("promises", "Errors of motions and what their covariances promise, root mean squares",
-                         ["frames", "motions", *["error", "promised"] * 2, "squared, edges alone", "with the rig"],
-                         text_columns=0)
+        promises = Table("promises", "Errors of motions and what their covariances predict, root mean squares",
+                         ["frames", "motions", *["error", "predicted"] * 2, "squared, edges alone",
+                          "with the calibration"], text_columns=0)
         promises.groups = [("motions over", 2), (f"position [{unit.name}]", 2), ("rotation [deg]", 2),
                            ("relative to the covariances", 2)]
         for step in steps:
