@@ -22,7 +22,7 @@ struct SampleRow {
   double x, y, column_x, column_y, row_x, row_y;
 };
 
-/// bilinear_inside() at up to kColumns consecutive positions, of which the first is that of column `first`.
+/// bilinear() inside the image at up to kColumns consecutive positions, of which the first is that of column `first`.
 QUADEDGE_VECTOR_CLONES
 void sample_row(const ImageView& image, const SampleRow& row, int first, int count, float* values) {
   float right[kColumns], below[kColumns];  // fractions

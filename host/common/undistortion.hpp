@@ -11,17 +11,8 @@
 
 namespace quadedge {
 
-/// Bilinear interpolation of value(column, row) at a position with grid points on all four sides.
-template <class Value>
-float bilinear_inside(double x, double y, const Value& value) {
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
-  const float above = (1 - fx) * value(x0, y0) + fx * value(x0 + 1, y0);
-  const float below = (1 - fx) * value(x0, y0 + 1) + fx * value(x0 + 1, y0 + 1);
-  return (1 - fy) * above + fy * below;
-}
-
-/// The same over a grid of width x height, whose border is replicated; NaN counts as 0.
+/// Bilinear interpolation of value(column, row) over a grid of width x height, whose border is replicated; NaN counts
+/// as 0.
 template <class Value>
 auto bilinear(int width, int height, double x, double y, const Value& value) -> decltype(value(0, 0)) {
   x = std::max(0.0, std::min(x, width - 1.0));  // in this order, NaN becomes 0

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "common/layouts.hpp"
@@ -57,40 +58,20 @@ struct Out {
   const cl::Buffer* memory;
 };
 
-/// OpenCL C name of a host type. Specialise it for structures that are passed by value.
+/// OpenCL C name of a number or a structure of kernels/layouts.cl.
 template <class T>
-struct TypeName;
-template <>
-struct TypeName<cl_int> {
-  static constexpr const char* value = "int";
-};
-template <>
-struct TypeName<cl_uint> {
-  static constexpr const char* value = "uint";
-};
-template <>
-struct TypeName<cl_float> {
-  static constexpr const char* value = "float";
-};
-template <>
-struct TypeName<cl_char> {
-  static constexpr const char* value = "char";
-};
-template <>
-struct TypeName<cl_uchar> {
-  static constexpr const char* value = "uchar";
-};
-template <>
-struct TypeName<cl_ushort> {
-  static constexpr const char* value = "ushort";
-};
-#define QUADEDGE_DESCRIBE(NAME)                 \
-  template <>                                   \
-  struct TypeName<NAME> {                       \
-    static constexpr const char* value = #NAME; \
-  };
-QUADEDGE_KERNEL_STRUCTS(QUADEDGE_DESCRIBE)
+constexpr const char* type_name() {
+  if constexpr (std::is_same_v<T, cl_int>) return "int";
+  if constexpr (std::is_same_v<T, cl_uint>) return "uint";
+  if constexpr (std::is_same_v<T, cl_float>) return "float";
+  if constexpr (std::is_same_v<T, cl_char>) return "char";
+  if constexpr (std::is_same_v<T, cl_uchar>) return "uchar";
+  if constexpr (std::is_same_v<T, cl_ushort>) return "ushort";
+#define QUADEDGE_DESCRIBE(NAME) \
+  if constexpr (std::is_same_v<T, NAME>) return #NAME;
+  QUADEDGE_KERNEL_STRUCTS(QUADEDGE_DESCRIBE)
 #undef QUADEDGE_DESCRIBE
+}
 
 /// The type that a kernel argument is expected to have in the built program.
 struct ArgumentType {
@@ -100,15 +81,15 @@ struct ArgumentType {
 };
 template <class T>
 struct Describe {
-  static ArgumentType get() { return {TypeName<T>::value, false, false}; }
+  static ArgumentType get() { return {type_name<T>(), false, false}; }
 };
 template <class T>
 struct Describe<In<T>> {
-  static ArgumentType get() { return {std::string(TypeName<T>::value) + "*", true, true}; }
+  static ArgumentType get() { return {std::string(type_name<T>()) + "*", true, true}; }
 };
 template <class T>
 struct Describe<Out<T>> {
-  static ArgumentType get() { return {std::string(TypeName<T>::value) + "*", true, false}; }
+  static ArgumentType get() { return {std::string(type_name<T>()) + "*", true, false}; }
 };
 
 /// What a driver reports of a kernel argument. An empty type was not reported.
@@ -166,7 +147,7 @@ struct Passed<T*> {
 };
 
 /// A kernel with the C++ form of its declaration: Kernel<void(cl_int count, const cl_float* in, cl_float* out)>.
-/// Parameters are pointers to global memory, numbers, and structures that TypeName describes.
+/// Parameters are pointers to global memory, numbers, and structures that type_name() knows.
 template <class Signature>
 class Kernel;
 template <class... Parameters>
