@@ -58,24 +58,24 @@ std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
   return rows;
 }
 
-/// Pools the quads of all frames with temporal matching.
-void pool_quads(const std::vector<const TemporalMatching*>& frames, MatchingSummary& summary) {
-  FrameValues paired, all;
-  std::int64_t competing_paired = 0, competing_all = 0;
+/// The quads of one pool, of all frames with temporal matching.
+PooledQuads pool_quads(const std::vector<const TemporalMatching*>& frames, FilterCounts TemporalMatching::*quads,
+                       std::int64_t TemporalMatching::*competing) {
+  PooledQuads pooled;
+  FrameValues values;
+  std::int64_t all_competing = 0;
   for (const auto* frame : frames) {
-    summary.quads_paired.counts.add(frame->quads_paired);
-    summary.quads_all.counts.add(frame->quads_all);
-    competing_paired += frame->competing_paired;
-    competing_all += frame->competing_all;
-    paired.add(frame->quads_paired.recall(), frame->quads_paired.precision(),
-               ratio(frame->competing_paired, frame->quads_paired.candidates));
-    all.add(frame->quads_all.recall(), frame->quads_all.precision(),
-            ratio(frame->competing_all, frame->quads_all.candidates));
+    const FilterCounts& counts = frame->*quads;
+    pooled.counts.add(counts);
+    all_competing += frame->*competing;
+    values.add(counts.recall(), counts.precision(), ratio(frame->*competing, counts.candidates));
   }
-  summary.quads_paired.std = paired.spread();
-  summary.quads_all.std = all.spread();
-  summary.quads_paired.ambiguity_mean = ratio(competing_paired, summary.quads_paired.counts.candidates);
-  summary.quads_all.ambiguity_mean = ratio(competing_all, summary.quads_all.counts.candidates);
+  pooled.std = values.spread();
+  pooled.ambiguity_mean = ratio(all_competing, pooled.counts.candidates);
+  return pooled;
+}
+
+void pool_constraints(const std::vector<const TemporalMatching*>& frames, MatchingSummary& summary) {
   for (std::size_t order = 0; order < summary.constraints.size(); ++order) {
     PooledConstraint& row = summary.constraints[order];
     std::vector<double> recall, precision;
@@ -125,7 +125,10 @@ MatchingSummary summarise(const std::vector<MatchingResult>& results) {
   summary.stereo = pool(stereo);
   summary.temporal_left = pool(temporal_left);
   summary.temporal_right = pool(temporal_right);
-  pool_quads(matched_in_time, summary);
+  summary.quads_paired =
+      pool_quads(matched_in_time, &TemporalMatching::quads_paired, &TemporalMatching::competing_paired);
+  summary.quads_all = pool_quads(matched_in_time, &TemporalMatching::quads_all, &TemporalMatching::competing_all);
+  pool_constraints(matched_in_time, summary);
   for (const float error : errors) absolute.push_back(std::abs(error));
   summary.disparity_median = quantile(absolute, 0.5);
   summary.disparity_p90 = quantile(absolute, 0.9);

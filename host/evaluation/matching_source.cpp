@@ -1,9 +1,9 @@
 #include "evaluation/matching_source.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <limits>
 
+#include "data/find_sequences.hpp"
 #include "data/float_map.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
@@ -131,27 +131,6 @@ class RenderedSource : public MatchingSource {
   SyntheticSequence sequence_;
 };
 
-/// Datasets below a folder, up to `levels` deep, sorted by name.
-void find_below(const fs::path& folder, int levels, std::vector<Dataset>& found, std::vector<std::string>& skipped) {
-  std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_directory()) folders.push_back(entry.path());
-  }
-  std::sort(folders.begin(), folders.end());
-  for (const auto& path : folders) {
-    try {
-      Dataset dataset = open_dataset(path.string());
-      if (has_matching_truth(dataset)) {
-        found.push_back(std::move(dataset));
-      } else {
-        skipped.push_back(path.string());
-      }
-    } catch (const DataError&) {  // not a dataset: search inside
-      if (levels > 1) find_below(path, levels - 1, found, skipped);
-    }
-  }
-}
-
 }  // namespace
 
 bool has_matching_truth(const Dataset& dataset) {
@@ -183,7 +162,16 @@ std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std
     return found;
   } catch (const DataError&) {
     if (!fs::is_directory(path)) throw;
-    find_below(path, 2, found, skipped);
+    for (const auto& recording : data::find_recordings(path, true)) {
+      try {
+        Dataset dataset = open_dataset(recording.path);
+        if (has_matching_truth(dataset))
+          found.push_back(std::move(dataset));
+        else
+          skipped.push_back(recording.path);
+      } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a damaged one, beside others
+      }
+    }
     if (found.empty() && skipped.empty()) throw;
   }
   if (found.empty())

@@ -38,7 +38,7 @@ std::unique_ptr<MatchingSource> make_rendered_source(const SyntheticOptions& opt
 /// Whether a dataset has the ground truth that make_recorded_source() needs.
 bool has_matching_truth(const Dataset& dataset);
 
-/// The dataset at `path`, or all datasets with ground truth in the folders below it (two levels), sorted by name.
+/// The dataset at `path`, or all datasets with ground truth in the folders below it, sorted by path.
 /// Datasets without ground truth are listed in `skipped`. \throws DataError if none has ground truth
 std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std::string>& skipped);
 

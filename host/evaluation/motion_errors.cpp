@@ -13,13 +13,12 @@
 namespace quadedge::evaluation {
 namespace {
 
-/// The left perturbation (rotation, translation) that turns `truth` into `estimate`, as in
-/// FrameResult::relative_covariance.
+/// The left perturbation (translation, rotation) that turns `truth` into `estimate`.
 Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
   const Eigen::Matrix3d turn = estimate.linear() * truth.linear().transpose();
   const Eigen::AngleAxisd rotation(turn);
   Eigen::Matrix<double, 6, 1> error;
-  error << rotation.angle() * rotation.axis(), estimate.translation() - turn * truth.translation();
+  error << estimate.translation() - turn * truth.translation(), rotation.angle() * rotation.axis();
   return error;
 }
 
@@ -114,19 +113,14 @@ Consistency judge_covariances(const std::vector<FrameResult>& results, const Tra
   Consistency sums;
   for (const auto& result : results) {
     if (result.status != FrameStatus::tracked) continue;
-    const Eigen::Matrix<double, 6, 6> covariance = pose::in_other_order(*result.relative_covariance);
-    if (!(covariance.diagonal().minCoeff() > 0)) continue;
+    if (!(result.relative_covariance->diagonal().minCoeff() > 0)) continue;
     const auto& reference = results.at(static_cast<std::size_t>(result.reference_frame));
     const auto* true_reference = pose_at(truth, reference.stamp_ns, kStampToleranceNs);
     const auto* true_current = pose_at(truth, result.stamp_ns, kStampToleranceNs);
     if (true_reference == nullptr || true_current == nullptr) continue;
     const auto error = perturbation(*result.current_from_reference,
                                     true_current->world_from_left.inverse() * true_reference->world_from_left);
-    const Eigen::Matrix3d turning = covariance.topLeftCorner<3, 3>(), moving = covariance.bottomRightCorner<3, 3>();
-    ++sums.poses;
-    sums.pose += error.dot(covariance.ldlt().solve(error)) / 6;
-    sums.rotation += error.head<3>().dot(turning.ldlt().solve(error.head<3>())) / 3;
-    sums.translation += error.tail<3>().dot(moving.ldlt().solve(error.tail<3>())) / 3;
+    add(error, *result.relative_covariance, sums);
   }
   return mean(sums);
 }
