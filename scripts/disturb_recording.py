@@ -140,7 +140,8 @@ def alter(args):
                 places = on_board(recording, side, image.shape) if args.board else None
             if args.board:
                 reach = np.sqrt(args.board) / 2
-                shown = ((np.abs(places[0] - args.centre * image.shape[1]) < reach * image.shape[1]) &
+                shown = ((number >= args.begin) &
+                         (np.abs(places[0] - args.centre * image.shape[1]) < reach * image.shape[1]) &
                          (np.abs(places[1]) < reach * image.shape[0]))
                 over = sample(photo, places[0] + args.speed * number + 50, places[1] + 70)
             else:
@@ -192,6 +193,7 @@ def main():
     command.add_argument("--photo", type=Path, help="shown by the board")
     command.add_argument("--speed", type=float, default=0, help="of the board [px per frame]")
     command.add_argument("--centre", type=float, default=0, help="of the board, from the optical axis [image widths]")
+    command.add_argument("--begin", type=int, default=0, help="frame in which the board appears")
     command.add_argument("--sequence", default="00", help="of a KITTI recording")
     command.add_argument("--frames", default=":", help="BEGIN:END")
     command.add_argument("--seed", type=int, default=1)

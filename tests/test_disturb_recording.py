@@ -52,6 +52,13 @@ def check_board(root, photo):
     assert np.abs(first[middle, 75:105] - last[middle, 75:105]).mean() > 10
 
 
+def check_late_board(root, photo):
+    run("alter", root / "plain", root / "late", "--board", 0.25, "--begin", 2, "--photo", photo)
+    for frame, changes in enumerate((False, False, True)):
+        file = f"sequences/00/image_1/{frame:06d}.png"
+        assert np.any(grey(root / "late" / file) != grey(root / "plain" / file)) == changes
+
+
 def check_bonnet(root):
     run("alter", root / "plain", root / "bonnet", "--bonnet", "--frames", "1:")
     still, later = (grey(root / f"bonnet/sequences/00/image_0/{frame:06d}.png") for frame in (0, 1))
@@ -80,6 +87,7 @@ with tempfile.TemporaryDirectory() as name:
     ramp = np.add.outer(8 * np.sin(np.arange(90) / 3), 110 + 90 * np.sin(np.arange(120) / 4))
     Image.fromarray(ramp.astype(np.uint8)).save(folder / "photo.png")
     check_board(folder, folder / "photo.png")
+    check_late_board(folder, folder / "photo.png")
     check_bonnet(folder)
     check_judge(folder)
 print("fine")

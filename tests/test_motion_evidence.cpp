@@ -31,7 +31,7 @@ struct TwoMotions {
     const Config config;
     const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
     step.motion.current_from_previous = motion;
-    MotionEvidence(config, offset).judge(predicted, step);
+    MotionEvidence(config, offset).judge(predicted, Config().temporal.min_support, step);
     return step.explained.area;
   }
 };
@@ -132,7 +132,7 @@ TEST_CASE("motion evidence: without enough support among the edges in view a mot
   const auto refusal = [&](int inliers, pose::MotionStatus status) {
     step.motion.status = status;
     step.motion.inliers = inliers;
-    evidence.judge(predicted, step);
+    evidence.judge(predicted, Config().temporal.min_support, step);
     CHECK(step.explained.support == Approx(inliers / 100.0));
     return step.refusal;
   };

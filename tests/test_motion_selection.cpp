@@ -3,6 +3,7 @@
 #include <set>
 
 #include "odometry/motion_selection.hpp"
+#include "odometry/motion_step.hpp"
 
 using namespace quadedge::odometry;
 
@@ -137,6 +138,7 @@ TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry
   CHECK(other_part.kind == AmbiguityKind::other_part);
   CHECK(other_part.ratio == 0.2);
   std::set<std::string> texts;
+  CHECK_FALSE(to_string({AmbiguityKind::recent_other_part, 0}).empty());
   for (const Ambiguity& each : {moving_image, static_scene, sides, competing, other_part})
     texts.insert(to_string(each));
   CHECK(texts.size() == 5);
@@ -173,4 +175,62 @@ TEST_CASE("motion selection: another part of the image counts by its area, a sma
   CHECK(ambiguity_of({0.01, 0.05, 0.1}, true).exists());  // after an ambiguous motion
   CHECK_FALSE(ambiguity_of({0.005, 0.05, 0.9}, true).exists());
   CHECK_FALSE(ambiguity_of({0.1, 0.05, 0.9}, false).exists());  // most of what was searched does not follow
+}
+
+TEST_CASE("motion selection: another motion on all sides counts if more matches follow it than the chosen one",
+          "[odometry]") {
+  const auto is_doubtful = [](double balance, double spread, bool agrees, bool was_ambiguous) {
+    OtherPart part{0.01, 0.05, 0.9};
+    part.balance = balance;
+    part.match_spread = spread;
+    part.agrees_globally = agrees;
+    return ambiguity_of(part, was_ambiguous).exists();
+  };
+  CHECK(is_doubtful(1.2, 0.7, true, false));
+  CHECK_FALSE(is_doubtful(0.9, 0.7, true, false));
+  CHECK_FALSE(is_doubtful(1.2, 0.5, true, false));   // an object
+  CHECK_FALSE(is_doubtful(1.2, 0.7, false, false));  // in too few places
+  OtherPart rest{0.2, 0.5, 0.9};
+  CHECK(ambiguity_of(rest, false).exists());
+  rest.is_rest = true;  // has to prevail: its area alone is no evidence
+  CHECK_FALSE(ambiguity_of(rest, false).exists());
+}
+
+TEST_CASE("motion selection: another part of the image is remembered for three searches", "[odometry]") {
+  TrackRecord record{quadedge::Config()};
+  MotionStep step;
+  step.clear();
+  step.refusal = Refusal::none;
+  step.motion.status = quadedge::pose::MotionStatus::ok;
+  step.is_checked = true;
+  record.remember(step);
+  CHECK_FALSE(record.recent_other_part().exists());
+  step.shows_other_part = true;
+  step.ambiguity = {AmbiguityKind::other_part, 0.1};
+  record.remember(step);
+  step.shows_other_part = false;
+  for (int search = 0; search < 3; ++search) {
+    CHECK(record.recent_other_part().exists());
+    CHECK(record.is_check_due(Explained()));
+    step.ambiguity = record.recent_other_part();
+    record.remember(step);
+  }
+  CHECK_FALSE(record.recent_other_part().exists());
+  // What is found beside another ambiguity, with lower limits, is not remembered.
+  step.ambiguity = {AmbiguityKind::moving_image, 0.7};
+  record.remember(step);
+  step.shows_other_part = true;
+  record.remember(step);
+  CHECK_FALSE(record.recent_other_part().exists());
+  // A loss ends the memory.
+  step.ambiguity = {};
+  step.shows_other_part = false;
+  record.remember(step);
+  step.shows_other_part = true;
+  record.remember(step);
+  REQUIRE(record.recent_other_part().exists());
+  step.refusal = Refusal::no_consensus;
+  step.is_checked = step.shows_other_part = false;
+  record.remember(step);
+  CHECK_FALSE(record.recent_other_part().exists());
 }

@@ -1,6 +1,8 @@
 /// \file test_odometry_real.cpp  Recorded sequences compared with their published poses. Needs QUADEDGE_DATA.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
+#include <random>
 
 #include "dataset_files.hpp"
 #include "devices.hpp"
@@ -140,4 +142,50 @@ TEST_CASE("KITTI 06: the same bytes again, with other local sizes and other vari
       run,
       track_dataset(dataset,
                     {{"edge_detection", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
+}
+
+TEST_CASE("KITTI 06: no step behind a moving board of random dots over 60 % is wrong without a flag",
+          "[real][device]") {
+  const std::string path = real_data("kitti_odometry/sequences/06");
+  if (path.empty()) return;
+  const Dataset dataset = open_dataset(path);
+  const int width = dataset.rig.left.width, height = dataset.rig.left.height, dot = 3, disparity = 25, speed = 4;
+  const double reach = std::sqrt(0.6) / 2;
+  std::mt19937 random(101);
+  std::vector<int> bright(700 * 400);
+  for (int& each : bright) each = static_cast<int>(random() % 2);
+  const auto paint = [&](Image& image, int shift, int moved) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const int u = x + shift, noise = static_cast<int>(random() % 7) - 3;
+        if (std::abs(u - width / 2) > reach * width || std::abs(y - height / 2) > reach * height) continue;
+        const int place = y / dot * 700 + (u + moved) / dot;
+        image.pixels[static_cast<std::size_t>(y * width + x)] =
+            static_cast<std::uint8_t>((bright[static_cast<std::size_t>(place)] != 0 ? 220 : 30) + noise);
+      }
+  };
+  Device device("auto", kept_programs());
+  StereoOdometry odometry(dataset.rig, device, Config());
+  FramePrefetcher frames(dataset);
+  std::vector<bool> is_told, is_right;
+  Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
+  for (int number = 0; number < 20; ++number) {
+    auto frame = frames.next();
+    REQUIRE(frame);
+    if (number < 10) continue;
+    paint(frame->left, 0, speed * number);
+    paint(frame->right, disparity, speed * number);
+    const FrameResult result = odometry.track(frame->view());
+    const Eigen::Isometry3d pose = result.world_from_left.value_or(before);
+    is_right.push_back(std::abs((before.inverse() * pose).translation().z() - 1.19) < 0.12);  // a step's length
+    is_told.push_back(!is_tracked(result.status) || result.ambiguous_motion);
+    before = pose;
+  }
+  int wrong = 0, silent = 0;
+  for (std::size_t i = 1; i < is_told.size(); ++i) {
+    wrong += is_right[i] ? 0 : 1;
+    silent += is_right[i] || is_told[i - 1] || is_told[i] ? 0 : 1;
+  }
+  CHECK(wrong > 0);  // else the board hides less than it should
+  CHECK(silent == 0);
 }

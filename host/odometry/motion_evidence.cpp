@@ -10,12 +10,12 @@
 
 namespace quadedge::odometry {
 
-void MotionEvidence::judge(const EdgePositions& predicted, MotionStep& step) {
+void MotionEvidence::judge(const EdgePositions& predicted, double min_support, MotionStep& step) {
   const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
   step.explained = {};
   step.explained.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
   step.refusal = refusal_of(step.motion.status);
-  if (step.ok() && step.explained.support < config_.temporal.min_support) step.refusal = Refusal::little_support;
+  if (step.ok() && step.explained.support < min_support) step.refusal = Refusal::little_support;
   if (!step.ok()) return;
   compare_with_standstill(step);
   select(step, step.motion.current_from_previous, kCloseAgreement * config_.pose.inlier_distance,
@@ -103,6 +103,27 @@ void MotionEvidence::compare_globally(const MotionStep& global_matches, const Ei
   verdict.global_ratio = agreeing / std::max(1.0, static_cast<double>(agrees.size()));
   verdict.agrees_globally =
       pose::count_cells(global_matches.quads.scoring, agrees, pose::kInflationCell) >= config_.pose.min_inliers;
+}
+
+void MotionEvidence::compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& other,
+                                      const MotionStep& chosen, const Eigen::Isometry3d& by_chosen,
+                                      OtherPart& part) const {
+  std::vector<std::uint8_t> alone, others;
+  select(global_matches, other, kWideInlierDistance, pose::kInlierOrientation, alone);
+  const int of_chosen = select(global_matches, by_chosen, kWideInlierDistance, 0.5 * kPi, others);
+  const pose::ScoringArrays& quads = global_matches.quads.scoring;
+  ExplainedCells cells = chosen.cells;
+  for (ExplainedCell& cell : cells.all()) cell = {};
+  double count = 0;
+  for (std::size_t q = 0; q < alone.size(); ++q) {
+    if (others[q] != 0) alone[q] = 0;
+    if (alone[q] == 0) continue;
+    count += 1;
+    if (ExplainedCell* cell = cells.at(quads.left_x[q], quads.left_y[q])) cell->edges = cell->explained = 1;
+  }
+  part.balance = count / std::max(1, of_chosen);
+  part.match_spread = (cells.spreads() / chosen.cells.spreads().max(1e-9)).minCoeff();
+  part.agrees_globally = pose::count_cells(quads, alone, pose::kInflationCell) >= config_.pose.min_inliers;
 }
 
 }  // namespace quadedge::odometry

@@ -20,7 +20,8 @@ class MotionEvidence {
   /// Confirms or refuses the motion of a step whose base's edges were searched for at `predicted` in the left image,
   /// and measures what it explains. A wrong motion also finds some support within the few pixels of the search radius,
   /// but less than the true motion.
-  void judge(const EdgePositions& predicted, MotionStep& step);
+  /// \param min_support a motion with less is refused
+  void judge(const EdgePositions& predicted, double min_support, MotionStep& step);
 
   /// Whether most inliers of `found` also agree with the motion `other` since the same frame.
   bool is_same_motion(const MotionStep& found, const Eigen::Isometry3d& other) const;
@@ -37,6 +38,11 @@ class MotionEvidence {
   /// they follow it in at least as many image cells as an estimate needs inliers: a global match can lie anywhere, so
   /// that a wrong motion agrees with hardly any. Matches in the same cell count once, since their errors are alike.
   void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion, Verdict& verdict) const;
+
+  /// Counts the global matches that a motion explains and that of `chosen` does not: sets spread, balance and
+  /// agrees_globally. \param other, by_chosen motions since the global matches' base
+  void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& other, const MotionStep& chosen,
+                        const Eigen::Isometry3d& by_chosen, OtherPart& part) const;
 
  private:
   void compare_with_standstill(MotionStep& step);

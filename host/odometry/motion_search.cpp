@@ -62,14 +62,16 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   }
   const bool is_checked = selection.refusal == Refusal::none && !query.is_near_prediction &&
                           record_.is_check_due(verdicts.at(selection.chosen));
-  if (is_checked) {
-    const Ambiguity ambiguity = search_free_cells(query, *candidates[selection.chosen].outcome());
-    if (!selection.ambiguity.exists()) selection.ambiguity = ambiguity;
-  }
+  Ambiguity other_part;
+  if (is_checked) other_part = search_free_cells(query, *candidates[selection.chosen].outcome());
+  const bool shows_other_part = other_part.exists();
+  if (!shows_other_part && query.accepts_ambiguous) other_part = record_.recent_other_part();
+  if (!selection.ambiguity.exists()) selection.ambiguity = other_part;
   if (candidates.empty()) return fits_.new_step(query.base);  // only a motion near a prediction, and there is none
   StepHandle found = std::move(candidates[selection.chosen].outcome());
   found->verdict = verdicts[selection.chosen];
   found->is_checked = is_checked;
+  found->shows_other_part = shows_other_part;
   found->ambiguity = selection.ambiguity;
   found->refusal = decide(selection, query.accepts_ambiguous);
   return found;
@@ -210,7 +212,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
   for (int round = 1;; ++round) {
     frontend_.match(*base, search_, step->matches);
     fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
-    evidence_.judge(search_.left, *step);
+    evidence_.judge(search_.left, others.explained != nullptr ? 0 : config_.temporal.min_support, *step);
     if (!step->ok()) return step;
     current_from_base = step->motion.current_from_previous;
     predict(current_from_base, kSettledStep, next_search_);
@@ -262,24 +264,38 @@ Selection MotionSearch::choose(const std::vector<Verdict>& verdicts, const Candi
 }
 
 /// An object that fills much of the image may hold most of the edges, so that its motion is chosen with confidence. The
-/// scene beside it moves too far to be found near that motion, and is searched for where that explains nothing.
+/// scene beside it moves too far to be found near that motion, and is searched for where that explains nothing. If the
+/// matches there lead to the chosen motion again, or to none of the scene's, the rest of them is tried.
 Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const MotionStep& chosen) {
-  const StepHandle proposed = proposals_.in_free_cells(query, chosen);
-  if (!proposed->has_motion()) return {};
+  const StepHandle matches = proposals_.in_free_cells(query, chosen);
+  if (!matches->has_motion()) return {};
+  const OtherPart part = compare_in_free_cells(query, chosen, *matches, *matches);
+  const Ambiguity ambiguity = ambiguity_of(part, record_.was_ambiguous());
+  if (ambiguity.exists()) return ambiguity;
+  const StepHandle rest = proposals_.rest_of_global_matches(query, *matches);
+  if (!rest->has_motion()) return {};
+  OtherPart other = compare_in_free_cells(query, chosen, *matches, *rest);
+  other.is_rest = true;
+  return ambiguity_of(other, record_.was_ambiguous());
+}
+
+OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen,
+                                              const MotionStep& matches, const MotionStep& proposed) {
+  OtherPart part;
   PoseConfig limits = limits_of_proposals(config_);
   limits.min_hypotheses = 0;
   const StepHandle other =
-      confirm_with(query.base, query, limits, proposed->motion.current_from_previous, {nullptr, &chosen.cells, false});
-  if (!other->ok()) return {};
-  const ExplainedCells cells =
-      evidence_.explained_beside(*other, motion_since(query.base, query, chosen), config_.pose.inlier_distance);
+      confirm_with(query.base, query, limits, proposed.motion.current_from_previous, {nullptr, &chosen.cells, false});
+  if (!other->ok()) return part;
+  const Eigen::Isometry3d by_chosen = motion_since(query.base, query, chosen);
+  const ExplainedCells cells = evidence_.explained_beside(*other, by_chosen, config_.pose.inlier_distance);
   const int searched = chosen.cells.count(false), following = cells.count(true);
   const double count = following;
-  OtherPart part;
   part.area = count / std::max(1, searched + chosen.cells.count(true));
   part.ratio = count / std::max(1, searched);
   part.spread = cells.spread(true) / std::max(1e-9, chosen.cells.spread());
-  return ambiguity_of(part, record_.was_ambiguous());
+  evidence_.compare_globally(matches, other->motion.current_from_previous, chosen, by_chosen, part);
+  return part;
 }
 
 }  // namespace quadedge::odometry

@@ -68,6 +68,8 @@ class MotionSearch : public MotionFinder {
   std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;
   Selection choose(const std::vector<Verdict>& verdicts, const Candidates& candidates, const MotionQuery& query) const;
   Ambiguity search_free_cells(const MotionQuery& query, const MotionStep& chosen);
+  OtherPart compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen, const MotionStep& matches,
+                                  const MotionStep& proposed);
 
   Config config_;
   frontend::Frontend& frontend_;

@@ -95,6 +95,8 @@ std::string to_string(const Ambiguity& ambiguity) {
       return "another motion explains " + percent(ambiguity.ratio) + " of the area that this one explains";
     case AmbiguityKind::other_part:
       return percent(ambiguity.ratio) + " of the image follow another motion and not this one";
+    case AmbiguityKind::recent_other_part:
+      return "parts of the image followed another motion in one of the last frames";
   }
   return "";
 }
@@ -135,25 +137,28 @@ Refusal decide(const Selection& selection, bool accepts_ambiguous) {
 Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous) {
   const double factor = was_ambiguous ? kRepeatedOtherPart : 1;
   const auto exceeds = [&](double area, double ratio) {
-    return part.area > factor * area && part.ratio > factor * ratio;
+    return !part.is_rest && part.area > factor * area && part.ratio > factor * ratio;
   };
+  const auto is_around = [&](double spread) { return was_ambiguous || spread > kSurroundingSpread; };
   const bool is_large = exceeds(kOtherPartArea, kOtherPartRatio);
-  const bool surrounds =
-      exceeds(kSurroundingArea, kSurroundingRatio) && (was_ambiguous || part.spread > kSurroundingSpread);
-  return is_large || surrounds ? Ambiguity{AmbiguityKind::other_part, part.area} : Ambiguity{};
+  const bool surrounds = exceeds(kSurroundingArea, kSurroundingRatio) && is_around(part.spread);
+  const bool prevails = part.agrees_globally && part.balance > factor && is_around(part.match_spread);
+  return is_large || surrounds || prevails ? Ambiguity{AmbiguityKind::other_part, part.area} : Ambiguity{};
 }
 
 TrackRecord::TrackRecord(const Config& config) : limits_(config.temporal), rechecks_(kRechecks) {}
 
 void TrackRecord::remember(const MotionStep& found) {
+  const bool was_certain = !was_ambiguous_ || doubtful_checks_ > 0;
   recent_support_ = found.ok() ? std::max(found.verdict.support, kSupportDecay * recent_support_) : 0;
   was_ambiguous_ = found.ambiguity.exists();
   --frames_to_check_;
   if (!found.ok()) {
-    frames_to_check_ = 0;
+    frames_to_check_ = doubtful_checks_ = 0;
     rechecks_ = kRechecks;
   }
   if (!found.is_checked) return;
+  doubtful_checks_ = found.shows_other_part && was_certain ? kRechecks : std::max(0, doubtful_checks_ - 1);
   rechecks_ = was_ambiguous_ ? kRechecks : std::max(0, rechecks_ - 1);
   frames_to_check_ = rechecks_ > 0 ? 0 : kCheckInterval - 1;
   checked_moving_ratio_ = found.verdict.moving_ratio;
@@ -163,6 +168,10 @@ double TrackRecord::confident_support() const {
   if (limits_.wide_edges == 0) return 0;
   if (rechecks_ > 0) return kConfidentSupport;
   return std::min(kConfidentSupport, std::max(kChanceSupport, kRecentSupportRatio * recent_support_));
+}
+
+Ambiguity TrackRecord::recent_other_part() const {
+  return doubtful_checks_ > 0 ? Ambiguity{AmbiguityKind::recent_other_part, 0} : Ambiguity{};
 }
 
 bool TrackRecord::is_check_due(const Explained& explained) const {

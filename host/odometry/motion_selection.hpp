@@ -67,7 +67,8 @@ enum class AmbiguityKind {
   moving_sides,      ///< the camera seems to stand still, while a part of the image on all sides moves
   static_scene,      ///< a part of the image is static that the motion would have moved
   competing_motion,  ///< another motion explains nearly as much
-  other_part         ///< another motion explains parts of the image of which the motion explains nothing
+  other_part,        ///< another motion explains parts of the image of which the motion explains nothing
+  recent_other_part  ///< one did in one of the last frames
 };
 
 /// An ambiguity and the ratio that shows it: the verdict's, the area that only the competing motion explains in units
@@ -116,6 +117,11 @@ struct OtherPart {
   double area = 0;    ///< fraction of all cells that follow it
   double ratio = 0;   ///< fraction of the cells searched that follow it
   double spread = 0;  ///< of these cells over the image, in units of that of all cells
+  // Of the global matches between the cells searched:
+  double balance = 0;            ///< number of those that only it explains over that of those of the chosen motion
+  double match_spread = 0;       ///< of the cells with the former, in units of that of all, in x or y, the smaller one
+  bool agrees_globally = false;  ///< whether the former lie in as many places as an estimate needs inliers
+  bool is_rest = false;          ///< whether it was found in what another motion, which was no other part, left of them
 };
 
 /// Whether it may be the camera's. \param was_ambiguous whether the last motion was \returns nothing or other_part
@@ -137,13 +143,16 @@ class TrackRecord {
   bool is_check_due(const Explained& explained) const;
   /// Whether the last motion, which the prediction repeats, was ambiguous.
   bool was_ambiguous() const { return was_ambiguous_; }
+  /// recent_other_part if one of the last searches found another motion, which is seldom gone so soon; else nothing.
+  Ambiguity recent_other_part() const;
 
  private:
   TemporalConfig limits_;
   double recent_support_ = 0;  ///< since the last failure
   bool was_ambiguous_ = false;
   int frames_to_check_ = 0;
-  int rechecks_;  ///< searches in the next frames; 0: the last ones found no other motion
+  int doubtful_checks_ = 0;  ///< searches that have to find nothing until the motion found last is forgotten
+  int rechecks_;             ///< searches in the next frames; 0: the last ones found no other motion
   double checked_moving_ratio_ = 0;
 };
 

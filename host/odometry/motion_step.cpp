@@ -37,17 +37,18 @@ double ExplainedCells::explained_area() const {
   return sum / std::max(1, count(true) + count(false));
 }
 
-double ExplainedCells::spread(std::optional<bool> following) const {
-  double count = 0, squares = 0;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+Eigen::Array2d ExplainedCells::spreads(std::optional<bool> following) const {
+  double count = 0;
+  Eigen::Array2d sum = Eigen::Array2d::Zero(), squares = Eigen::Array2d::Zero();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (!(cells_[i].edges > 0) || cells_[i].follows() != following.value_or(cells_[i].follows())) continue;
-    const Eigen::Vector2d position(static_cast<int>(i) % columns_, static_cast<int>(i) / columns_);
+    const Eigen::Array2d position(static_cast<int>(i) % columns_, static_cast<int>(i) / columns_);
     count += 1;
     sum += position;
-    squares += position.squaredNorm();
+    squares += position.square();
   }
-  return count > 0 ? std::sqrt(std::max(0.0, squares / count - (sum / count).squaredNorm())) : 0;
+  if (!(count > 0)) return Eigen::Array2d::Zero();
+  return (squares / count - (sum / count).square()).max(0).sqrt();
 }
 
 double ExplainedCells::moving_ratio() const {
@@ -78,7 +79,7 @@ void MotionStep::clear() {
   verdict = {};
   refusal = Refusal::too_few_quads;
   ambiguity = {};
-  is_checked = false;
+  is_checked = shows_other_part = false;
 }
 
 Eigen::Isometry3d motion_since(const frontend::FrameEdgesHandle& frame_edges, const MotionQuery& query,

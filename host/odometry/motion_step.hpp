@@ -56,7 +56,9 @@ class ExplainedCells {
   /// Mean over the cells with edges of the fraction of edges that the motion explains; 0 without edges.
   double explained_area() const;
   /// Standard deviation of the positions of the cells that hold edges, or only of those that follow or do not [cells].
-  double spread(std::optional<bool> following = {}) const;
+  double spread(std::optional<bool> following = {}) const { return spreads(following).matrix().norm(); }
+  /// The same along the rows and along the columns.
+  Eigen::Array2d spreads(std::optional<bool> following = {}) const;
   /// Number of cells that hold edges and follow, or do not.
   int count(bool following) const;
   /// Fraction of the edges that lie in cells that do not follow the motion; 0 without edges.
@@ -82,7 +84,8 @@ struct MotionStep {
   Verdict verdict;
   Refusal refusal = Refusal::too_few_quads;
   Ambiguity ambiguity;
-  bool is_checked = false;  ///< whether the rest of the image was searched for another motion
+  bool shows_other_part = false;  ///< whether the check found another motion
+  bool is_checked = false;        ///< whether the rest of the image was searched for another motion
 
   /// Whether the motion is accepted.
   bool ok() const { return refusal == Refusal::none; }
