@@ -274,6 +274,10 @@ Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const Motion
   if (ambiguity.exists()) return ambiguity;
   const StepHandle rest = proposals_.rest_of_global_matches(query, *matches);
   if (!rest->has_motion()) return {};
+  OtherPart promised;  // the guided search takes longer than the rest of this
+  evidence_.compare_globally(*matches, rest->motion.current_from_previous, chosen,
+                             motion_since(query.base, query, chosen), promised);
+  if (promised.balance < kPromisingBalance) return {};
   OtherPart other = compare_in_free_cells(query, chosen, *matches, *rest);
   other.is_rest = true;
   return ambiguity_of(other, record_.was_ambiguous());

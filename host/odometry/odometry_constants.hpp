@@ -47,6 +47,8 @@ constexpr double kOtherPartArea = 0.08, kOtherPartRatio = 0.12;
 /// The same for parts on all sides, which are less likely those of an object: their standard deviation over the image
 /// reaches this fraction of that of all cells.
 constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurroundingSpread = 0.6;
+/// Global matches of a proposal alone over those of the chosen motion, from which it is worth a guided search.
+constexpr double kPromisingBalance = 0.1;
 /// The limits of areas and ratios are this fraction of those if the last motion was ambiguous: another motion that
 /// is found in one frame is seldom gone in the next.
 constexpr double kRepeatedOtherPart = 0.25;
