@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <filesystem>
 #include <iomanip>
 #include <map>
 #include <set>
 #include <sstream>
+#include <sys/stat.h>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -40,12 +42,24 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return folders;
 }
 
+/// Device and inode of a folder, the same under all of its paths. Unlike a canonical path they take no longer in a
+/// deeper folder.
+using FolderId = std::pair<dev_t, ino_t>;
+
+/// \throws fs::filesystem_error for a folder that cannot be reached.
+FolderId id_of(const fs::path& folder) {
+  struct stat facts {};
+  if (stat(folder.c_str(), &facts) != 0)
+    throw fs::filesystem_error("stat", folder, std::error_code(errno, std::generic_category()));
+  return {facts.st_dev, facts.st_ino};
+}
+
 /// Adds the recordings in and below a folder, and folders that cannot be read, without a format. `seen` contains the
-/// folders so far, without links, so that circular ones end.
-void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, std::vector<FoundRecording>& found) {
+/// folders so far, so that circular links end.
+void search(const fs::path& folder, bool with_pairs, std::set<FolderId>& seen, std::vector<FoundRecording>& found) {
   std::vector<fs::path> folders;
   try {
-    if (!seen.insert(fs::canonical(folder)).second) return;
+    if (!seen.insert(id_of(folder)).second) return;
     if (const std::string format = recording_format(folder, with_pairs); !format.empty()) {
       found.push_back({folder.string(), format, {}});
       return;
@@ -59,7 +73,7 @@ void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, s
 }
 
 std::vector<FoundRecording> search_list(const std::string& list) {
-  std::set<fs::path> seen;
+  std::set<FolderId> seen;
   std::vector<FoundRecording> found;
   const std::string folder = fs::path(list).parent_path().string();
   for (const auto& line : data_lines(list)) {
@@ -71,7 +85,7 @@ std::vector<FoundRecording> search_list(const std::string& list) {
     const auto last = line.text.find_last_not_of(" \t");
     const fs::path entry = fs::path(folder) / line.text.substr(0, last + 1);
     std::error_code error;
-    const bool known = fs::exists(entry, error) && seen.count(fs::canonical(entry)) > 0;
+    const bool known = fs::exists(entry, error) && seen.count(id_of(entry)) > 0;
     const std::size_t before = found.size();
     if (fs::is_directory(entry, error)) search(entry, false, seen, found);
     if (found.size() == before && !known) found.push_back({entry.string(), "", {}});
@@ -116,7 +130,7 @@ std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) 
 }  // namespace
 
 std::vector<FoundRecording> find_recordings(const std::string& root, bool with_pairs) {
-  std::set<fs::path> seen;
+  std::set<FolderId> seen;
   std::vector<FoundRecording> found;
   search(root, with_pairs, seen, found);
   return found;
