@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
@@ -101,11 +102,13 @@ void build_in_turn_and_track_in_threads() {
 }
 
 /// Runs work in a forked process. \returns the process's status, 0 if work returned and the process exited normally
-int status_of_fork(const std::function<void()>& work) {
+/// \param errors receives its standard error, unless null
+int status_of_fork(const std::function<void()>& work, std::FILE* errors = nullptr) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
     alarm(kSeconds);
+    if (errors != nullptr) dup2(fileno(errors), STDERR_FILENO);
     try {
       work();
     } catch (const std::exception& error) {
@@ -145,9 +148,23 @@ void fork_after_tracking() {
   tracker.odometry.track(room.pairs[2].view());  // the parent continues
 }
 
+/// PoCL 3.1 fails an assertion of its own in about one of a hundred of these trials (doc/limits.md): one is repeated.
+constexpr const char* kFaultOfPocl = "pocl_release_dlhandle_cache";
+
 int failures_of(const char* name, int trials, const std::function<void()>& work) {
   int failures = 0;
-  for (int i = 0; i < trials; ++i) failures += status_of_fork(work) != 0 ? 1 : 0;
+  bool may_repeat = true;
+  for (int i = 0; i < trials; ++i) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> errors(std::tmpfile(), &std::fclose);
+    const int status = status_of_fork(work, errors.get());
+    char text[4096] = {};
+    std::rewind(errors.get());
+    std::fwrite(text, 1, std::fread(text, 1, sizeof text - 1, errors.get()), stderr);
+    const bool is_of_pocl = WIFSIGNALED(status) && std::strstr(text, kFaultOfPocl) != nullptr;
+    failures += status != 0 && !(is_of_pocl && may_repeat) ? 1 : 0;
+    if (is_of_pocl && may_repeat) --i;
+    may_repeat = may_repeat && !is_of_pocl;
+  }
   std::printf("%s: %d of %d trials failed\n", name, failures, trials);
   return failures;
 }
