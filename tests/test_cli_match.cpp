@@ -98,3 +98,16 @@ TEST_CASE("match: invalid pairs are refused", "[cli]") {
   CHECK_THAT(result.err, Contains("small.png") && Contains("32 x 24"));
   CHECK(run_program({"match", pair().left, folder / "absent.png"}).code == 3);
 }
+
+TEST_CASE("evaluate matching: a damaged dataset beside others is named", "[cli][device]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"tree/damaged", "tree/sound"}) {
+    std::filesystem::create_directories(folder / name);
+    std::filesystem::copy(small_sequence(), folder / name, std::filesystem::copy_options::recursive);
+  }
+  std::filesystem::remove(folder / "tree/damaged/calibration.txt");
+  const auto result = run_program({"evaluate", "matching", folder / "tree", "--frames", "1"});
+  INFO(result.err);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.err, Contains("skipped: ") && Contains("damaged/calibration.txt"));
+}

@@ -148,7 +148,7 @@ void fork_after_tracking() {
   tracker.odometry.track(room.pairs[2].view());  // the parent continues
 }
 
-/// PoCL 3.1 fails an assertion of its own in about one of a hundred of these trials (doc/limits.md): one is repeated.
+/// PoCL 3.1 failed an assertion of its own in one of 140 of these trials (doc/limits.md): one is repeated.
 constexpr const char* kFaultOfPocl = "pocl_release_dlhandle_cache";
 
 int failures_of(const char* name, int trials, const std::function<void()>& work) {

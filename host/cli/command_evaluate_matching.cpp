@@ -343,7 +343,7 @@ class EvaluateMatchingCommand : public Command {
       for (const auto& dataset : evaluation::find_true_datasets(path, skipped)) {
         sources_.push_back(evaluation::make_recorded_source(dataset));
       }
-      for (const auto& folder : skipped) note("warning: " + folder + ": skipped, no ground truth for edges");
+      for (const auto& reason : skipped) note("warning: skipped: " + reason);
     }
   }
 

@@ -162,17 +162,20 @@ std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std
     return found;
   } catch (const DataError&) {
     if (!fs::is_directory(path)) throw;
+    std::vector<std::string> damaged;
     for (const auto& recording : data::find_recordings(path, true)) {
       try {
         Dataset dataset = open_dataset(recording.path);
         if (has_matching_truth(dataset))
           found.push_back(std::move(dataset));
         else
-          skipped.push_back(recording.path);
-      } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a damaged one, beside others
+          skipped.push_back(recording.path + ": no ground truth for edges");
+      } catch (const DataError& problem) {
+        damaged.emplace_back(problem.what());
       }
     }
     if (found.empty() && skipped.empty()) throw;
+    skipped.insert(skipped.end(), damaged.begin(), damaged.end());
   }
   if (found.empty())
     data::fail(path, std::to_string(skipped.size()) + " datasets, none with ground truth", "disparities or depth");

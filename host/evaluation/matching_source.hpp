@@ -39,7 +39,8 @@ std::unique_ptr<MatchingSource> make_rendered_source(const SyntheticOptions& opt
 bool has_matching_truth(const Dataset& dataset);
 
 /// The dataset at `path`, or all datasets with ground truth in the folders below it, sorted by path.
-/// Datasets without ground truth are listed in `skipped`. \throws DataError if none has ground truth
+/// Those without ground truth and damaged ones are listed in `skipped`, with the reason. \throws DataError if none has
+/// ground truth
 std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std::string>& skipped);
 
 }  // namespace quadedge::evaluation

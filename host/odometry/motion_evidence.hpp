@@ -39,8 +39,8 @@ class MotionEvidence {
   /// that a wrong motion agrees with hardly any. Matches in the same cell count once, since their errors are alike.
   void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion, Verdict& verdict) const;
 
-  /// Counts the global matches that a motion explains and that of `chosen` does not: sets spread, balance and
-  /// agrees_globally. \param other, by_chosen motions since the global matches' base
+  /// Counts the global matches that a motion explains and that of `chosen` does not: sets match_spread, balance
+  /// and agrees_globally. \param other, by_chosen motions since the global matches' base
   void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& other, const MotionStep& chosen,
                         const Eigen::Isometry3d& by_chosen, OtherPart& part) const;
 

@@ -156,6 +156,20 @@ def test_both_views_side_by_side(side_by_side, tmp_path, capsys):
     assert "found no video" in capsys.readouterr().err
 
 
+def test_many_errors_of_ffmpeg_stop_no_camera(side_by_side, tmp_path, monkeypatch):
+    """A pipe holds 64 KiB: whoever writes more waits until somebody reads."""
+    _, calibration, _ = side_by_side
+    program = tmp_path / "ffmpeg"
+    program.write_text(f"#!{sys.executable}\nimport sys\nsys.stdout.write('YUV4MPEG2 W640 H200 F30:1\\n')\n"
+                       "sys.stdout.flush()\nsys.stderr.write('x' * 200000)\n"
+                       "sys.stdout.write('FRAME\\n' + 'y' * 640 * 200)\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+    camera = quadedge.live.open_camera("v4l2", source="any", calibration=calibration)
+    assert len(list(camera)) == 1
+    camera.close()
+
+
 def test_result_files_are_those_of_a_run(command, room_folder, tmp_path):
     ran, own = tmp_path / "ran", tmp_path / "own"
     assert command("run", room_folder, "-o", ran, "--preset", "fast", "--quiet").returncode == 0
