@@ -46,7 +46,7 @@ enum {
   kWideBytes = kWideCells * kWideCells * kWideAngles
 };
 
-// Wide descriptors that are interleaved in a block, element by element (wide_matching.cl).
+// Wide descriptors that are interleaved in a block, element by element (global_matching.cl).
 enum { kBlockLanes = 16 };
 
 // Cells of a point index (point_index.cl), px.
@@ -366,7 +366,7 @@ typedef struct {
   QuadChoice choice;
 } TemporalBestArguments;
 
-// wide_matching.cl: edges packed in blocks of `stride` floats (left x, left y ...), of
+// global_matching.cl: edges packed in blocks of `stride` floats (left x, left y ...), of
 // which every step-th takes part.
 typedef struct {
   int stride, count, step;
@@ -375,4 +375,4 @@ typedef struct {
   WideSelection rows, columns;
   float neighbourhood;  // px
   float ratio;
-} WideMatchingArguments;
+} GlobalMatchingArguments;

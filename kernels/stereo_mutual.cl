@@ -35,7 +35,7 @@ kernel void stereo_mutual(const StereoMutualArguments args, global const int* ch
 }
 
 // Writes the survivors in the order of their left edges.
-// `packed`: blocks of one float per left edge: left x, y, direction, right x, y, direction, left scale drift.
+// `packed`: blocks of one float per left edge: left x, y, direction, right x, y, direction, left scale-space shift.
 kernel void stereo_collect(const StereoMutualArguments args, global const int* keep_first, global const int* chosen,
                            global const float* left_edges, global const float* clusters,
                            global const int* cluster_anchor, global int* left_index, global int* right_index,

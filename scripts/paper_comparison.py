@@ -32,7 +32,7 @@ EXTENSIONS = {
     "votes of neighbouring edges": (["--stereo.relaxation_rounds", "0"], None),
     "prior of the alignment": (["--stereo.refine_prior_sigma", "100"], None),
     "scoring by area": (["--pose.scoring_cell", "0"], None),
-    "global search": (["--temporal.wide_edges", "0"], None),
+    "global search": (["--temporal.global_edges", "0"], None),
     "Student-t weights": (["--pose.student_dof", "1000000"], None),
     "budget of edges": (["--edges.budget", "0"], None),
     "Newton step": (["--edges.newton_max", "0"], None),

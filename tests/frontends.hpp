@@ -102,7 +102,7 @@ double agreement(const Rows& a, const Rows& b) {
 
 inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {
   return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x &&
-         a.left_scale_drift == b.left_scale_drift && a.left_y == b.left_y && a.left_direction == b.left_direction &&
+         a.left_scale_shift == b.left_scale_shift && a.left_y == b.left_y && a.left_direction == b.left_direction &&
          a.right_x == b.right_x && a.right_y == b.right_y && a.right_direction == b.right_direction && a.ncc == b.ncc;
 }
 inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
@@ -112,7 +112,7 @@ inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
 }
 inline bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
   return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
-         a.scale_drift == b.scale_drift && a.row_first == b.row_first;
+         a.scale_shift == b.scale_shift && a.row_first == b.row_first;
 }
 inline bool same_bytes(const FrontendOutput& a, const FrontendOutput& b) {
   return frontend::first_difference(a, b).empty();

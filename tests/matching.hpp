@@ -60,7 +60,7 @@ inline EdgeSet make_edges(std::vector<Edge> edges, int height, double slack = 0,
     set.y.push_back(static_cast<float>(edge.y + random(-slack, slack)));
     set.direction.push_back(static_cast<float>(edge.direction));
     set.strength.push_back(10.0f);
-    set.scale_drift.push_back(0.01f * static_cast<float>(set.size() % 50));
+    set.scale_shift.push_back(0.01f * static_cast<float>(set.size() % 50));
   }
   return set;
 }
@@ -69,7 +69,7 @@ inline stages::DeviceEdges upload(opencl::Context& context, const EdgeSet& edges
   stages::DeviceEdges device;
   device.stride = static_cast<int>(edges.size());
   std::vector<float> packed;
-  for (const auto* block : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift})
+  for (const auto* block : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_shift})
     packed.insert(packed.end(), block->begin(), block->end());
   device.packed.write(context, packed);
   device.row_first.write(context, edges.row_first);

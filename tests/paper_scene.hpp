@@ -25,7 +25,7 @@ inline void add_edge(quadedge::EdgeSet& edges, float x, float y, float direction
   edges.y.push_back(y);
   edges.direction.push_back(direction);
   edges.strength.push_back(10);
-  edges.scale_drift.push_back(0);
+  edges.scale_shift.push_back(0);
 }
 
 /// Every pixel of the left view has disparity 10, except from column 80 on, where it is unknown.

@@ -31,7 +31,7 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 TEST_CASE("odometry: tracking allocates no more arrays once every buffer has reached its final size",
           "[odometry][device]") {
   matching::RenderedScene scene("room", 240, 150, 8);
-  scene.config.temporal.wide_edges = 0;  // the global search, in every tenth frame, returns new arrays
+  scene.config.temporal.global_edges = 0;  // the global search, in every tenth frame, returns new arrays
   for (const auto& name : all_devices()) {
     quadedge::Device device(name, kept_programs());
     quadedge::StereoOdometry odometry(scene.rig, device, scene.config);

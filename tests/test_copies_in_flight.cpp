@@ -170,7 +170,7 @@ TEST_CASE("read-back: all arrays of the stereo edges are read in one copy", "[de
           CHECK(edges.left_x[i] == 30000 + k);
           CHECK(edges.left_y[i] == 30000 + block + k);
           CHECK(edges.right_direction[i] == 30000 + 5 * block + k);
-          CHECK(edges.left_scale_drift[i] == 30000 + 6 * block + k);
+          CHECK(edges.left_scale_shift[i] == 30000 + 6 * block + k);
           CHECK(edges.ncc[i] == 40000 + k);
         }
       }

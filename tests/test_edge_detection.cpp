@@ -93,7 +93,7 @@ void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config
         const double distance = std::hypot(gap, truth.y[i] - static_cast<double>(found.y[j]));
         const double turn =
             std::remainder(truth.direction[i] - static_cast<double>(found.direction[j]), 6.283185307179586);
-        const double drift = std::abs(truth.scale_drift[i] - static_cast<double>(found.scale_drift[j]));
+        const double drift = std::abs(truth.scale_shift[i] - static_cast<double>(found.scale_shift[j]));
         if (distance > 0.01 || std::abs(turn) > 0.1 * kDegree || drift > 0.02) ++outside;
         REQUIRE(static_cast<double>(found.strength[j]) == Approx(truth.strength[i]).epsilon(1e-4));
         ++matched, ++i, ++j;

@@ -99,7 +99,7 @@ TEST_CASE("edges: a circle is found sigma^2 / 2r inside its true position, with 
   }
 }
 
-TEST_CASE("edges: the scale drift predicts where a larger scale finds the edges of a disc and of thin bars",
+TEST_CASE("edges: the scale-space shift predicts where a larger scale finds the edges of a disc and of thin bars",
           "[edges]") {
   const double cx = 64.27, cy = 63.81;
   const auto disc = [=](double x, double y) { return std::hypot(x - cx, y - cy) < 20.0; };
@@ -131,7 +131,7 @@ TEST_CASE("edges: the scale drift predicts where a larger scale finds the edges 
     std::size_t count = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       if (std::abs(edges.x[i] - cx) > 30 || std::abs(edges.y[i] - cy) > 30) continue;  // ends of the bars
-      drift += edges.scale_drift[i];
+      drift += edges.scale_shift[i];
       moved += (to(after, i) - to(before, i)) / std::log(2.05 / 1.95);
       ++count;
     }

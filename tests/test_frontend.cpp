@@ -81,8 +81,8 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
     Device device(device_name, kept_programs());
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     const auto first = frontend->process(scene.frame(0)), second = frontend->process(scene.frame(1));
-    const auto matches = frontend->match_globally(*first, scene.config.temporal.wide_edges);
-    CHECK(same_bytes(matches, frontend->match_globally(*first, scene.config.temporal.wide_edges)));
+    const auto matches = frontend->match_globally(*first, scene.config.temporal.global_edges);
+    CHECK(same_bytes(matches, frontend->match_globally(*first, scene.config.temporal.global_edges)));
     CHECK(frontend->match_globally(*first, 0).size() == 0);
     const StereoEdges& before = first->edges;
     std::size_t right = 0;
@@ -188,7 +188,7 @@ TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "
     const auto other = frontend::make_frontend(scene.rig, device, scene.config);
     other->process(scene.frame(1));
     CHECK_THROWS_AS(other->match(*held, search_around(edges, 12)), std::invalid_argument);
-    CHECK_THROWS_AS(other->match_globally(*held, scene.config.temporal.wide_edges), std::invalid_argument);
+    CHECK_THROWS_AS(other->match_globally(*held, scene.config.temporal.global_edges), std::invalid_argument);
   }
 }
 

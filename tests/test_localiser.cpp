@@ -146,6 +146,6 @@ TEST_CASE("localiser: a configuration whose edges differ from the map's is a usa
   CHECK_THROWS_WITH(Localiser(saved_maps::room_map(), rig, device, config),
                     Catch::Matchers::Contains("edges.sigma = 2"));
   config = {};
-  config.temporal.wide_edges = 0;
+  config.temporal.global_edges = 0;
   CHECK_THROWS_AS(Localiser(saved_maps::room_map(), rig, device, config), UsageError);
 }

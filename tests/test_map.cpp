@@ -177,7 +177,7 @@ TEST_CASE("map: what it cannot work with is a usage error") {
   const SyntheticSequence any(small("room", "loop", 10));
   Device reference("reference");
   Config config;
-  config.temporal.wide_edges = 0;
+  config.temporal.global_edges = 0;
   StereoOdometry without_search(any.rig(), reference, config);
   CHECK_THROWS_AS(Map(without_search), UsageError);
   config = {};

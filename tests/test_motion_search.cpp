@@ -53,8 +53,8 @@ struct TwoFrames {
   std::unique_ptr<odometry::MotionSearch> search;
   odometry::MotionQuery query;
 
-  explicit TwoFrames(int wide_edges) {
-    scene.config.temporal.wide_edges = wide_edges;
+  explicit TwoFrames(int global_edges) {
+    scene.config.temporal.global_edges = global_edges;
     frontend = std::make_unique<CountingFrontend>(scene.rig, scene.config);
     offset = std::make_unique<odometry::DisparityOffset>(scene.rig, scene.config.pose);
     search = std::make_unique<odometry::MotionSearch>(scene.config, *frontend, *offset);
@@ -160,7 +160,7 @@ TEST_CASE("motion search: another motion is searched for at the start, in every 
 
 TEST_CASE("motion search: without the global search the coarse search widens", "[odometry]") {
   TwoFrames frames(0);
-  const double wide = odometry::kCoarseWideRadiusRatio * 200;
+  const double wide = odometry::kLargeRadiusRatio * 200;
   frames.check(frames.truth());
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->largest_radius == static_cast<float>(frames.scene.config.temporal.coarse_radius));

@@ -22,7 +22,7 @@ TEST_CASE("Edges measured together are measured as one by one", "[pose][quads]")
                              coordinate(3)};
       observed.push_back(edge);
       generated::append(edges, edge);
-      edges.left_scale_drift.push_back(static_cast<float>(edge.left_scale_drift));
+      edges.left_scale_shift.push_back(static_cast<float>(edge.left_scale_shift));
     }
     MeasuredEdges measured;
     measure_edges(rig, edges, 0.07, measured);
@@ -39,7 +39,7 @@ TEST_CASE("Edges measured together are measured as one by one", "[pose][quads]")
       CHECK(same(&StereoMeasurement::inverse_depth_per_pixel));
       CHECK(same(&StereoMeasurement::epipolar_sine));
       CHECK(same(&StereoMeasurement::direction));
-      CHECK(same(&StereoMeasurement::scale_drift));
+      CHECK(same(&StereoMeasurement::scale_shift));
       CHECK(same(&StereoMeasurement::slope));
       CHECK(same(&StereoMeasurement::slope_per_radian));
       CHECK(same(&StereoMeasurement::left_edge));

@@ -63,7 +63,7 @@ TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorte
         const double depth = (&o == &before ? p : q).point.z();
         o.left += share * growth * outwards * normal;
         o.right = problem.rig.right.project(problem.rig.right_from_left * (depth * camera.ray(o.left)));
-        if (with_drift) o.left_scale_drift = outwards;
+        if (with_drift) o.left_scale_shift = outwards;
       };
       drift(before, 0.5);
       drift(after, -0.5);

@@ -15,8 +15,8 @@ TEST_CASE("The reprojection residual's analytic Jacobian is its derivative", "[p
   generated::for_quads_off_motion([&](const QuadObservations& quads, std::size_t i, const quadedge::StereoRig& rig,
                                       const Eigen::Isometry3d& pose) {
     ReprojectionTerm term = make_reprojection_term(quads, i, noise);
-    term.scale_drift_x = 0.003;
-    term.scale_drift_y = -0.002;
+    term.scale_shift_x = 0.003;
+    term.scale_shift_y = -0.002;
     const auto at = [&](const ReprojectionTerm& quad, const Eigen::Isometry3d& motion, double depth) {
       ReprojectionJacobian result;
       REQUIRE(reprojection_jacobian(quad, rig.left, motion, depth, result));

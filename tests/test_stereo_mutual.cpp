@@ -81,7 +81,7 @@ struct MutualScene {
       CHECK(found.left_x == truth.left_x);
       CHECK(found.left_y == truth.left_y);
       CHECK(found.left_direction == truth.left_direction);
-      CHECK(found.left_scale_drift == truth.left_scale_drift);
+      CHECK(found.left_scale_shift == truth.left_scale_shift);
       CHECK(found.right_direction == truth.right_direction);
       CHECK(found.ncc == truth.ncc);
       for (std::size_t i = 0; i < truth.size(); ++i) {

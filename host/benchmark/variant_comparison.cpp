@@ -73,7 +73,7 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   };
   match(false);
   if (stage != kGuidedMatch) match(true);
-  candidate.frontend->match_globally(first, input.config.temporal.wide_edges);
+  candidate.frontend->match_globally(first, input.config.temporal.global_edges);
   const auto names = booked_as(stage);
   double sum = kNaN;
   for (const auto& row : context.take_profile()) {

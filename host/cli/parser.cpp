@@ -44,7 +44,8 @@ const CLI::Validator kDecimal(
 const std::map<std::string, std::string> kRenamed = {{"map", "points"},
                                                      {"map-colmap", "points-colmap"},
                                                      {"map-min-views", "points-min-views"},
-                                                     {"offset-file", "rig-file"}};
+                                                     {"offset-file", "rig-file"},
+                                                     {"temporal.wide_edges", "temporal.global_edges"}};
 
 /// The name now of an option called `name`; a warning about an old one.
 std::string name_now(const std::string& name) {

@@ -30,7 +30,7 @@ struct GlobalSearch {
 };
 
 /// Step of the edges used in a global search, so that about `wanted` of `count` take part.
-inline int wide_step(std::size_t count, int wanted) {
+inline int global_step(std::size_t count, int wanted) {
   const int step = static_cast<int>(count) / wanted;
   return step > 1 ? step : 1;
 }
@@ -68,7 +68,7 @@ inline FilterLimits temporal_limits(const TemporalConfig& config, const Temporal
   }
   const bool wide = search.radius > static_cast<float>(config.coarse_radius);
   return {static_cast<float>(kCoarseNccMin),
-          static_cast<float>(wide ? kCoarseWideSiftMax : config.sift_max),
+          static_cast<float>(wide ? kLargeRadiusSiftMax : config.sift_max),
           static_cast<float>(kCoarseNccNearlyBest),
           static_cast<float>(kCoarseSiftNearlyBest),
           order_of(TemporalFilter::ncc),

@@ -54,7 +54,7 @@ constexpr double kCoarseNccMin = 0.8, kCoarseNccNearlyBest = 0.9, kCoarseSiftNea
 
 /// Coarse search without a prediction: maximum SIFT distance (section 5.2 of the paper), which the NCC alone does not
 /// replace in a large radius.
-constexpr double kCoarseWideSiftMax = 200.0;
+constexpr double kLargeRadiusSiftMax = 200.0;
 
 /// Global search: maximum ratio of a descriptor distance to that of the best competitor at least kWideNeighbourhood
 /// [px] away, where an edge no longer belongs to the same piece of curve.

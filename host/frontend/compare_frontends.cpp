@@ -200,8 +200,8 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
                       edges);
   collector.add_quads("temporal_candidates, temporal_quads",
                       frontend->match(*base, search_without_motion(edges, config.temporal, true)), edges);
-  collector.add_quads("wide_description, wide_matching", frontend->match_globally(*base, config.temporal.wide_edges),
-                      edges);
+  collector.add_quads("wide_description, global_matching",
+                      frontend->match_globally(*base, config.temporal.global_edges), edges);
   return std::move(collector.stages);
 }
 
@@ -273,7 +273,7 @@ class Difference {
 
 void compare(const char* row, const EdgeSet& a, const EdgeSet& b, std::string& found) {
   Difference("edge_detection", row, found)("x", a.x, b.x)("y", a.y, b.y)("direction", a.direction, b.direction)(
-      "strength", a.strength, b.strength)("scale drift", a.scale_drift, b.scale_drift);
+      "strength", a.strength, b.strength)("scale-space shift", a.scale_shift, b.scale_shift);
   Difference("edge_detection", "row start", found)("number", a.row_first, b.row_first);
 }
 void compare(const char* row, const StereoEdges& a, const StereoEdges& b, std::string& found) {
@@ -281,7 +281,7 @@ void compare(const char* row, const StereoEdges& a, const StereoEdges& b, std::s
       "right edge", a.right_index, b.right_index)("left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)(
       "left direction", a.left_direction, b.left_direction)("right x", a.right_x, b.right_x)(
       "right y", a.right_y, b.right_y)("right direction", a.right_direction, b.right_direction)("NCC", a.ncc, b.ncc)(
-      "scale drift", a.left_scale_drift, b.left_scale_drift);
+      "scale-space shift", a.left_scale_shift, b.left_scale_shift);
 }
 void compare(const char* stage, const char* row, const TemporalMatches& a, const TemporalMatches& b,
              std::string& found) {
@@ -301,7 +301,7 @@ FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const 
   output.previous = output.first->edges;
   output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
   output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
-  output.global_matches = frontend.match_globally(*output.first, config.temporal.wide_edges);
+  output.global_matches = frontend.match_globally(*output.first, config.temporal.global_edges);
   output.left_edges = frontend.edges(Side::left);
   output.right_edges = frontend.edges(Side::right);
   output.current = now->edges;
@@ -316,7 +316,7 @@ std::string first_difference(const FrontendOutput& a, const FrontendOutput& b) {
   compare("stereo edge of the second frame", a.current, b.current, found);
   compare("temporal_match", "quad of the coarse search", a.coarse, b.coarse, found);
   compare("temporal_match", "quad", a.quads, b.quads, found);
-  compare("wide_matching", "quad of the global search", a.global_matches, b.global_matches, found);
+  compare("global_matching", "quad of the global search", a.global_matches, b.global_matches, found);
   return found;
 }
 

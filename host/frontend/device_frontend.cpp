@@ -50,7 +50,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       temporal_quads_(context, config.temporal, config.variants),
       temporal_match_(context, config.temporal, config.variants),
       wide_description_(context, rig.left.width, rig.left.height, config.variants, rig.max_value),
-      wide_matching_(context, config.variants),
+      global_matching_(context, config.variants),
       left_index_(rig.left.width, rig.left.height),
       right_index_(rig.right.width, rig.right.height) {
   std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
@@ -169,7 +169,7 @@ RelaxationTally DeviceFrontend::find_stereo_edges(FrameEdges& current, const Epi
 void DeviceFrontend::finish(FrameEdges& current) {
   own(current).on_device.has_sift = false;
   indexed_ = false;
-  wide_step_ = 0;
+  global_step_ = 0;
   context_.flush();  // the right patches, while the host goes on
 }
 
@@ -241,13 +241,13 @@ stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& 
     side.given.count = side.given.stride = static_cast<cl_int>(subset.edges.size());
     side.given.packed.write(side.packed.data(), side.packed.size());
   }
-  const bool is_known = &side == &wide_now_ && wide_step_ == subset.step;
+  const bool is_known = &side == &wide_now_ && global_step_ == subset.step;
   const stages::DeviceStereoEdges& edges = is_given ? side.given : frame_edges.on_device;
   if (!is_known) {
     wide_description_.prepare(frame_edges.on_device.left_image.pixels, small_);
     side.rows = wide_description_.describe(small_, edges, subset.step, side.descriptors);
   }
-  if (&side == &wide_now_) wide_step_ = subset.step;
+  if (&side == &wide_now_) global_step_ = subset.step;
   return {edges, subset.step, side.rows, side.descriptors};
 }
 
@@ -258,14 +258,14 @@ TemporalMatches DeviceFrontend::search_globally(const FrameEdges& base, const Wi
   // Descriptions of every step-th edge of the current frame serve all searches of a frame.
   WideSide& now = &of_current.edges == &current.edges ? wide_now_ : wide_some_;
   const auto earlier = describe_widely(own(base), of_base, wide_before_);
-  return wide_matching_.run(earlier, describe_widely(current, of_current, now), of_current.edges);
+  return global_matching_.run(earlier, describe_widely(current, of_current, now), of_current.edges);
 }
 
 KeptFrameEdges DeviceFrontend::keep() {
   const DeviceFrameEdges& current = frames_.current();
   const stages::DeviceStereoEdges& stereo_edges = current.on_device;
   const stages::DeviceWideEdges described =
-      describe_widely(current, about(2 * config_.temporal.wide_edges, current), wide_now_);
+      describe_widely(current, about(2 * config_.temporal.global_edges, current), wide_now_);
   const auto wide = described.descriptors.read(static_cast<std::size_t>(described.rows) * kWideBytes);
   const auto left = stereo_edges.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
   const auto right = stereo_edges.right_patches.read(current.edges.size() * kEdgePatchBytes);
@@ -281,7 +281,7 @@ void DeviceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
   stereo_edges.left_index.write(kept.edges.left_index.data(), count);
   std::vector<cl_float> packed;
   for (const auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
-                             &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_drift})
+                             &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_shift})
     packed.insert(packed.end(), column->begin(), column->end());
   stereo_edges.packed.write(packed.data(), packed.size());
   const KeptPatches patches = unpack_patches(kept);

@@ -114,7 +114,7 @@ class DeviceFrontend : public StagedFrontend {
   stages::TemporalQuads temporal_quads_;
   stages::TemporalMatch temporal_match_;
   stages::WideDescription wide_description_;
-  stages::WideMatching wide_matching_;
+  stages::GlobalMatching global_matching_;
 
   stages::DeviceCandidates candidates_, temporal_left_, temporal_right_;
   opencl::Buffer<cl_float> small_;  ///< reduced image for global searches
@@ -126,7 +126,7 @@ class DeviceFrontend : public StagedFrontend {
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                   ///< for the current frame
-  int wide_step_ = 0;                      ///< of the current frame's edges in wide_now_; 0: not yet described
+  int global_step_ = 0;                    ///< of the current frame's edges in wide_now_; 0: not yet described
   opencl::Buffer<cl_char> right_patches_;  ///< of the right edges that are candidates
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
       right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT

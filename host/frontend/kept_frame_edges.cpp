@@ -75,7 +75,7 @@ KeptFrameEdges keep_edges(const FrameEdges& frame_edges, const DescribedRows& de
   copy(frame_edges.edges.right_x, kept.edges.right_x);
   copy(frame_edges.edges.right_y, kept.edges.right_y);
   copy(frame_edges.edges.right_direction, kept.edges.right_direction);
-  copy(frame_edges.edges.left_scale_drift, kept.edges.left_scale_drift);
+  copy(frame_edges.edges.left_scale_shift, kept.edges.left_scale_shift);
   copy(frame_edges.edges.ncc, kept.edges.ncc);
   kept.edges.left_index.resize(count);
   std::iota(kept.edges.left_index.begin(), kept.edges.left_index.end(), 0);

@@ -154,12 +154,13 @@ reference::WideEdges describe_widely(const ReferenceFrameEdges& frame_edges, con
 
 TemporalMatches ReferenceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
                                                    const WideSubset& of_current) {
-  return reference::wide_matches(describe_widely(own(base), of_base), describe_widely(frames_.current(), of_current));
+  return reference::find_global_matches(describe_widely(own(base), of_base),
+                                        describe_widely(frames_.current(), of_current));
 }
 
 KeptFrameEdges ReferenceFrontend::keep() {
   const ReferenceFrameEdges& now = frames_.current();
-  const reference::WideEdges described = describe_widely(now, about(2 * config_.temporal.wide_edges, now));
+  const reference::WideEdges described = describe_widely(now, about(2 * config_.temporal.global_edges, now));
   std::vector<std::int32_t> itself(now.edges.size());
   std::iota(itself.begin(), itself.end(), 0);
   return keep_edges(now, {described.step, described.descriptors}, now.left_descriptions.patches, itself,

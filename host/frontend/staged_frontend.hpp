@@ -63,7 +63,7 @@ class StagedFrontend : public Frontend {
   bool corrects_rows() const { return rectification_.error().largest() > 0; }
   /// All edges of a frame that a search for about `wanted` uses.
   static WideSubset about(int wanted, const FrameEdges& frame_edges) {
-    return {frame_edges.edges, wide_step(frame_edges.edges.size(), wanted)};
+    return {frame_edges.edges, global_step(frame_edges.edges.size(), wanted)};
   }
 
   Config config_;

@@ -99,7 +99,7 @@ bool MotionEvidence::is_same_motion(const MotionStep& found, const Eigen::Isomet
 void MotionEvidence::compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion,
                                       Verdict& verdict) const {
   std::vector<std::uint8_t> agrees;
-  const int agreeing = select(global_matches, motion, kWideInlierDistance, pose::kInlierOrientation, agrees);
+  const int agreeing = select(global_matches, motion, kGlobalInlierDistance, pose::kInlierOrientation, agrees);
   verdict.global_ratio = agreeing / std::max(1.0, static_cast<double>(agrees.size()));
   verdict.agrees_globally =
       pose::count_cells(global_matches.quads.scoring, agrees, pose::kInflationCell) >= config_.pose.min_inliers;
@@ -109,8 +109,8 @@ void MotionEvidence::compare_globally(const MotionStep& global_matches, const Ei
                                       const MotionStep& chosen, const Eigen::Isometry3d& by_chosen,
                                       OtherPart& part) const {
   std::vector<std::uint8_t> alone, others;
-  select(global_matches, other, kWideInlierDistance, pose::kInlierOrientation, alone);
-  const int of_chosen = select(global_matches, by_chosen, kWideInlierDistance, 0.5 * kPi, others);
+  select(global_matches, other, kGlobalInlierDistance, pose::kInlierOrientation, alone);
+  const int of_chosen = select(global_matches, by_chosen, kGlobalInlierDistance, 0.5 * kPi, others);
   const pose::ScoringArrays& quads = global_matches.quads.scoring;
   ExplainedCells cells = chosen.cells;
   for (ExplainedCell& cell : cells.all()) cell = {};

@@ -13,7 +13,7 @@ namespace {
 /// The inlier distance is larger because a global match may be a neighbour of the correct edge.
 PoseConfig limits_of_global_matches(const Config& config) {
   PoseConfig limits = limits_of_proposals(config);
-  limits.inlier_distance = kWideInlierDistance;
+  limits.inlier_distance = kGlobalInlierDistance;
   return limits;
 }
 
@@ -26,7 +26,7 @@ void collect_free(const ExplainedCells& cells, const std::vector<float>& x, cons
     const ExplainedCell* cell = cells.at(x[i], y[i]);
     if (cell != nullptr && cell->is_free()) numbers.push_back(static_cast<std::int32_t>(i));
   }
-  const auto step = static_cast<std::size_t>(wide_step(numbers.size(), wanted));
+  const auto step = static_cast<std::size_t>(global_step(numbers.size(), wanted));
   std::size_t kept = 0;
   for (std::size_t k = 0; k < numbers.size(); k += step) numbers[kept++] = numbers[k];
   numbers.resize(kept);
@@ -74,8 +74,8 @@ StepHandle MotionProposals::near_prediction(const MotionQuery& query) {
   return query.prediction ? in_radius(query, config_.temporal.coarse_radius) : nullptr;
 }
 
-StepHandle MotionProposals::in_wide_radius(const MotionQuery& query) {
-  return in_radius(query, kCoarseWideRadiusRatio * fits_.calibration().left.width);
+StepHandle MotionProposals::in_large_radius(const MotionQuery& query) {
+  return in_radius(query, kLargeRadiusRatio * fits_.calibration().left.width);
 }
 
 StepHandle MotionProposals::in_radius(const MotionQuery& query, double radius) {
@@ -100,7 +100,7 @@ StepHandle MotionProposals::still_camera(const MotionQuery& query) {
 
 StepHandle MotionProposals::global_matches(const MotionQuery& query) {
   StepHandle step = fits_.new_step(query.base);
-  frontend_.match_globally(*query.base, config_.temporal.wide_edges, step->matches);
+  frontend_.match_globally(*query.base, config_.temporal.global_edges, step->matches);
   fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
   return step;
 }
@@ -140,7 +140,7 @@ StepHandle MotionProposals::in_free_cells(const MotionQuery& query, const Motion
   frontend::predict_positions(fits_.calibration(), query.base->edges, fits_.measured(*query.base),
                               motion_since(query.base, query, chosen), config_.temporal.radius, 1, search_);
   const StereoEdges& current = query.current->edges;
-  const int wanted = std::max(1, config_.temporal.wide_edges / kFreeCellThinning);
+  const int wanted = std::max(1, config_.temporal.global_edges / kFreeCellThinning);
   collect_free(chosen.cells, search_.left.x, search_.left.y, wanted, among_.of_base);
   collect_free(chosen.cells, current.left_x, current.left_y, 2 * wanted, among_.of_current);
   StepHandle step = fits_.new_step(query.base);

@@ -58,7 +58,7 @@ class MotionProposals {
   /// The camera moves as predicted: every n-th edge is searched for around the predicted position.
   StepHandle near_prediction(const MotionQuery& query);
   /// The same within a large radius, around the previous positions if there is no prediction.
-  StepHandle in_wide_radius(const MotionQuery& query);
+  StepHandle in_large_radius(const MotionQuery& query);
   /// The camera is stationary, and only objects in front of it move.
   StepHandle still_camera(const MotionQuery& query);
   /// The camera may have moved arbitrarily: a subset of the edges is matched over the whole image.

@@ -104,8 +104,8 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
 void MotionSearch::attempt_all(SearchLevel level, const MotionQuery& query, Candidates& candidates) {
   if (level == SearchLevel::prediction) return attempt(Hypothesis::near_prediction, query, candidates);
   attempt(Hypothesis::still_camera, query, candidates);
-  if (config_.temporal.wide_edges == 0) {
-    attempt(Hypothesis::wide_radius, query, candidates);
+  if (config_.temporal.global_edges == 0) {
+    attempt(Hypothesis::large_radius, query, candidates);
   } else if (level == SearchLevel::everything) {
     attempt(Hypothesis::global_matches, query, candidates);
     attempt(Hypothesis::rest_of_global_matches, query, candidates);
@@ -139,7 +139,7 @@ StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query
   const auto first = [&](auto is_wanted) { return std::find_if(candidates.begin(), candidates.end(), is_wanted); };
   switch (hypothesis) {
     case Hypothesis::near_prediction: return proposals_.near_prediction(query);
-    case Hypothesis::wide_radius: return proposals_.in_wide_radius(query);
+    case Hypothesis::large_radius: return proposals_.in_large_radius(query);
     case Hypothesis::still_camera: return proposals_.still_camera(query);
     case Hypothesis::global_matches: return proposals_.global_matches(query);
     case Hypothesis::rest_of_global_matches:

@@ -34,7 +34,7 @@ class MotionSearch : public MotionFinder {
     still_camera,
     global_matches,
     rest_of_global_matches,
-    wide_radius,
+    large_radius,
     rest_of_confirmed
   };
   /// A motion that was proposed, and the result of the confirmation.

@@ -165,7 +165,7 @@ void TrackRecord::remember(const MotionStep& found) {
 }
 
 double TrackRecord::confident_support() const {
-  if (limits_.wide_edges == 0) return 0;
+  if (limits_.global_edges == 0) return 0;
   if (rechecks_ > 0) return kConfidentSupport;
   return std::min(kConfidentSupport, std::max(kChanceSupport, kRecentSupportRatio * recent_support_));
 }
@@ -175,7 +175,7 @@ Ambiguity TrackRecord::recent_other_part() const {
 }
 
 bool TrackRecord::is_check_due(const Explained& explained) const {
-  if (limits_.wide_edges == 0) return false;
+  if (limits_.global_edges == 0) return false;
   const double noticeable = std::max(kCheckedMovingRatio, checked_moving_ratio_ + kMovingRatioStep);
   return frames_to_check_ <= 0 || explained.moving_ratio > noticeable;
 }

@@ -7,10 +7,10 @@
 namespace quadedge::odometry {
 
 /// Coarse search without a global one: radius [image width] without a prediction or after it failed.
-constexpr double kCoarseWideRadiusRatio = 0.1;
+constexpr double kLargeRadiusRatio = 0.1;
 
 /// Inlier distance of global matches [px], since a match may be a neighbour of the correct edge.
-constexpr double kWideInlierDistance = 4.0;
+constexpr double kGlobalInlierDistance = 4.0;
 
 /// A motion with less support must agree with the global matches.
 constexpr double kConfidentSupport = 0.35;
@@ -53,8 +53,8 @@ constexpr double kPromisingBalance = 0.1;
 /// is found in one frame is seldom gone in the next.
 constexpr double kRepeatedOtherPart = 0.25;
 
-/// Lists of edges in cells that the chosen motion does not explain are thinned once they reach temporal.wide_edges (of
-/// the current frame: twice that), but to no fewer than it divided by this.
+/// Lists of edges in cells that the chosen motion does not explain are thinned once they reach temporal.global_edges
+/// (of the current frame: twice that), but to no fewer than it divided by this.
 constexpr int kFreeCellThinning = 2;
 
 /// The rest of the image is searched for another motion after this number of frames, or earlier if the moving ratio has

@@ -41,7 +41,7 @@
   VISIT(TemporalAgreementArguments)    \
   VISIT(TemporalBestArguments)         \
   VISIT(WideSelection)                 \
-  VISIT(WideMatchingArguments)
+  VISIT(GlobalMatchingArguments)
 
 namespace quadedge::opencl {
 

@@ -101,9 +101,9 @@ const std::vector<Variant>& all_variants() {
       {"wide_description", "cells64", {"direction.cl", "wide_samples.cl", "wide_description_groups.cl"},
        Form::groups, {{"GROUP", "64"}}, 64, false, true,
        "sixteen work-items per stereo edge, one per cell, local memory, groups of 64", 7168},
-      {"wide_matching", "blocks", {"wide_matching.cl"}, Form::items, {{"ROWS", "8"}}, 1, true, false,
+      {"global_matching", "blocks", {"global_matching.cl"}, Form::items, {{"ROWS", "8"}}, 1, true, false,
        "one work-item per eight previous stereo edges, sixteen current ones as lanes"},
-      {"wide_matching", "tiles64", {"wide_matching_tiles.cl"},
+      {"global_matching", "tiles64", {"global_matching_tiles.cl"},
        Form::groups, {{"GROUP", "64"}, {"ROWS", "8"}}, 64, false, true,
        "one work-group of 64 per eight previous stereo edges, tiles of 64 current ones in local memory", 11264},
   };
@@ -148,7 +148,7 @@ const std::vector<Joint>& joint_programs() {
          {"pixel_corners.cl"},
          {}},
         {{"scan", "stereo_candidates", "candidate_filters", "stereo_clusters", "stereo_relaxation", "stereo_mutual",
-          "point_index", "temporal_candidates", "temporal_match", "temporal_quads", "wide_matching"},
+          "point_index", "temporal_candidates", "temporal_match", "temporal_quads", "global_matching"},
          {"edge_mask.cl"},
          {}},
     };

@@ -139,7 +139,7 @@ reference::ReferenceEdges grid_edges(const ImageView& image, const EdgesConfig& 
     edges.y.push_back(edge.y);
     edges.direction.push_back(edge.direction);
     edges.strength.push_back(edge.strength);
-    edges.scale_drift.push_back(0);
+    edges.scale_shift.push_back(0);
     edges.gradient_x.push_back(edge.gradient_x);
     edges.gradient_y.push_back(edge.gradient_y);
     edges.peak_x.push_back(edge.x);

@@ -11,7 +11,7 @@ namespace quadedge::paper {
 
 /// Edges whose gradient exceeds `threshold` [grey levels per px], at least `config.margin` px inside an image of any
 /// size. They are sorted by the pixel that they lie in, row by row, and then by x; there may be up to four in a pixel.
-/// Not set: scale_drift, which is 0. \throws UsageError for an empty image
+/// Not set: scale_shift, which is 0. \throws UsageError for an empty image
 reference::ReferenceEdges grid_edges(const ImageView& image, const EdgesConfig& config, double threshold);
 
 }  // namespace quadedge::paper

@@ -105,7 +105,8 @@ std::vector<PlaceStore::Similar> PlaceStore::most_similar(const PlaceSignature& 
 }
 
 void check_map_config(const Config& config) {
-  if (config.temporal.wide_edges == 0) throw UsageError("a map needs the global search: temporal.wide_edges above 0");
+  if (config.temporal.global_edges == 0)
+    throw UsageError("a map needs the global search: temporal.global_edges above 0");
   if (config.temporal.sift_max > 0)
     throw UsageError("a map keeps no SIFT descriptors: expected temporal.sift_max of 0");
 }

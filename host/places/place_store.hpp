@@ -100,7 +100,7 @@ struct SavedPlaces {
   std::vector<Eigen::Isometry3d> poses;                       ///< map_from_left of every place [m]
 };
 
-/// \throws UsageError if `temporal.wide_edges` is 0 or a filter in time uses SIFT, because kept frames have no images.
+/// \throws UsageError if `temporal.global_edges` is 0 or a filter in time uses SIFT: kept frames have no images.
 void check_map_config(const Config& config);
 
 /// Keys and values of the constants that edges, patches and descriptors depend on, which have to be equal for all

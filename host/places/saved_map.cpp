@@ -107,7 +107,7 @@ void exchange_place(Archive& archive, Place& place) {
   archive.bytes(place.signature.data(), sizeof place.signature);
   const std::size_t count = archive.count(kept.edges.left_x);
   for (auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
-                       &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_drift, &kept.edges.ncc})
+                       &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_shift, &kept.edges.ncc})
     archive.array(*column, count);
   archive.array(kept.patches, count * frontend::kKeptPatchBytes);
   archive.array(kept.wide, count * frontend::kKeptWideBytes);
@@ -186,7 +186,7 @@ class Check {
     check_column(edges.right_y, -kLargestImage, kLargestImage);
     check_column(edges.left_direction, -kTurn, kTurn);
     check_column(edges.right_direction, -kTurn, kTurn);
-    check_column(edges.left_scale_drift, -kLargestImage, kLargestImage);
+    check_column(edges.left_scale_shift, -kLargestImage, kLargestImage);
     check_column(edges.ncc, -1, 2);
   }
   static constexpr double kTurn = 7;  // more than 2 pi

@@ -15,14 +15,14 @@ constexpr std::size_t kLanes = 8;
 /// Columns of kLanes edges.
 struct ObservedLanes {
   double left_x[kLanes], left_y[kLanes], right_x[kLanes], right_y[kLanes];
-  double left_cos[kLanes], left_sin[kLanes], right_cos[kLanes], right_sin[kLanes], scale_drift[kLanes];
+  double left_cos[kLanes], left_sin[kLanes], right_cos[kLanes], right_sin[kLanes], scale_shift[kLanes];
 };
 
 /// Columns of their measurements. A member that is a vector has a column per coordinate.
 struct MeasuredLanes {
   int is_valid[kLanes];
   double ray[2][kLanes], inverse_depth[kLanes], inverse_depth_per_pixel[kLanes], epipolar_sine[kLanes];
-  double direction[2][kLanes], scale_drift[2][kLanes], slope[kLanes], slope_per_radian[kLanes];
+  double direction[2][kLanes], scale_shift[2][kLanes], slope[kLanes], slope_per_radian[kLanes];
   double left_normal[3][kLanes], right_normal[3][kLanes];
 };
 
@@ -32,7 +32,7 @@ void measure_lanes(const RigNumbers& rig, const ObservedLanes& edges, MeasuredLa
   for (std::size_t k = 0; k < kLanes; ++k) {
     const MeasuredNumbers one =
         measure_numbers(rig, {edges.left_x[k], edges.left_y[k], edges.right_x[k], edges.right_y[k], edges.left_cos[k],
-                              edges.left_sin[k], edges.right_cos[k], edges.right_sin[k], edges.scale_drift[k]});
+                              edges.left_sin[k], edges.right_cos[k], edges.right_sin[k], edges.scale_shift[k]});
     lanes.is_valid[k] = one.is_valid ? 1 : 0;
     lanes.ray[0][k] = one.ray.x;
     lanes.ray[1][k] = one.ray.y;
@@ -41,8 +41,8 @@ void measure_lanes(const RigNumbers& rig, const ObservedLanes& edges, MeasuredLa
     lanes.epipolar_sine[k] = one.epipolar_sine;
     lanes.direction[0][k] = one.direction.x;
     lanes.direction[1][k] = one.direction.y;
-    lanes.scale_drift[0][k] = one.scale_drift.x;
-    lanes.scale_drift[1][k] = one.scale_drift.y;
+    lanes.scale_shift[0][k] = one.scale_shift.x;
+    lanes.scale_shift[1][k] = one.scale_shift.y;
     lanes.slope[k] = one.slope;
     lanes.slope_per_radian[k] = one.slope_per_radian;
     lanes.left_normal[0][k] = one.left_normal.x;
@@ -65,7 +65,7 @@ void set_lane(const StereoEdges& edges, std::size_t i, std::size_t k, ObservedLa
   lanes.left_sin[k] = std::sin(left);
   lanes.right_cos[k] = std::cos(right);
   lanes.right_sin[k] = std::sin(right);
-  lanes.scale_drift[k] = edges.left_scale_drift.empty() ? 0.0 : static_cast<double>(edges.left_scale_drift[i]);
+  lanes.scale_shift[k] = edges.left_scale_shift.empty() ? 0.0 : static_cast<double>(edges.left_scale_shift[i]);
 }
 
 void take_lane(const ObservedLanes& edges, const MeasuredLanes& lanes, std::size_t k,
@@ -80,7 +80,7 @@ void take_lane(const ObservedLanes& edges, const MeasuredLanes& lanes, std::size
   result.inverse_depth_per_pixel = lanes.inverse_depth_per_pixel[k];
   result.epipolar_sine = lanes.epipolar_sine[k];
   result.direction = {lanes.direction[0][k], lanes.direction[1][k], 0};
-  result.scale_drift = {lanes.scale_drift[0][k], lanes.scale_drift[1][k]};
+  result.scale_shift = {lanes.scale_shift[0][k], lanes.scale_shift[1][k]};
   result.slope = lanes.slope[k];
   result.slope_per_radian = lanes.slope_per_radian[k];
   result.left_edge = {static_cast<float>(edges.left_cos[k]), static_cast<float>(edges.left_sin[k])};

@@ -16,7 +16,7 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
                                 std::sin(observation.left_direction),
                                 std::cos(observation.right_direction),
                                 std::sin(observation.right_direction),
-                                observation.left_scale_drift};
+                                observation.left_scale_shift};
   const MeasuredNumbers measured = measure_numbers(RigNumbers(rig, min_epipolar_angle), edge);
   if (!measured.is_valid) return std::nullopt;
   const auto vector = [](const Vector3& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
@@ -26,7 +26,7 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   result.inverse_depth_per_pixel = measured.inverse_depth_per_pixel;
   result.epipolar_sine = measured.epipolar_sine;
   result.direction = vector(measured.direction);
-  result.scale_drift = {measured.scale_drift.x, measured.scale_drift.y};
+  result.scale_shift = {measured.scale_shift.x, measured.scale_shift.y};
   result.slope = measured.slope;
   result.slope_per_radian = measured.slope_per_radian;
   result.left_edge = Eigen::Vector2d(edge.left_cos, edge.left_sin).cast<float>();

@@ -21,7 +21,7 @@ struct OrientedPoint {
 struct StereoObservation {
   Eigen::Vector2d left = Eigen::Vector2d::Zero(), right = Eigen::Vector2d::Zero();
   double left_direction = 0, right_direction = 0;
-  double left_scale_drift = 0;  ///< of the left edge, see EdgeSet::scale_drift
+  double left_scale_shift = 0;  ///< of the left edge, see EdgeSet::scale_shift
 };
 
 /// A stereo edge in terms of quantities with Gaussian noise. The left pixel is exact by definition (it selects the
@@ -33,8 +33,8 @@ struct StereoMeasurement {
   double inverse_depth_per_pixel = 0;  ///< its change per pixel along the right epipolar line, >= 0 [1/(m px)]
   double epipolar_sine = 0;            ///< |sin| of the angle between right edge and epipolar line in the image
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< K^-1 (cos, sin, 0) of the left edge, unit length
-  /// Displacement of the left edge per unit of log(scale), as a step of its ray; see EdgeSet::scale_drift.
-  Eigen::Vector2d scale_drift = Eigen::Vector2d::Zero();
+  /// Displacement of the left edge per unit of log(scale), as a step of its ray; see EdgeSet::scale_shift.
+  Eigen::Vector2d scale_shift = Eigen::Vector2d::Zero();
   double slope = 0;             ///< depth slope of the tangent
   double slope_per_radian = 0;  ///< standard deviation of the slope if both directions have one of 1 rad
   /// Unit directions of both edges in their images.

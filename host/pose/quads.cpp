@@ -11,7 +11,7 @@ StereoObservation observation(const StereoEdges& edges, std::size_t i) {
           {edges.right_x[i], edges.right_y[i]},
           edges.left_direction[i],
           edges.right_direction[i],
-          edges.left_scale_drift.empty() ? 0.0 : static_cast<double>(edges.left_scale_drift[i])};
+          edges.left_scale_shift.empty() ? 0.0 : static_cast<double>(edges.left_scale_shift[i])};
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size
   term.current_x = current.ray.x();
   term.current_y = current.ray.y();
   // Each edge is moved to the scale half-way between the two.
-  term.scale_drift_x = 0.5 * (previous.scale_drift.x() + current.scale_drift.x());
-  term.scale_drift_y = 0.5 * (previous.scale_drift.y() + current.scale_drift.y());
+  term.scale_shift_x = 0.5 * (previous.scale_shift.x() + current.scale_shift.x());
+  term.scale_shift_y = 0.5 * (previous.scale_shift.y() + current.scale_shift.y());
   term.across_x = -sine / noise.across;
   term.across_y = cosine / noise.across;
   const double along = noise.along_in_time(static_cast<double>(quads.scoring.half_length), scale);

@@ -42,7 +42,7 @@ struct ReprojectionTerm {
   double inverse_depth_per_pixel;          ///< its change along the right epipolar line [1/(m px)]
   double current_inverse_depth_per_pixel;  ///< the same for the current edge
   double current_x, current_y;             ///< current left pixel as a ray (x, y, 1)
-  double scale_drift_x, scale_drift_y;     ///< step of that ray per unit of log(scale), mean of both left edges
+  double scale_shift_x, scale_shift_y;     ///< step of that ray per unit of log(scale), mean of both left edges
   double across_x, across_y;     ///< unit normal of the edge in the current left image, divided by its sigma [1/px]
   double along_x, along_y;       ///< unit tangent, divided by its sigma [1/px]
   double current_inverse_depth;  ///< as measured [1/m]
@@ -58,8 +58,8 @@ inline constexpr double ReprojectionTerm::*kTermMembers[] = {&ReprojectionTerm::
                                                              &ReprojectionTerm::current_inverse_depth_per_pixel,
                                                              &ReprojectionTerm::current_x,
                                                              &ReprojectionTerm::current_y,
-                                                             &ReprojectionTerm::scale_drift_x,
-                                                             &ReprojectionTerm::scale_drift_y,
+                                                             &ReprojectionTerm::scale_shift_x,
+                                                             &ReprojectionTerm::scale_shift_y,
                                                              &ReprojectionTerm::across_x,
                                                              &ReprojectionTerm::across_y,
                                                              &ReprojectionTerm::along_x,
@@ -126,8 +126,8 @@ struct ReprojectionResidual {
   const double u = point.x * inverse_z, v = point.y * inverse_z;
   const double half_way = 2.0 / (1.0 + (result.in_front ? point.z : 1.0));
   const double growth = (1.0 - (result.in_front ? point.z : 1.0)) * half_way;  // log(1 / y_z)
-  const double error_x = focal_x * (u - term.current_x - growth * term.scale_drift_x);
-  const double error_y = focal_y * (v - term.current_y - growth * term.scale_drift_y);
+  const double error_x = focal_x * (u - term.current_x - growth * term.scale_shift_x);
+  const double error_y = focal_y * (v - term.current_y - growth * term.scale_shift_y);
   const double weight = term.current_inverse_depth_weight;
   result.value = {term.across_x * error_x + term.across_y * error_y, term.along_x * error_x + term.along_y * error_y,
                   (inverse_depth * inverse_z - term.current_inverse_depth) * weight};
@@ -136,7 +136,7 @@ struct ReprojectionResidual {
   // change of the magnification with y_z.
   const auto by_point = [&](double axis_x, double axis_y) -> Vector3 {
     const double by_x = axis_x * focal_x * inverse_z, by_y = axis_y * focal_y * inverse_z;
-    const double by_growth = axis_x * focal_x * term.scale_drift_x + axis_y * focal_y * term.scale_drift_y;
+    const double by_growth = axis_x * focal_x * term.scale_shift_x + axis_y * focal_y * term.scale_shift_y;
     return {by_x, by_y, -(by_x * u + by_y * v) + half_way * half_way * by_growth};
   };
   result.across_by_point = by_point(term.across_x, term.across_y);

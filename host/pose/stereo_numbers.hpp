@@ -99,9 +99,9 @@ struct RigNumbers {
   double min_sine;
 };
 
-/// A stereo edge: positions [px], unit directions in the images, scale drift of the left edge.
+/// A stereo edge: positions [px], unit directions in the images, scale-space shift of the left edge.
 struct ObservedNumbers {
-  double left_x, left_y, right_x, right_y, left_cos, left_sin, right_cos, right_sin, scale_drift;
+  double left_x, left_y, right_x, right_y, left_cos, left_sin, right_cos, right_sin, scale_shift;
 };
 
 /// The members of a StereoMeasurement that measure() computes.
@@ -109,7 +109,7 @@ struct MeasuredNumbers {
   bool is_valid;  ///< if not, the edge has no measurement and the other members are arbitrary
   Vector3 ray;
   double inverse_depth, inverse_depth_per_pixel, epipolar_sine;
-  Vector3 direction, scale_drift;  ///< z is 0
+  Vector3 direction, scale_shift;  ///< z is 0
   double slope, slope_per_radian;
   Vector3 left_normal, right_normal;
 };
@@ -137,8 +137,8 @@ struct MeasuredNumbers {
   const double left_crossing = std::abs(edge.left_cos * left_line.y - edge.left_sin * left_line.x);
   result.epipolar_sine = std::abs(edge.right_cos * line.y - edge.right_sin * line.x);
 
-  const double drift = edge.scale_drift;  // towards the bright side
-  result.scale_drift = rig.left.step(drift * -edge.left_sin, drift * edge.left_cos);
+  const double drift = edge.scale_shift;  // towards the bright side
+  result.scale_shift = rig.left.step(drift * -edge.left_sin, drift * edge.left_cos);
   const Vector3 left_step = rig.left.step(edge.left_cos, edge.left_sin);
   const double left_scale = 1.0 / norm(left_step);
   result.direction = left_scale * left_step;

@@ -271,7 +271,7 @@ double newton_step(const Derivatives& d, const std::array<double, 2>& gradient_f
 
 /// How far F = 0 moves along the gradient per unit of log(sigma) [px]. The smoothed image obeys the heat equation
 /// dI / dlog(sigma) = sigma^2 Laplacian(I), which gives the same of F.
-double scale_drift(const Derivatives& d, const std::array<double, 2>& gradient_f, double sigma) {
+double scale_shift(const Derivatives& d, const std::array<double, 2>& gradient_f, double sigma) {
   const double m = std::hypot(d.ix, d.iy);
   const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
   if (!(slope < 0)) return 0.0;
@@ -318,7 +318,7 @@ ReferenceEdges detect_edges(const ImageView& image, const EdgesConfig& config, d
       edges.y.push_back(y + step * d.iy / m);
       edges.direction.push_back(direction > -kPi ? direction : kPi);
       edges.strength.push_back(m);
-      edges.scale_drift.push_back(scale_drift(d, f, config.sigma));
+      edges.scale_shift.push_back(scale_shift(d, f, config.sigma));
       edges.gradient_x.push_back(probe.gx);
       edges.gradient_y.push_back(probe.gy);
       edges.peak_x.push_back(x);
@@ -336,7 +336,7 @@ EdgeSet to_edge_set(const ReferenceEdges& edges) {
     return std::vector<float>(values.begin(), values.end());
   };
   return {to_float(edges.x),        to_float(edges.y),           to_float(edges.direction),
-          to_float(edges.strength), to_float(edges.scale_drift), edges.row_first};
+          to_float(edges.strength), to_float(edges.scale_shift), edges.row_first};
 }
 
 EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped) {
@@ -344,7 +344,7 @@ EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped) {
   const auto limit = static_cast<std::size_t>(most);
   if (edges.size() > limit) {
     dropped += static_cast<int>(edges.size() - limit);
-    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift})
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_shift})
       values->resize(limit);
     for (auto& first : edges.row_first) first = std::min(first, static_cast<std::int32_t>(limit));
   }
@@ -459,7 +459,7 @@ ReferenceEdges select_edges(const ReferenceEdges& edges, const std::vector<std::
   filter(edges.y, result.y);
   filter(edges.direction, result.direction);
   filter(edges.strength, result.strength);
-  filter(edges.scale_drift, result.scale_drift);
+  filter(edges.scale_shift, result.scale_shift);
   filter(edges.gradient_x, result.gradient_x);
   filter(edges.gradient_y, result.gradient_y);
   filter(edges.peak_x, result.peak_x);

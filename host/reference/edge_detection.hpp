@@ -54,7 +54,7 @@ struct ReferenceEdges {
   std::vector<double> x, y;                    ///< pixels
   std::vector<double> direction;               ///< radians in (-pi, pi]; the bright side lies at (-sin, cos)
   std::vector<double> strength;                ///< peak gradient magnitude, grey levels per pixel
-  std::vector<double> scale_drift;             ///< towards the bright side per unit of log(sigma), pixels
+  std::vector<double> scale_shift;             ///< towards the bright side per unit of log(sigma), pixels
   std::vector<double> gradient_x, gradient_y;  ///< unit gradient at the pixel that won
   std::vector<double> peak_x, peak_y;          ///< the parabola's peak, before the Newton step, pixels
   std::vector<std::int32_t> column, row;       ///< of the pixel that won

@@ -216,7 +216,7 @@ StereoEdges stereo_mutual(const StereoClusters& clusters, const StereoRelaxation
     edges.left_x.push_back(left.x[i]);
     edges.left_y.push_back(left.y[i]);
     edges.left_direction.push_back(left.direction[i]);
-    edges.left_scale_drift.push_back(left.scale_drift[i]);
+    edges.left_scale_shift.push_back(left.scale_shift[i]);
     edges.right_x.push_back(static_cast<float>(line.x + clusters.position[c] * line.ex));
     edges.right_y.push_back(static_cast<float>(line.y + clusters.position[c] * line.ey));
     edges.right_direction.push_back(static_cast<float>(clusters.direction[c]));

@@ -192,7 +192,7 @@ bool apart(const WideEdges& set, std::size_t i, std::size_t j, float distance) {
 
 }  // namespace
 
-TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current) {
+TemporalMatches find_global_matches(const WideEdges& earlier, const WideEdges& current) {
   const std::size_t rows = earlier.descriptors.size() / kWideBytes, columns = current.descriptors.size() / kWideBytes;
   const float neighbourhood = static_cast<float>(kWideNeighbourhood), ratio = static_cast<float>(kWideRatio);
   TemporalMatches matches;

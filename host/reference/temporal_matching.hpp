@@ -102,7 +102,7 @@ TemporalMatchResult temporal_match(const TemporalSearch& search, const StereoEdg
                                    const TemporalMatchSide& left, const TemporalMatchSide& right,
                                    const TemporalConfig& config);
 
-// Plain C++ twin of kernels/wide_matching.cl.
+// Plain C++ twin of kernels/global_matching.cl.
 
 /// Some stereo edges of one rig with their wide descriptors: every step-th.
 struct WideEdges {
@@ -115,6 +115,6 @@ struct WideEdges {
 /// best and no match elsewhere is nearly as good (kWideRatio; "elsewhere": farther than
 /// kWideNeighbourhood px). The matches' ncc is the cosine of the two descriptors; they have no competing
 /// clusters.
-TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current);
+TemporalMatches find_global_matches(const WideEdges& earlier, const WideEdges& current);
 
 }  // namespace quadedge::reference

@@ -40,7 +40,7 @@ void DeviceStereoEdges::reserve(opencl::Context& context, std::size_t rows) {
 
 void DeviceStereoEdges::read(opencl::Context& context, opencl::ReadBack& read_back, StereoEdges& edges) {
   const auto all = {&edges.left_x,  &edges.left_y,          &edges.left_direction,   &edges.right_x,
-                    &edges.right_y, &edges.right_direction, &edges.left_scale_drift, &edges.ncc};
+                    &edges.right_y, &edges.right_direction, &edges.left_scale_shift, &edges.ncc};
   for (auto* values : all) values->reserve(room_);  // steady frames allocate nothing
   for (auto* values : {&edges.left_index, &edges.right_index}) values->reserve(room_);
   read_back.read(context, block, places_.end, [&](const cl_uchar* bytes) {
@@ -50,7 +50,7 @@ void DeviceStereoEdges::read(opencl::Context& context, opencl::ReadBack& read_ba
     copy_values(bytes + places_.right_index, found, edges.right_index);
     const cl_uchar* values = bytes + places_.packed;
     for (auto* column : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
-                         &edges.right_direction, &edges.left_scale_drift}) {
+                         &edges.right_direction, &edges.left_scale_shift}) {
       copy_values(values, found, *column);
       values += 4 * static_cast<std::size_t>(stride);
     }

@@ -47,7 +47,7 @@ class DevicePositions {
 
 /// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements of a block are valid.
 struct DeviceEdges {
-  /// Five blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px], scale drift [px].
+  /// Five blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px], scale-space shift [px].
   opencl::Buffer<cl_float> packed;
   int stride = 0;
   opencl::Buffer<cl_int> row_first;  ///< height + 1 starts of the rows
@@ -80,7 +80,7 @@ struct DeviceEdges {
     EdgeSet edges;
     const opencl::CopyGuard guard(*packed.context());
     std::size_t block = 0;
-    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift}) {
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_shift}) {
       values->resize(static_cast<std::size_t>(host_count));
       packed.read_later(values->data(), values->size(), static_cast<std::size_t>(stride) * block++);
     }
@@ -109,7 +109,8 @@ struct DeviceStereoEdges {
   opencl::Buffer<cl_uchar> block;  ///< holds the next five arrays, which the host reads in one copy
   opencl::Buffer<cl_int> total;    ///< {number of rows, 0}
   opencl::Buffer<cl_int> left_index, right_index;
-  /// Seven blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad], left scale drift [px].
+  /// Seven blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad], left scale-space shift
+  /// [px].
   opencl::Buffer<cl_float> packed;
   opencl::Buffer<cl_float> ncc;
   opencl::Buffer<cl_char> left_patches;   ///< of the left edges that have candidates, see patches.cl

@@ -168,36 +168,36 @@ TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const S
   return matches;
 }
 
-WideMatching::WideMatching(opencl::Context& context, const opencl::VariantChoice& variants)
-    : Stage(context, "wide_matching", variants),
+GlobalMatching::GlobalMatching(opencl::Context& context, const opencl::VariantChoice& variants)
+    : Stage(context, "global_matching", variants),
       neighbourhood_(static_cast<float>(kWideNeighbourhood)),
       ratio_(static_cast<float>(kWideRatio)),
       rows_at_once_(std::stoul(variant_.defines.at("ROWS"))) {
   const auto program = variant_.program(context);
   if (!is_grouped()) {
     transpose_ = {context, program, "wide_transpose"};
-    blocks_kernel_ = {context, program, "wide_match"};
+    blocks_kernel_ = {context, program, "global_match"};
   } else {
-    kernel_ = {context, program, "wide_match"};
+    kernel_ = {context, program, "global_match"};
   }
 }
 
-void WideMatching::transpose(const DeviceWideEdges& edges, opencl::Buffer<cl_uchar>& blocks) {
+void GlobalMatching::transpose(const DeviceWideEdges& edges, opencl::Buffer<cl_uchar>& blocks) {
   const int count = count_blocks(edges.rows);
   blocks.ensure(context_, static_cast<std::size_t>(count) * kBlockLanes * kWideBytes);
   transpose_(over(static_cast<std::size_t>(count)), edges.descriptors, edges.rows, blocks);
 }
 
-TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWideEdges& current,
-                                  const StereoEdges& current_edges) {
+TemporalMatches GlobalMatching::run(const DeviceWideEdges& earlier, const DeviceWideEdges& current,
+                                    const StereoEdges& current_edges) {
   begin();
   const auto rows = static_cast<std::size_t>(earlier.rows);
   best_.ensure(context_, rows);
   similarity_.ensure(context_, rows);
-  const WideMatchingArguments arguments{{earlier.edges.stride, earlier.rows, earlier.step},
-                                        {current.edges.stride, current.rows, current.step},
-                                        neighbourhood_,
-                                        ratio_};
+  const GlobalMatchingArguments arguments{{earlier.edges.stride, earlier.rows, earlier.step},
+                                          {current.edges.stride, current.rows, current.step},
+                                          neighbourhood_,
+                                          ratio_};
   const std::size_t parts = (rows + rows_at_once_ - 1) / rows_at_once_;
   if (is_grouped()) {
     kernel_(over(parts, local_size_), arguments, earlier.descriptors, earlier.edges.packed, current.descriptors,

@@ -173,14 +173,14 @@ struct DeviceWideEdges {
   const opencl::Buffer<cl_uchar>& descriptors;
 };
 
-/// Global matching of stereo edges of an earlier frame with the current left image: kernels/wide_matching.cl and
-/// kernels/wide_matching_tiles.cl.
-/// Variants of the stage "wide_matching".
-class WideMatching : private Stage {
+/// Global matching of stereo edges of an earlier frame with the current left image: kernels/global_matching.cl and
+/// kernels/global_matching_tiles.cl.
+/// Variants of the stage "global_matching".
+class GlobalMatching : private Stage {
  public:
-  WideMatching(opencl::Context& context, const opencl::VariantChoice& variants);
+  GlobalMatching(opencl::Context& context, const opencl::VariantChoice& variants);
 
-  /// See reference::wide_matches(). `current_edges` are those of `current` on the host.
+  /// See reference::find_global_matches(). `current_edges` are those of `current` on the host.
   TemporalMatches run(const DeviceWideEdges& earlier, const DeviceWideEdges& current, const StereoEdges& current_edges);
 
  private:
@@ -191,12 +191,12 @@ class WideMatching : private Stage {
   opencl::Buffer<cl_uchar> earlier_blocks_, current_blocks_;
   opencl::Buffer<cl_int> best_;
   opencl::Buffer<cl_float> similarity_;
-  opencl::Kernel<void(WideMatchingArguments args, const cl_uchar* row_descriptors, const cl_float* row_edges,
+  opencl::Kernel<void(GlobalMatchingArguments args, const cl_uchar* row_descriptors, const cl_float* row_edges,
                       const cl_uchar* column_descriptors, const cl_float* column_edges, cl_int* best,
                       cl_float* similarity)>
       kernel_;
   opencl::Kernel<void(const cl_uchar* descriptors, cl_int count, cl_uchar* blocks)> transpose_;
-  opencl::Kernel<void(WideMatchingArguments args, const cl_uchar* row_descriptors, const cl_uchar* row_blocks,
+  opencl::Kernel<void(GlobalMatchingArguments args, const cl_uchar* row_descriptors, const cl_uchar* row_blocks,
                       const cl_float* row_edges, const cl_uchar* column_descriptors, const cl_uchar* column_blocks,
                       const cl_float* column_edges, cl_int* best, cl_float* similarity)>
       blocks_kernel_;

@@ -44,7 +44,7 @@ struct EdgeSet {
   std::vector<float> strength;  ///< gradient magnitude before the Newton step, grey levels per pixel
   /// Displacement of the edge towards its bright side per unit of log(edges.sigma) [px]. A change of image scale by the
   /// same factor displaces it equally; see doc/method.md section 6.
-  std::vector<float> scale_drift;
+  std::vector<float> scale_shift;
   /// First edge of each row of pixels: row r contains the edges row_first[r] .. row_first[r + 1] - 1. Size height + 1.
   /// The row is that of the pixel that won the maximum test; y lies within kEdgeRowReach of r.
   std::vector<std::int32_t> row_first;
@@ -61,7 +61,7 @@ struct StereoEdges {
   std::vector<float> left_x, left_y, left_direction;  ///< the detected left edge [px, rad]
   std::vector<float> right_x, right_y,
       right_direction;                  ///< the refined right point, on its epipolar line by the calibration
-  std::vector<float> left_scale_drift;  ///< of the left edge, see EdgeSet; empty: unknown
+  std::vector<float> left_scale_shift;  ///< of the left edge, see EdgeSet; empty: unknown
   std::vector<float> ncc;  ///< NCC of the refined pair: the mean of the edges' own patches and the better side
 
   EdgePositionsView positions(Side side) const {

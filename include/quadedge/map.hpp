@@ -82,7 +82,7 @@ struct Closure {
 /// earlier ones (doc/method.md section 10), joins segments of the trajectory, and corrects it. Deterministic.
 class Map {
  public:
-  /// Refers to the odometry, which must outlive the map. \throws UsageError if `temporal.wide_edges` is 0 or a filter
+  /// Refers to the odometry, which must outlive the map. \throws UsageError if `temporal.global_edges` is 0 or a filter
   /// in time uses SIFT, because kept frames have no images.
   explicit Map(StereoOdometry& odometry);
   ~Map();

@@ -1,4 +1,4 @@
-// wide_matching.cl: finds every row's edge among all columns, anywhere in the image, by its wide descriptor. Made for
+// global_matching.cl: finds every row's edge among all columns, anywhere in the image, by its wide descriptor. Made for
 // wide vectors: sixteen descriptors at once, one per lane, against ROWS others, so no product is summed across lanes.
 //
 // Rows: every row_step-th stereo edge of the earlier frame; columns: every column_step-th of the current frame; edges
@@ -8,7 +8,7 @@
 // wide_transpose  In: descriptors. Out: blocks of sixteen, in pairs of bytes: bytes k and k + 1 (k even) of descriptor
 //                 16 b + lane are elements (kWideBytes b + k) * 16 + 2 lane and the next; zeros after the last
 //                 descriptor. One work-item = one block.
-// wide_match      Out per row: the column with the highest similarity, the first on a tie, or -1 where another row
+// global_match    Out per row: the column with the highest similarity, the first on a tie, or -1 where another row
 //                 farther than `neighbourhood` px from this one is at least as similar to that column, or a column
 //                 farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test
 //                 against a match elsewhere). One work-item = ROWS rows.
@@ -86,7 +86,7 @@ static inline float16 wide_product(const int* mine, global const uchar* block) {
   return convert_float16((sums[0] + sums[1]) + (sums[2] + sums[3]));
 }
 
-static inline float wide_highest(const float16 v) {
+static inline float global_highest(const float16 v) {
   const float8 eight = fmax(v.lo, v.hi);
   const float4 four = fmax(eight.lo, eight.hi);
   const float2 two = fmax(four.lo, four.hi);
@@ -94,15 +94,15 @@ static inline float wide_highest(const float16 v) {
 }
 
 // The similarity above which a match elsewhere is too close to one of `highest`.
-static inline float wide_limit(const float highest, const float ratio) {
+static inline float global_limit(const float highest, const float ratio) {
   return SQUARE - (SQUARE - highest) / (ratio * ratio);
 }
 
 // Whether a descriptor of the block reaches `limit` (or exceeds it, where `above`) farther than `distance` px from edge
 // `from`.
-static inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block,
-                                  const int count, global const float* x, global const float* y, const int step,
-                                  const int from, const float distance) {
+static inline bool global_elsewhere(const float16 products, const float limit, const bool above, const int block,
+                                    const int count, global const float* x, global const float* y, const int step,
+                                    const int from, const float distance) {
   float of_lane[kBlockLanes];
   vstore16(products, 0, of_lane);
   for (int lane = 0; lane < kBlockLanes; ++lane) {
@@ -115,10 +115,10 @@ static inline bool wide_elsewhere(const float16 products, const float limit, con
 }
 
 // LONG: a block of rows against all columns, then back; sums and winners stay in registers.
-kernel void wide_match(const WideMatchingArguments args, global const uchar* row_descriptors,
-                       global const uchar* row_blocks, global const float* row_edges,
-                       global const uchar* column_descriptors, global const uchar* column_blocks,
-                       global const float* column_edges, global int* best, global float* similarity) {
+kernel void global_match(const GlobalMatchingArguments args, global const uchar* row_descriptors,
+                         global const uchar* row_blocks, global const float* row_edges,
+                         global const uchar* column_descriptors, global const uchar* column_blocks,
+                         global const float* column_edges, global int* best, global float* similarity) {
   const int rows = args.rows.count, row_step = args.rows.step, row_stride = args.rows.stride;
   const int columns = args.columns.count, column_step = args.columns.step, column_stride = args.columns.stride;
   const float neighbourhood = args.neighbourhood, ratio = args.ratio;
@@ -139,7 +139,7 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
   for (int block = 0; block * kBlockLanes < columns; ++block) {
     wide_products(mine, column_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
     for (int r = 0; r < ROWS; ++r) {
-      const float here = wide_highest(products[r]);
+      const float here = global_highest(products[r]);
       if (here > highest[r]) {
         highest[r] = here;
         float of_lane[kBlockLanes];
@@ -150,7 +150,7 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
       }
       // The limit only rises: whatever it has passed does not compete. A full list is cleared of that;
       // LISTED + 1 means that it is still full.
-      const float limit = wide_limit(highest[r], ratio);
+      const float limit = global_limit(highest[r], ratio);
       if (here <= limit || listed[r] > LISTED) continue;
       if (listed[r] == LISTED) {
         listed[r] = 0;
@@ -171,14 +171,14 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
   // Competing columns are few. Rows that they exclude need not be compared with all other rows.
   int left = 0;
   for (int r = 0; r < ROWS; ++r) {
-    const float limit = wide_limit(highest[r], ratio);
+    const float limit = global_limit(highest[r], ratio);
     const bool all = listed[r] > LISTED;
     const int blocks = all ? (columns + kBlockLanes - 1) / kBlockLanes : listed[r];
     alone[r] = winner[r] >= 0;
     for (int k = 0; alone[r] && k < blocks; ++k) {
       const int block = all ? k : list[r][k];
       if (!all && listed_highest[r][k] <= limit) continue;
-      alone[r] = !wide_elsewhere(
+      alone[r] = !global_elsewhere(
           wide_product(mine + r * PAIRS_OF_BYTES, column_blocks + (size_t)block * (kWideBytes * kBlockLanes)), limit,
           true, block, columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
           neighbourhood);
@@ -192,9 +192,9 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
     wide_products(found, row_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
     for (int r = 0; r < ROWS; ++r) {
       const int row = min(first + r, rows - 1);
-      if (alone[r] && wide_highest(products[r]) >= highest[r]) {
-        alone[r] = !wide_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride,
-                                   row_step, row * row_step, neighbourhood);
+      if (alone[r] && global_highest(products[r]) >= highest[r]) {
+        alone[r] = !global_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride,
+                                     row_step, row * row_step, neighbourhood);
         left -= !alone[r];
       }
     }

@@ -1,15 +1,15 @@
-// wide_matching_tiles.cl: wide_matching.cl with a group of GROUP work-items per ROWS rows, for GPUs. A group reads the
-// descriptors of GROUP columns at a time into local memory, one after the other; each work-item has a column of its own
-// and compares it with all the rows of the group.
+// global_matching_tiles.cl: global_matching.cl with a group of GROUP work-items per ROWS rows, for GPUs. A group reads
+// the descriptors of GROUP columns at a time into local memory, one after the other; each work-item has a column of its
+// own and compares it with all the rows of the group.
 //
-// In and out as in wide_matching.cl, and the same bits: products are whole numbers.
+// In and out as in global_matching.cl, and the same bits: products are whole numbers.
 // Reference: host/reference/temporal_matching.cpp.
 
 #define WORDS (kWideBytes / 4)
 #define PITCH (WORDS + 1)  // words between columns in local memory: work-items meet different banks
 #define SQUARE 262144      // 512^2
 
-static inline int wide_apart(const float ax, const float ay, const float bx, const float by, const float distance) {
+static inline int global_apart(const float ax, const float ay, const float bx, const float by, const float distance) {
   const float dx = ax - bx, dy = ay - by;
   return dx * dx + dy * dy > distance * distance;
 }
@@ -38,12 +38,10 @@ static inline void multiply(local const uint* mine, local const uint* others, in
 }
 
 // LONG: three walks over descriptors that share their tiles.
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const WideMatchingArguments args,
-                                                                          global const uchar* row_descriptors,
-                                                                          global const float* row_edges,
-                                                                          global const uchar* column_descriptors,
-                                                                          global const float* column_edges,
-                                                                          global int* best, global float* similarity) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void global_match(
+    const GlobalMatchingArguments args, global const uchar* row_descriptors, global const float* row_edges,
+    global const uchar* column_descriptors, global const float* column_edges, global int* best,
+    global float* similarity) {
   local uint tile[GROUP * PITCH], mine[ROWS * PITCH], found[ROWS * PITCH];
   local int highest[ROWS], winner[ROWS], beaten[ROWS];
   const int item = (int)get_local_id(0), first_row = (int)get_group_id(0) * ROWS;
@@ -113,7 +111,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const 
       for (int r = 0; r < ROWS; ++r) {
         const int row = min(first_row + r, rows - 1) * args.rows.step;
         if (product[r] >= highest[r] &&
-            wide_apart(row_x[other], row_y[other], row_x[row], row_y[row], args.neighbourhood))
+            global_apart(row_x[other], row_y[other], row_x[row], row_y[row], args.neighbourhood))
           atomic_or(beaten + r, 1);
       }
     }
@@ -130,8 +128,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const 
       for (int r = 0; r < ROWS; ++r) {
         const float limit = (float)SQUARE - ((float)SQUARE - (float)highest[r]) / (args.ratio * args.ratio);
         const int of_winner = max(winner[r], 0) * args.columns.step;
-        if ((float)product[r] > limit && wide_apart(column_x[column], column_y[column], column_x[of_winner],
-                                                    column_y[of_winner], args.neighbourhood))
+        if ((float)product[r] > limit && global_apart(column_x[column], column_y[column], column_x[of_winner],
+                                                      column_y[of_winner], args.neighbourhood))
           atomic_or(beaten + r, 1);
       }
     }

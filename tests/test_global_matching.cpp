@@ -54,15 +54,15 @@ stages::DeviceStereoEdges on_device(opencl::Context& context, const StereoEdges&
 
 /// The reference's matches, after checking that every device and variant finds the same.
 TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& current) {
-  const auto expected = reference::wide_matches(earlier, current);
-  for_each_variant("wide_matching", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+  const auto expected = reference::find_global_matches(earlier, current);
+  for_each_variant("global_matching", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
     INFO(name);
     const auto before = on_device(context, earlier.edges), now = on_device(context, current.edges);
     opencl::Buffer<cl_uchar> before_bytes, now_bytes;
     before_bytes.write(context, earlier.descriptors);
     now_bytes.write(context, current.descriptors);
     const auto rows = [](const WideEdges& set) { return static_cast<int>(set.descriptors.size() / kWideBytes); };
-    stages::WideMatching stage(context, variants);
+    stages::GlobalMatching stage(context, variants);
     const auto found = stage.run({before, earlier.step, rows(earlier), before_bytes},
                                  {now, current.step, rows(current), now_bytes}, current.edges);
     CHECK(found.previous == expected.previous);
@@ -78,10 +78,10 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
 }  // namespace
 
 TEST_CASE("wide matching: the step selects about the wanted number of edges", "[wide]") {
-  CHECK(wide_step(0, 3000) == 1);
-  CHECK(wide_step(5999, 3000) == 1);
-  CHECK(wide_step(6000, 3000) == 2);
-  CHECK(wide_step(30000, 3000) == 10);
+  CHECK(global_step(0, 3000) == 1);
+  CHECK(global_step(5999, 3000) == 1);
+  CHECK(global_step(6000, 3000) == 2);
+  CHECK(global_step(30000, 3000) == 10);
 }
 
 TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a good neighbour does not",
