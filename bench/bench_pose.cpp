@@ -140,11 +140,11 @@ void refinement(benchmark::State& state) {
   const auto consensus = pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed,
                                               std::nullopt, search);
   pose::RefinementWorkspace workspace;
-  std::vector<std::uint8_t> inlier;
+  pose::MotionEstimate motion;
   for (auto unused : state) {
     (void)unused;
-    benchmark::DoNotOptimize(pose::refine(input.quads, input.sequence.rig(), input.config.pose,
-                                          consensus.current_from_previous, 0, workspace, inlier));
+    motion.current_from_previous = consensus.current_from_previous;
+    benchmark::DoNotOptimize(pose::refine(input.quads, input.sequence.rig(), input.config.pose, 0, workspace, motion));
   }
 }
 BENCHMARK(refinement)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);

@@ -13,16 +13,18 @@
 namespace generated {
 
 using quadedge::pose::QuadObservations;
-using quadedge::pose::Refined;
 using quadedge::pose::RefinementWorkspace;
 using quadedge::pose::Vector6d;
 
-inline Refined refined_by(const QuadObservations& quads, const quadedge::StereoRig& rig,
-                          const quadedge::PoseConfig& config, const Eigen::Isometry3d& initial,
-                          double offset_variance = 0) {
+/// Result of a refinement that has a solution.
+inline quadedge::pose::MotionEstimate refined_by(const QuadObservations& quads, const quadedge::StereoRig& rig,
+                                                 const quadedge::PoseConfig& config, const Eigen::Isometry3d& initial,
+                                                 double offset_variance = 0) {
   RefinementWorkspace workspace;
-  std::vector<std::uint8_t> inlier;
-  return refine(quads, rig, config, initial, offset_variance, workspace, inlier);
+  quadedge::pose::MotionEstimate refined;
+  refined.current_from_previous = initial;
+  REQUIRE(refine(quads, rig, config, offset_variance, workspace, refined));
+  return refined;
 }
 
 inline Problem drive() {
@@ -53,12 +55,11 @@ inline Trials run_trials(const Problem& problem, int trials) {
   Vector6d squares = Vector6d::Zero();
   for (int trial = 0; trial < trials; ++trial) {
     const auto g = generate(problem, 1000 + static_cast<std::uint64_t>(trial));
-    const Refined refined = refined_by(g.quads, problem.rig, config, problem.motion);
-    REQUIRE(refined.solved);
+    const auto refined = refined_by(g.quads, problem.rig, config, problem.motion);
     const Vector6d error = error_of(refined.current_from_previous, problem.motion);
     result.mean += error / trials;
     squares += error.cwiseAbs2() / trials;
-    result.nees += error.dot(refined.covariance.ldlt().solve(error)) / (6.0 * trials);
+    result.nees += error.dot(refined.learned.covariance.ldlt().solve(error)) / (6.0 * trials);
   }
   result.standard_error = ((squares - result.mean.cwiseAbs2()) / trials).cwiseSqrt();
   return result;

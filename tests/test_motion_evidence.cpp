@@ -24,15 +24,16 @@ struct TwoMotions {
     step.matches.previous = step.quads.match;
     predicted.x = step.quads.scoring.left_x;
     predicted.y = step.quads.scoring.left_y;
-    step.motion.status = pose::MotionStatus::ok;
     step.motion.inliers = static_cast<int>(step.quads.size());
   }
   double area_of(const Eigen::Isometry3d& motion) {
     const Config config;
     const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
     step.motion.current_from_previous = motion;
+    step.verdict = {};
+    step.verdict.refusal = odometry::Refusal::none;
     MotionEvidence(config, offset).judge(predicted, Config().temporal.min_support, step);
-    return step.explained.area;
+    return step.verdict.area;
   }
 };
 
@@ -79,15 +80,15 @@ TEST_CASE("motion evidence: the moving ratio is a fraction of the image, and mot
   TwoMotions seen(thing, scene);
   // Two thirds of the edges belong to the object, where few edges move with the scene; one third belongs to the scene.
   seen.area_of(scene.motion);
-  CHECK(seen.step.explained.moving_ratio > 0.5);
+  CHECK(seen.step.verdict.moving_ratio > 0.5);
   seen.area_of(thing.motion);
-  CHECK(seen.step.explained.moving_ratio > 0.2);
-  CHECK(seen.step.explained.moving_ratio < 0.4);
+  CHECK(seen.step.verdict.moving_ratio > 0.2);
+  CHECK(seen.step.verdict.moving_ratio < 0.4);
 
   thing.motion = scene.motion;
   TwoMotions alike(thing, scene);
   alike.area_of(scene.motion);
-  CHECK(alike.step.explained.moving_ratio < 0.02);
+  CHECK(alike.step.verdict.moving_ratio < 0.02);
 
   const Config config;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
@@ -108,15 +109,15 @@ TEST_CASE("motion evidence: points at rest contradict a motion: the camera may b
   scene.far = 10;
   TwoMotions seen(thing, scene);
   seen.area_of(thing.motion);
-  CHECK(seen.step.explained.static_ratio > 0.1);
+  CHECK(seen.step.verdict.static_ratio > 0.1);
   seen.area_of(scene.motion);
-  CHECK(seen.step.explained.static_ratio < 0.01);
+  CHECK(seen.step.verdict.static_ratio < 0.01);
   // Points too far away to show the motion agree with it as well.
   scene.motion = thing.motion;
   scene.near = scene.far = 2000;
   TwoMotions far(thing, scene);
   far.area_of(thing.motion);
-  CHECK(far.step.explained.static_ratio < 0.01);
+  CHECK(far.step.verdict.static_ratio < 0.01);
 }
 
 TEST_CASE("motion evidence: without enough support among the edges in view a motion is refused", "[odometry]") {
@@ -129,17 +130,17 @@ TEST_CASE("motion evidence: without enough support among the edges in view a mot
   predicted.x.resize(150, std::numeric_limits<float>::quiet_NaN());
   predicted.y.assign(150, 5.0f);
   MotionStep step;
-  const auto refusal = [&](int inliers, pose::MotionStatus status) {
-    step.motion.status = status;
+  const auto refusal = [&](int inliers, odometry::Refusal of_estimate) {
+    step.verdict.refusal = of_estimate;
     step.motion.inliers = inliers;
     evidence.judge(predicted, Config().temporal.min_support, step);
-    CHECK(step.explained.support == Approx(inliers / 100.0));
-    return step.refusal;
+    CHECK(step.verdict.support == Approx(inliers / 100.0));
+    return step.verdict.refusal;
   };
-  CHECK(refusal(7, pose::MotionStatus::ok) == odometry::Refusal::none);
-  CHECK(refusal(5, pose::MotionStatus::ok) == odometry::Refusal::little_support);
-  CHECK(refusal(5, pose::MotionStatus::too_few_quads) == odometry::Refusal::too_few_quads);
-  CHECK(refusal(7, pose::MotionStatus::badly_spread) == odometry::Refusal::badly_spread);
+  CHECK(refusal(7, odometry::Refusal::none) == odometry::Refusal::none);
+  CHECK(refusal(5, odometry::Refusal::none) == odometry::Refusal::little_support);
+  CHECK(refusal(5, odometry::Refusal::too_few_quads) == odometry::Refusal::too_few_quads);
+  CHECK(refusal(7, odometry::Refusal::badly_spread) == odometry::Refusal::badly_spread);
 }
 
 TEST_CASE("motion evidence: global matches confirm the motion that they follow", "[odometry]") {

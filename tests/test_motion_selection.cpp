@@ -43,17 +43,23 @@ Verdict still(Verdict verdict, double still_ratio, double around_ratio) {
 const Verdict kFailure;
 const Expectation kPredicted{0, false, 0.35}, kDoubtful{0, true, 0.35}, kUnpredicted{std::nullopt, false, 0.35};
 
+/// The completed verdict on the motion chosen, and its index.
+struct Choice : Verdict {
+  std::size_t chosen = 0;
+};
+
 /// Motions with the same number are the same; by default, all differ. \param shared fraction of a motion's explained
 /// area that the others explain, too
-Selection choose(const std::vector<Verdict>& verdicts, const Expectation& expectation, std::vector<int> motion = {},
-                 double shared = 0) {
+Choice choose(std::vector<Verdict> verdicts, const Expectation& expectation, std::vector<int> motion = {},
+              double shared = 0) {
   if (motion.empty()) {
     motion.resize(verdicts.size());
     std::iota(motion.begin(), motion.end(), 0);
   }
-  return select(verdicts, expectation,
-                {[&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; },
-                 [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].area; }});
+  const auto chosen = select(verdicts, expectation,
+                             {[&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; },
+                              [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].area; }});
+  return {verdicts[chosen], chosen};
 }
 
 SearchLevel needed(const Verdict& prediction, const Expectation& expectation = kPredicted) {
@@ -71,7 +77,6 @@ TEST_CASE("motion selection: how much is tried depends on what the prediction le
   CHECK(needed(kFailure) == SearchLevel::everything);
   CHECK(needed(found(0.8), kDoubtful) == SearchLevel::everything);
   CHECK(needed(found(0.8), kUnpredicted) == SearchLevel::everything);
-  CHECK(choose({}, kUnpredicted).needed == SearchLevel::everything);
   // An inexpensive hypothesis that explains more than the prediction, and one that does not.
   const Verdict prediction = moving(found(0.5), 0.3);
   CHECK(choose({prediction, closely(0.6)}, kPredicted).needed == SearchLevel::everything);
@@ -146,12 +151,18 @@ TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry
 }
 
 TEST_CASE("motion selection: an ambiguous motion is refused where it is no answer", "[odometry]") {
-  const Selection ambiguous = choose({found(0.5), found(0.3)}, kPredicted);
-  REQUIRE(ambiguous.ambiguity.exists());
-  CHECK(decide(ambiguous, true) == Refusal::none);
-  CHECK(decide(ambiguous, false) == Refusal::ambiguous);
-  CHECK(decide(choose({found(0.5)}, kPredicted), false) == Refusal::none);
-  CHECK(decide(choose({kFailure}, kPredicted), false) == Refusal::no_consensus);
+  const auto decided = [](Verdict verdict, bool accepts_ambiguous, const Ambiguity& later = {}) {
+    decide(accepts_ambiguous, later, verdict);
+    return verdict.refusal;
+  };
+  const Ambiguity later{AmbiguityKind::other_part, 0.2};
+  const Choice ambiguous = choose({found(0.5), found(0.3)}, kPredicted);
+  CHECK(decided(ambiguous, true) == Refusal::none);
+  CHECK(decided(ambiguous, false) == Refusal::ambiguous);
+  CHECK(decided(found(0.5), false) == Refusal::none);
+  CHECK(decided(found(0.5), false, later) == Refusal::ambiguous);
+  CHECK(decided(found(0.5), true, later) == Refusal::none);
+  CHECK(decided(kFailure, false, later) == Refusal::no_consensus);
 }
 
 TEST_CASE("motion selection: edges of distant views that are not found again are no second motion", "[odometry]") {
@@ -200,36 +211,35 @@ TEST_CASE("motion selection: another part of the image is remembered for three s
   TrackRecord record{quadedge::Config()};
   MotionStep step;
   step.clear();
-  step.refusal = Refusal::none;
-  step.motion.status = quadedge::pose::MotionStatus::ok;
+  step.verdict.refusal = Refusal::none;
   step.is_checked = true;
   record.remember(step);
   CHECK_FALSE(record.recent_other_part().exists());
   step.shows_other_part = true;
-  step.ambiguity = {AmbiguityKind::other_part, 0.1};
+  step.verdict.ambiguity = {AmbiguityKind::other_part, 0.1};
   record.remember(step);
   step.shows_other_part = false;
   for (int search = 0; search < 3; ++search) {
     CHECK(record.recent_other_part().exists());
-    CHECK(record.is_check_due(Explained()));
-    step.ambiguity = record.recent_other_part();
+    CHECK(record.is_check_due(Verdict()));
+    step.verdict.ambiguity = record.recent_other_part();
     record.remember(step);
   }
   CHECK_FALSE(record.recent_other_part().exists());
   // What is found beside another ambiguity, with lower limits, is not remembered.
-  step.ambiguity = {AmbiguityKind::moving_image, 0.7};
+  step.verdict.ambiguity = {AmbiguityKind::moving_image, 0.7};
   record.remember(step);
   step.shows_other_part = true;
   record.remember(step);
   CHECK_FALSE(record.recent_other_part().exists());
   // A loss ends the memory.
-  step.ambiguity = {};
+  step.verdict.ambiguity = {};
   step.shows_other_part = false;
   record.remember(step);
   step.shows_other_part = true;
   record.remember(step);
   REQUIRE(record.recent_other_part().exists());
-  step.refusal = Refusal::no_consensus;
+  step.verdict.refusal = Refusal::no_consensus;
   step.is_checked = step.shows_other_part = false;
   record.remember(step);
   CHECK_FALSE(record.recent_other_part().exists());

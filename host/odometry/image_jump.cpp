@@ -15,15 +15,15 @@ bool ImageJump::is_certain(double least) const {
 }
 
 double JumpMeter::median_distance(const Eigen::Vector4d& values) {
-  distances_.clear();
-  for (const Row& row : rows_) distances_.push_back(std::abs(row.difference - row.terms.dot(values)));
-  return upper_median(distances_);
+  scratch_.clear();
+  for (const Row& row : rows_) scratch_.push_back(std::abs(row.difference - row.terms.dot(values)));
+  return upper_median(scratch_);
 }
 
 std::optional<ImageJump> JumpMeter::measure(const pose::MeasuredEdges& before, const pose::MeasuredEdges& now,
                                             const TemporalMatches& matches, const Eigen::Isometry3d& now_from_before) {
   rows_.clear();
-  distances_.clear();
+  scratch_.clear();
   for (std::size_t m = 0; m < matches.size(); ++m) {
     const auto& from = before[static_cast<std::size_t>(matches.previous[m])];
     const auto& to = now[static_cast<std::size_t>(matches.current[m])];
@@ -34,10 +34,10 @@ std::optional<ImageJump> JumpMeter::measure(const pose::MeasuredEdges& before, c
     const double predicted = from->inverse_depth / at.z(), pixels = predicted / to->inverse_depth_per_pixel;
     rows_.push_back({(to->inverse_depth - predicted) / to->inverse_depth_per_pixel,
                      {1, pixels * at.y() / at.z(), -pixels * at.x() / at.z(), -pixels * predicted}});
-    distances_.push_back(rows_.back().difference);
+    scratch_.push_back(rows_.back().difference);
   }
   if (rows_.size() < kMinJumpMatches) return std::nullopt;
-  Eigen::Vector4d values(upper_median(distances_), 0, 0, 0);
+  Eigen::Vector4d values(upper_median(scratch_), 0, 0, 0);
   Eigen::Matrix4d normal;
   for (int round = 0; round < kJumpRounds; ++round) {
     const double scale = std::max(2 * median_distance(values), kLeastJumpScale);

@@ -38,7 +38,7 @@ class JumpMeter {
   double median_distance(const Eigen::Vector4d& values);
 
   std::vector<Row> rows_;  ///< both kept for their memory
-  std::vector<double> distances_;
+  std::vector<double> scratch_;
 };
 
 }  // namespace quadedge::odometry

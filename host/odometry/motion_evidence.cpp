@@ -12,10 +12,8 @@ namespace quadedge::odometry {
 
 void MotionEvidence::judge(const EdgePositions& predicted, double min_support, MotionStep& step) {
   const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
-  step.explained = {};
-  step.explained.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
-  step.refusal = refusal_of(step.motion.status);
-  if (step.ok() && step.explained.support < min_support) step.refusal = Refusal::little_support;
+  step.verdict.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
+  if (step.verdict.support < min_support) step.verdict.refuse(Refusal::little_support);
   if (!step.ok()) return;
   compare_with_standstill(step);
   select(step, step.motion.current_from_previous, kCloseAgreement * config_.pose.inlier_distance,
@@ -41,10 +39,10 @@ void MotionEvidence::measure_area(const EdgePositions& predicted, MotionStep& st
     cell->found += 1;
     cell->explained += step.agrees[q] != 0 ? 1 : 0;
   }
-  step.explained.area = step.cells.explained_area();
-  step.explained.moving_ratio = step.cells.moving_ratio();
+  step.verdict.area = step.cells.explained_area();
+  step.verdict.moving_ratio = step.cells.moving_ratio();
   const double others = step.cells.count(false), all = others + step.cells.count(true);
-  if (step.cells.spread(false) > kSurroundingSpread * step.cells.spread()) step.explained.around_ratio = others / all;
+  if (step.cells.spread(false) > kSurroundingSpread * step.cells.spread()) step.verdict.around_ratio = others / all;
 }
 
 /// Sets the ratios of quads that are static. Edges are not static by chance, and distant edges agree with the motion as
@@ -57,8 +55,8 @@ void MotionEvidence::compare_with_standstill(MotionStep& step) {
   for (std::size_t q = 0; q < step.quads.size(); ++q)
     if (is_still_[q] != 0) (follows_[q] != 0 ? following : still) += 1;
   const double quads = std::max(1.0, static_cast<double>(step.quads.size()));
-  step.explained.static_ratio = still / quads;
-  step.explained.still_ratio = following / quads;
+  step.verdict.static_ratio = still / quads;
+  step.verdict.still_ratio = following / quads;
 }
 
 ExplainedCells MotionEvidence::explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen,

@@ -47,7 +47,9 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
                       pose::QuadLimits(), step.quads);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
-  estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion, goal);
+  step.verdict = {};
+  step.verdict.refusal = estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(),
+                                             step.motion, goal);
   pose_ms_ += milliseconds_since(start);
 }
 
@@ -94,7 +96,7 @@ StepHandle MotionProposals::in_radius(const MotionQuery& query, double radius) {
 StepHandle MotionProposals::still_camera(const MotionQuery& query) {
   StepHandle step = fits_.new_step(query.base);
   step->motion = {};
-  step->motion.status = pose::MotionStatus::ok;
+  step->verdict.refusal = Refusal::none;
   return step;
 }
 
@@ -106,7 +108,7 @@ StepHandle MotionProposals::global_matches(const MotionQuery& query) {
 }
 
 StepHandle MotionProposals::rest_of_global_matches(const MotionQuery& query, const MotionStep& global_matches) {
-  if (!global_matches.has_motion()) return nullptr;
+  if (!global_matches.ok()) return nullptr;
   is_rest_.assign(global_matches.matches.size(), 1);
   for (std::size_t q = 0; q < global_matches.quads.size(); ++q)
     if (global_matches.motion.inlier[q] != 0) is_rest_[static_cast<std::size_t>(global_matches.quads.match[q])] = 0;

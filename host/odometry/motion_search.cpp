@@ -34,46 +34,46 @@ void hide_masked(const PixelMask& hidden, TemporalSearch& search) {
 
 /// Whether a motion explains so little beside a confirmed one that further rounds would not make them ambiguous.
 bool cannot_compete(const MotionStep& step, const MotionStep* known) {
-  return known != nullptr && step.explained.area < kHopelessAreaRatio * known->explained.area;
+  return known != nullptr && step.verdict.area < kHopelessAreaRatio * known->verdict.area;
 }
 
 }  // namespace
 
-MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset,
-                           DisparityOffset* jumps)
+MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
     : config_(config),
       frontend_(frontend),
-      jumps_(jumps),
       fits_(config, offset),
       proposals_(config, frontend, fits_),
       evidence_(config, offset),
       record_(config) {}
 
+MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, DisparityOffset* offset)
+    : MotionSearch(config, frontend, *offset) {
+  jumps_ = offset;
+}
+
 StepHandle MotionSearch::find(const MotionQuery& query) {
   Candidates candidates;
   std::vector<Verdict> verdicts;
-  Selection selection;
-  for (SearchLevel level = SearchLevel::prediction;; level = selection.needed) {
+  std::size_t chosen = 0;
+  for (SearchLevel level = SearchLevel::prediction, needed = level;; level = needed) {
     attempt_all(level, query, candidates);
     if (level == SearchLevel::prediction) follow_jump(query, candidates);
     verdicts = verdicts_on(candidates, query);
-    selection = choose(verdicts, candidates, query);
-    if (query.is_near_prediction || selection.needed <= level) break;
+    if (!verdicts.empty()) chosen = choose(candidates, query, verdicts);
+    needed = verdicts.empty() ? SearchLevel::everything : verdicts[chosen].needed;
+    if (query.only_near_prediction || needed <= level) break;
   }
-  const bool is_checked = selection.refusal == Refusal::none && !query.is_near_prediction &&
-                          record_.is_check_due(verdicts.at(selection.chosen));
-  Ambiguity other_part;
-  if (is_checked) other_part = search_free_cells(query, *candidates[selection.chosen].outcome());
-  const bool shows_other_part = other_part.exists();
-  if (!shows_other_part && query.accepts_ambiguous) other_part = record_.recent_other_part();
-  if (!selection.ambiguity.exists()) selection.ambiguity = other_part;
   if (candidates.empty()) return fits_.new_step(query.base);  // only a motion near a prediction, and there is none
-  StepHandle found = std::move(candidates[selection.chosen].outcome());
-  found->verdict = verdicts[selection.chosen];
-  found->is_checked = is_checked;
-  found->shows_other_part = shows_other_part;
-  found->ambiguity = selection.ambiguity;
-  found->refusal = decide(selection, query.accepts_ambiguous);
+  Verdict& verdict = verdicts[chosen];
+  StepHandle found = std::move(candidates[chosen].outcome());
+  found->is_checked = verdict.is_confirmed() && !query.only_near_prediction && record_.is_check_due(verdict);
+  Ambiguity other_part;
+  if (found->is_checked) other_part = search_free_cells(query, *found);
+  found->shows_other_part = other_part.exists();
+  if (!other_part.exists() && query.accepts_ambiguous) other_part = record_.recent_other_part();
+  decide(query.accepts_ambiguous, other_part, verdict);
+  found->verdict = verdict;
   return found;
 }
 
@@ -83,14 +83,14 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
   if (jumps_ == nullptr || candidates.empty() || jumps_->jump(query.current->frame) != 0) return;
   const MotionStep& step = *candidates.front().proposed;
   const auto jump = jump_meter_.measure(fits_.measured(*step.base), fits_.measured(*query.current), step.matches,
-                                        step.has_motion() ? step.motion.current_from_previous : *query.prediction);
+                                        step.ok() ? step.motion.current_from_previous : *query.prediction);
   // The base is measured with its own displacement, the current frame without one.
   if (!jump || !jump->is_certain(jumps_->has_jumped() ? kLaterJump : kFirstJump)) return;
   jumps_->set_jump(jump->shift);
   Candidates displaced;
   attempt_all(SearchLevel::prediction, query, displaced);
   const auto area = [](const Candidates& of) {
-    return of.front().is_confirmed() ? of.front().confirmed->explained.area : 0;
+    return of.front().is_confirmed() ? of.front().confirmed->verdict.area : 0;
   };
   if (area(displaced) > area(candidates)) {
     candidates = std::move(displaced);
@@ -128,7 +128,7 @@ void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Cand
   }
   Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
   if (!candidate.proposed) return;
-  if (candidate.proposed->has_motion())
+  if (candidate.proposed->ok())
     candidate.confirmed =
         confirm(query, candidate.proposed->motion.current_from_previous, is_close_to_another(hypothesis), known);
   candidates.push_back(std::move(candidate));
@@ -163,7 +163,7 @@ StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry
   const Others others{known, nullptr, closely};
   if (query.key) {
     StepHandle step = confirm_with(query.key, query, limits, current_from_base * query.base_from_key, others);
-    if (step && step->ok() && !closely && step->explained.support < record_.confident_support())
+    if (step && step->ok() && !closely && step->verdict.support < record_.confident_support())
       use_support_of_base(query, limits, *step);
     if (!step || step->ok()) return step;
   }
@@ -176,7 +176,7 @@ void MotionSearch::use_support_of_base(const MotionQuery& query, const PoseConfi
   const Eigen::Isometry3d current_from_base = motion_since(query.base, query, by_key);
   const StepHandle by_base = confirm_with(query.base, query, limits, current_from_base, {});
   if (by_base->ok() && evidence_.is_same_motion(*by_base, current_from_base))
-    by_key.explained.support = std::max(by_key.explained.support, by_base->explained.support);
+    by_key.verdict.support = std::max(by_key.verdict.support, by_base->verdict.support);
 }
 
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
@@ -205,7 +205,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
       step->matches = known->matches;
       fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose, *step);
       predict(step->motion.current_from_previous, kSettledStep, next_search_);
-      if (step->has_motion() && shift_from_known() < kSettled) return nullptr;
+      if (step->ok() && shift_from_known() < kSettled) return nullptr;
     }
   }
   predict_all();
@@ -213,15 +213,16 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
     frontend_.match(*base, search_, step->matches);
     fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
     evidence_.judge(search_.left, others.explained != nullptr ? 0 : config_.temporal.min_support, *step);
-    if (!step->ok()) return step;
+    if (!step->ok()) break;
     current_from_base = step->motion.current_from_previous;
     predict(current_from_base, kSettledStep, next_search_);
     if (known != nullptr && shift_from_known() < kSettled) return nullptr;
     if (round == kGuidedRounds || (others.must_compete && cannot_compete(*step, known)) ||
         frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
-      return step;
+      break;
     predict_all();
   }
+  return step;
 }
 
 std::vector<Verdict> MotionSearch::verdicts_on(const Candidates& candidates, const MotionQuery& query) const {
@@ -231,12 +232,8 @@ std::vector<Verdict> MotionSearch::verdicts_on(const Candidates& candidates, con
   std::vector<Verdict> verdicts;
   for (const Candidate& candidate : candidates) {
     const MotionStep& step = candidate.outcome();
-    Verdict verdict{step.explained};
-    if (candidate.confirmed) {
-      verdict.refusal = step.refusal;
-    } else if (!step.has_motion()) {  // else it led to the known motion
-      verdict.refusal = refusal_of(step.motion.status);
-    }
+    Verdict verdict = step.verdict;
+    if (!candidate.confirmed) verdict.refuse(Refusal::duplicate);
     verdict.has_all_inliers = !is_close_to_another(candidate.hypothesis);
     if (verdict.is_confirmed() && global != candidates.end())
       evidence_.compare_globally(*global->proposed, motion_since(query.base, query, step), verdict);
@@ -245,12 +242,12 @@ std::vector<Verdict> MotionSearch::verdicts_on(const Candidates& candidates, con
   return verdicts;
 }
 
-Selection MotionSearch::choose(const std::vector<Verdict>& verdicts, const Candidates& candidates,
-                               const MotionQuery& query) const {
+std::size_t MotionSearch::choose(const Candidates& candidates, const MotionQuery& query,
+                                 std::vector<Verdict>& verdicts) const {
   Expectation expectation;
   expectation.was_ambiguous = record_.was_ambiguous();
-  expectation.confident_support = query.is_near_prediction ? kChanceSupport : record_.confident_support();
-  if (!candidates.empty() && candidates.front().hypothesis == Hypothesis::near_prediction) expectation.predicted = 0;
+  expectation.confident_support = query.only_near_prediction ? kChanceSupport : record_.confident_support();
+  if (candidates.front().hypothesis == Hypothesis::near_prediction) expectation.predicted = 0;
   Comparison comparison;
   comparison.is_same = [&](std::size_t one, std::size_t other) {
     const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();
@@ -268,12 +265,12 @@ Selection MotionSearch::choose(const std::vector<Verdict>& verdicts, const Candi
 /// matches there lead to the chosen motion again, or to none of the scene's, the rest of them is tried.
 Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const MotionStep& chosen) {
   const StepHandle matches = proposals_.in_free_cells(query, chosen);
-  if (!matches->has_motion()) return {};
+  if (!matches->ok()) return {};
   const OtherPart part = compare_in_free_cells(query, chosen, *matches, *matches);
   const Ambiguity ambiguity = ambiguity_of(part, record_.was_ambiguous());
   if (ambiguity.exists()) return ambiguity;
   const StepHandle rest = proposals_.rest_of_global_matches(query, *matches);
-  if (!rest->has_motion()) return {};
+  if (!rest->ok()) return {};
   OtherPart promised;  // the guided search takes longer than the rest of this
   evidence_.compare_globally(*matches, rest->motion.current_from_previous, chosen,
                              motion_since(query.base, query, chosen), promised);

@@ -19,9 +19,9 @@ namespace quadedge::odometry {
 class MotionSearch : public MotionFinder {
  public:
   /// Refers to the front end and the offset, which must outlive the object.
-  /// \param jumps the same offset, where displaced images are noted; null: none are looked for
-  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset,
-               DisparityOffset* jumps = nullptr);
+  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
+  /// Follows displaced images, too, which are noted in `offset`.
+  MotionSearch(const Config& config, frontend::Frontend& frontend, DisparityOffset* offset);
 
   StepHandle find(const MotionQuery& query) override;
   void remember(const MotionStep& found) override { record_.remember(found); }
@@ -66,14 +66,15 @@ class MotionSearch : public MotionFinder {
   StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
                           Eigen::Isometry3d current_from_base, const Others& others);
   std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;
-  Selection choose(const std::vector<Verdict>& verdicts, const Candidates& candidates, const MotionQuery& query) const;
+  /// Completes the verdict on the motion chosen. Returns its index.
+  std::size_t choose(const Candidates& candidates, const MotionQuery& query, std::vector<Verdict>& verdicts) const;
   Ambiguity search_free_cells(const MotionQuery& query, const MotionStep& chosen);
   OtherPart compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen, const MotionStep& matches,
                                   const MotionStep& proposed);
 
   Config config_;
   frontend::Frontend& frontend_;
-  DisparityOffset* jumps_;
+  DisparityOffset* jumps_ = nullptr;  ///< the offset, if displaced images are followed
   JumpMeter jump_meter_;
   MotionFits fits_;
   MotionProposals proposals_;

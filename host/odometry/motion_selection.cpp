@@ -73,16 +73,6 @@ std::string percent(double ratio) { return std::to_string(std::lround(100 * rati
 
 }  // namespace
 
-Refusal refusal_of(pose::MotionStatus status) {
-  switch (status) {
-    case pose::MotionStatus::ok: return Refusal::none;
-    case pose::MotionStatus::too_few_quads: return Refusal::too_few_quads;
-    case pose::MotionStatus::no_consensus: return Refusal::no_consensus;
-    case pose::MotionStatus::badly_spread: return Refusal::badly_spread;
-  }
-  return Refusal::no_consensus;
-}
-
 std::string to_string(const Ambiguity& ambiguity) {
   switch (ambiguity.kind) {
     case AmbiguityKind::none: return "";
@@ -101,37 +91,34 @@ std::string to_string(const Ambiguity& ambiguity) {
   return "";
 }
 
-std::string to_string(Refusal refusal, const Ambiguity& ambiguity) {
-  switch (refusal) {
+std::string refusal_text(const Verdict& verdict) {
+  switch (verdict.refusal) {
     case Refusal::none: return "";
     case Refusal::too_few_quads: return "too few quads";
     case Refusal::no_consensus: return "no consensus";
     case Refusal::badly_spread: return "badly spread";
     case Refusal::little_support: return "too few of the edges in view follow the motion";
+    case Refusal::duplicate: return "the motion of another hypothesis";
     case Refusal::contradicted: return "matches over the whole image do not follow the motion";
-    case Refusal::ambiguous: return "ambiguous motion after a loss: " + to_string(ambiguity);
+    case Refusal::ambiguous: return "ambiguous motion after a loss: " + to_string(verdict.ambiguity);
   }
   return "";
 }
 
-Selection select(const std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison) {
-  Selection selection;
-  if (verdicts.empty()) return selection;
-  selection.chosen = with_all_inliers(largest(verdicts, expectation.predicted), verdicts, comparison);
-  const Verdict& chosen = verdicts[selection.chosen];
-  const bool is_expected = chosen.is_confirmed() && selection.chosen == expectation.predicted &&
-                           chosen.support >= expectation.confident_support;
-  selection.needed = level_for(chosen, is_expected, expectation.was_ambiguous);
-  selection.refusal = chosen.refusal;
-  if (!chosen.is_confirmed()) return selection;
-  if (!is_expected && !chosen.agrees_globally) selection.refusal = Refusal::contradicted;
-  selection.ambiguity = ambiguity_of(selection.chosen, verdicts, comparison);
-  return selection;
+std::size_t select(std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison) {
+  const std::size_t index = with_all_inliers(largest(verdicts, expectation.predicted), verdicts, comparison);
+  Verdict& chosen = verdicts[index];
+  const bool is_expected =
+      chosen.is_confirmed() && index == expectation.predicted && chosen.support >= expectation.confident_support;
+  chosen.needed = level_for(chosen, is_expected, expectation.was_ambiguous);
+  if (chosen.is_confirmed()) chosen.ambiguity = ambiguity_of(index, verdicts, comparison);
+  if (!is_expected && !chosen.agrees_globally) chosen.refuse(Refusal::contradicted);
+  return index;
 }
 
-Refusal decide(const Selection& selection, bool accepts_ambiguous) {
-  const bool is_refused = selection.refusal == Refusal::none && selection.ambiguity.exists() && !accepts_ambiguous;
-  return is_refused ? Refusal::ambiguous : selection.refusal;
+void decide(bool accepts_ambiguous, const Ambiguity& later, Verdict& chosen) {
+  if (!chosen.ambiguity.exists()) chosen.ambiguity = later;
+  if (chosen.ambiguity.exists() && !accepts_ambiguous) chosen.refuse(Refusal::ambiguous);
 }
 
 Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous) {
@@ -151,7 +138,7 @@ TrackRecord::TrackRecord(const Config& config) : limits_(config.temporal), reche
 void TrackRecord::remember(const MotionStep& found) {
   const bool was_certain = !was_ambiguous_ || doubtful_checks_ > 0;
   recent_support_ = found.ok() ? std::max(found.verdict.support, kSupportDecay * recent_support_) : 0;
-  was_ambiguous_ = found.ambiguity.exists();
+  was_ambiguous_ = found.verdict.ambiguity.exists();
   --frames_to_check_;
   if (!found.ok()) {
     frames_to_check_ = doubtful_checks_ = 0;
@@ -174,10 +161,10 @@ Ambiguity TrackRecord::recent_other_part() const {
   return doubtful_checks_ > 0 ? Ambiguity{AmbiguityKind::recent_other_part, 0} : Ambiguity{};
 }
 
-bool TrackRecord::is_check_due(const Explained& explained) const {
+bool TrackRecord::is_check_due(const Verdict& chosen) const {
   if (limits_.global_edges == 0) return false;
   const double noticeable = std::max(kCheckedMovingRatio, checked_moving_ratio_ + kMovingRatioStep);
-  return frames_to_check_ <= 0 || explained.moving_ratio > noticeable;
+  return frames_to_check_ <= 0 || chosen.moving_ratio > noticeable;
 }
 
 }  // namespace quadedge::odometry

@@ -8,56 +8,20 @@
 #include <string>
 #include <vector>
 
-#include "pose/motion.hpp"
+#include "pose/motion_estimate.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::odometry {
 
 struct MotionStep;
 
-/// Why a motion is refused.
-enum class Refusal {
-  none,
-  too_few_quads,   ///< fewer than an estimate needs
-  no_consensus,    ///< no motion that enough quads follow
-  badly_spread,    ///< the quads that follow it cover too small a part of the image to determine it
-  little_support,  ///< too few of the edges in view follow it
-  contradicted,    ///< the global matches do not follow it
-  ambiguous        ///< another motion may be the camera's, and nothing was known of the motion
-};
-
-/// What a confirmed motion explains of the images.
-struct Explained {
-  double support = 0;       ///< inliers divided by the base's edges that the motion brings into view
-  double area = 0;          ///< mean over the image cells of the fraction of edges that agree closely
-  double moving_ratio = 0;  ///< fraction of the edges in view in cells that hardly follow the motion
-  double static_ratio = 0;  ///< fraction of the quads that are static although the motion would have moved them
-  double still_ratio = 0;   ///< fraction of the quads that are static as the motion would have them
-  double around_ratio = 0;  ///< fraction of the image cells that do not follow, if they lie on all sides; else 0
-};
-
-/// What is known of a motion that was tried.
-struct Verdict : Explained {
-  Refusal refusal = Refusal::no_consensus;  ///< none: the motion was confirmed; else the rest has no meaning
-  bool has_all_inliers = true;  ///< false: confirmed with close agreement, which uses fewer quads than there are
-  bool agrees_globally = true;  ///< with the global matches, if there are any
-  double global_ratio = 0;      ///< fraction of the global matches that agree; 0 if there are none
-
-  bool is_confirmed() const { return refusal == Refusal::none; }
-};
+using pose::Refusal;
 
 /// How much is tried to find a motion. Each level includes those before.
 enum class SearchLevel {
   prediction,   ///< the search near the prediction only
   inexpensive,  ///< hypotheses that cost little beside the rest of a frame
   everything    ///< global matches, which take as long as the rest of a frame
-};
-
-/// What is known about the prediction.
-struct Expectation {
-  std::optional<std::size_t> predicted;  ///< index of the verdict on it; nothing without a prediction
-  bool was_ambiguous = false;            ///< whether the last motion, which it repeats, was ambiguous
-  double confident_support = 0;          ///< support from which it is accepted without further tests
 };
 
 /// Why a motion may not be the camera's.
@@ -80,21 +44,43 @@ struct Ambiguity {
   bool exists() const { return kind != AmbiguityKind::none; }
 };
 
-/// Why an estimate gave no motion; none if it gave one.
-Refusal refusal_of(pose::MotionStatus status);
+/// What is known of a motion that was tried. If it is refused, only the support, the refusal and the ambiguity have a
+/// meaning.
+struct Verdict {
+  double support = 0;       ///< inliers divided by the base's edges that the motion brings into view
+  double area = 0;          ///< mean over the image cells of the fraction of edges that agree closely
+  double moving_ratio = 0;  ///< fraction of the edges in view in cells that hardly follow the motion
+  double static_ratio = 0;  ///< fraction of the quads that are static although the motion would have moved them
+  double still_ratio = 0;   ///< fraction of the quads that are static as the motion would have them
+  double around_ratio = 0;  ///< fraction of the image cells that do not follow, if they lie on all sides; else 0
+
+  bool has_all_inliers = true;  ///< false: confirmed with close agreement, which uses fewer quads than there are
+  bool agrees_globally = true;  ///< with the global matches, if there are any
+  double global_ratio = 0;      ///< fraction of the global matches that agree; 0 if there are none
+
+  Refusal refusal = Refusal::no_consensus;
+  // Of the motion that select() chose:
+  Ambiguity ambiguity;
+  SearchLevel needed = SearchLevel::everything;  ///< if less was tried, the choice is preliminary
+
+  bool is_confirmed() const { return refusal == Refusal::none; }
+  /// Refuses the motion, unless there was a reason before.
+  void refuse(Refusal reason) {
+    if (is_confirmed()) refusal = reason;
+  }
+};
+
+/// What is known about the prediction.
+struct Expectation {
+  std::optional<std::size_t> predicted;  ///< index of the verdict on it; nothing without a prediction
+  bool was_ambiguous = false;            ///< whether the last motion, which it repeats, was ambiguous
+  double confident_support = 0;          ///< support from which it is accepted without further tests
+};
 
 /// In words, for a frame's message.
 std::string to_string(const Ambiguity& ambiguity);
-/// Why a motion was refused, in words; `ambiguity` is the reason for Refusal::ambiguous.
-std::string to_string(Refusal refusal, const Ambiguity& ambiguity);
-
-/// The choice among the verdicts.
-struct Selection {
-  std::size_t chosen = 0;                   ///< index of its verdict
-  Refusal refusal = Refusal::no_consensus;  ///< none: it is the camera's motion as far as the images tell
-  Ambiguity ambiguity;
-  SearchLevel needed = SearchLevel::everything;  ///< if less was tried, the choice is preliminary
-};
+/// Why the motion was refused, in words.
+std::string refusal_text(const Verdict& verdict);
 
 /// Comparisons of two motions by the indices of their verdicts.
 struct Comparison {
@@ -105,12 +91,12 @@ struct Comparison {
   std::function<double(std::size_t, std::size_t)> area_beside;
 };
 
-/// Takes the motion that explains the largest area of the image. `verdicts` are in the order in which the motions were
-/// tried.
-Selection select(const std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison);
+/// Takes the motion that explains the largest area of the image and completes the verdict on it.
+/// \param verdicts in the order in which the motions were tried, at least one \returns the index of the verdict
+std::size_t select(std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison);
 
-/// The final answer: the selection's own refusal, or ambiguous if an ambiguous motion is not accepted.
-Refusal decide(const Selection& selection, bool accepts_ambiguous);
+/// The final answer: an ambiguous motion is refused if it is not accepted. \param later an ambiguity found since
+void decide(bool accepts_ambiguous, const Ambiguity& later, Verdict& chosen);
 
 /// A motion found in the image cells that do not follow the chosen motion.
 struct OtherPart {
@@ -140,7 +126,7 @@ class TrackRecord {
   /// less if recent motions had low support and no other motion was found; 0 if there is no global search to ask.
   double confident_support() const;
   /// Whether the parts of the image that do not follow a motion have to be searched for another one.
-  bool is_check_due(const Explained& explained) const;
+  bool is_check_due(const Verdict& chosen) const;
   /// Whether the last motion, which the prediction repeats, was ambiguous.
   bool was_ambiguous() const { return was_ambiguous_; }
   /// recent_other_part if one of the last searches found another motion, which is seldom gone so soon; else nothing.

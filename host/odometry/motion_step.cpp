@@ -70,15 +70,11 @@ double MotionStep::mean_inverse_depth() const {
 void MotionStep::clear() {
   base = nullptr;
   matches.clear();
-  motion.status = pose::MotionStatus::too_few_quads;
   motion.inliers = 0;
   motion.inlier.clear();
   agrees.clear();
   cells.clear();
-  explained = {};
   verdict = {};
-  refusal = Refusal::too_few_quads;
-  ambiguity = {};
   is_checked = shows_other_part = false;
 }
 

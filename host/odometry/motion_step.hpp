@@ -9,7 +9,8 @@
 #include "common/pool.hpp"
 #include "frontend/frame_edges.hpp"
 #include "odometry/motion_selection.hpp"
-#include "pose/motion.hpp"
+#include "pose/motion_estimate.hpp"
+#include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 
@@ -24,7 +25,7 @@ struct MotionQuery {
   std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
   std::uint64_t seed = 0;
   /// Only a motion near the prediction, with more support than chance gives; no global matches.
-  bool is_near_prediction = false;
+  bool only_near_prediction = false;
   bool accepts_ambiguous = true;  ///< whether an ambiguous motion is an answer
 };
 
@@ -76,21 +77,17 @@ struct MotionStep {
   TemporalMatches matches;
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
+  Verdict verdict;  ///< of the estimate, then of the confirmation; in what find() returns, the final one
   // Of a motion that was confirmed with all edges:
   std::vector<std::uint8_t> agrees;  ///< one per quad: whether it agrees closely
   ExplainedCells cells;
-  Explained explained;
-  // Of a motion that MotionSearch::find() returns:
-  Verdict verdict;
-  Refusal refusal = Refusal::too_few_quads;
-  Ambiguity ambiguity;
+  // Of a motion that MotionFinder::find() returns:
   bool shows_other_part = false;  ///< whether the check found another motion
   bool is_checked = false;        ///< whether the rest of the image was searched for another motion
 
-  /// Whether the motion is accepted.
-  bool ok() const { return refusal == Refusal::none; }
-  /// Whether the matches gave a motion, to be confirmed.
-  bool has_motion() const { return motion.status == pose::MotionStatus::ok; }
+  /// Whether the motion is accepted so far: as a proposal if the matches gave one, then by the confirmation with all
+  /// edges, at last by find().
+  bool ok() const { return verdict.is_confirmed(); }
   /// Mean inverse depth of the inliers in the earlier left camera [1/m]; 0 without inliers.
   double mean_inverse_depth() const;
   /// Releases the edges and keeps the memory.

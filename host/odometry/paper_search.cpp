@@ -92,36 +92,26 @@ void PaperSearch::estimate(std::uint64_t seed, MotionStep& step) {
                       pose::QuadLimits(), step.quads);
   step.quads.scoring.half_length = 0;
   step.motion = {};
-  step.motion.status = solve(seed, step);
-  step.refusal = refusal_of(step.motion.status);
+  step.verdict.refusal = solve(seed, step);
   pose_ms_ += milliseconds_since(start);
 }
 
-pose::MotionStatus PaperSearch::solve(std::uint64_t seed, MotionStep& step) {
+Refusal PaperSearch::solve(std::uint64_t seed, MotionStep& step) {
   pose::MotionEstimate& motion = step.motion;
   motion.inlier.assign(step.quads.size(), 0);
-  if (step.quads.size() < static_cast<std::size_t>(config_.min_inliers)) return pose::MotionStatus::too_few_quads;
+  if (step.quads.size() < static_cast<std::size_t>(config_.min_inliers)) return Refusal::too_few_quads;
   const StereoRig& rig = offset_.rig();
   paper::PaperConsensus found = paper::find_paper_consensus(step.quads, rig.left, config_, seed);
   motion.hypotheses = found.hypotheses;
   motion.draws = found.draws;
-  if (!found.current_from_previous) return pose::MotionStatus::no_consensus;
+  if (!found.current_from_previous) return Refusal::no_consensus;
   motion.inlier = std::move(found.inlier);
   motion.inliers = found.inliers;
-  motion.current_from_previous = *found.current_from_previous;
-  if (config_.refine) {
-    const pose::Refined refined = pose::refine(step.quads, rig, config_, motion.current_from_previous,
-                                               offset_.variance(), refinement_, motion.inlier);
-    motion.current_from_previous = refined.current_from_previous;
-    motion.inliers = refined.inliers;
-    motion.covariance = refined.covariance;
-    motion.offset = refined.offset;
-    motion.learned = refined.learned;
-    if (!refined.solved || !refined.covariance.allFinite()) return pose::MotionStatus::badly_spread;
-  }
-  motion.inlier_ratio = static_cast<double>(motion.inliers) / static_cast<double>(step.quads.size());
-  const bool agreed = motion.inliers >= config_.min_inliers && motion.inlier_ratio >= config_.min_inlier_ratio;
-  return agreed ? pose::MotionStatus::ok : pose::MotionStatus::no_consensus;
+  motion.current_from_previous = motion.learned.current_from_previous = *found.current_from_previous;
+  const bool solved =
+      !config_.refine || pose::refine(step.quads, rig, config_, offset_.variance(), refinement_, motion);
+  if (!solved || !motion.learned.covariance.allFinite()) return Refusal::badly_spread;
+  return motion.has_consensus(config_) ? Refusal::none : Refusal::no_consensus;
 }
 
 }  // namespace quadedge::odometry

@@ -29,8 +29,8 @@ class PaperSearch : public MotionFinder {
   StepHandle new_step(const frontend::FrameEdgesHandle& base);
   /// The motion of the step's matches, measured at their refined positions.
   void estimate(std::uint64_t seed, MotionStep& step);
-  /// The status of the step's motion, and the motion.
-  pose::MotionStatus solve(std::uint64_t seed, MotionStep& step);
+  /// Why there is no motion, or the motion.
+  Refusal solve(std::uint64_t seed, MotionStep& step);
 
   PoseConfig config_;
   frontend::Frontend& frontend_;

@@ -52,7 +52,7 @@ void add_message(const std::string& message, FrameResult& result) {
 std::unique_ptr<odometry::MotionFinder> make_search(const Config& config, frontend::Frontend& frontend,
                                                     odometry::DisparityOffset& offset) {
   if (config.is_paper()) return std::make_unique<odometry::PaperSearch>(config, frontend, offset);
-  return std::make_unique<odometry::MotionSearch>(config, frontend, offset, &offset);
+  return std::make_unique<odometry::MotionSearch>(config, frontend, &offset);
 }
 
 /// The configuration, if it and the rig are valid. \throws DataError, UsageError.
@@ -112,7 +112,7 @@ class StereoOdometry::Implementation {
   void return_to_earlier(FrameResult& result);
   void start_segment(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
-  void report(const odometry::MotionStep& step, const pose::PoseAndOffset& learned, FrameResult& result);
+  void report(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
 
   StereoRig rig_;  ///< the cameras in which edges are detected
@@ -171,7 +171,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     if (step_->ok())
       locate(*step_, result);
     else
-      lose(lost_status(step_->refusal), to_string(step_->refusal, step_->ambiguity), result);
+      lose(lost_status(step_->verdict.refusal), refusal_text(step_->verdict), result);
     result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
   }
   if (result.world_from_left) preparation_.adopt(rig_report);
@@ -335,16 +335,16 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
                                         ", whose place relative to the earlier ones is a prediction"});
 }
 
-/// States what was found of the motion, beside the pose. \param learned what the fit learned of the disparity offset
-void StereoOdometry::Implementation::report(const odometry::MotionStep& step, const pose::PoseAndOffset& learned,
-                                            FrameResult& result) {
+/// States what was found of the motion, beside the pose.
+void StereoOdometry::Implementation::report(const odometry::MotionStep& step, FrameResult& result) {
+  const pose::PoseAndOffset& learned = step.motion.learned;
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
   result.disparity_offset = offset_.value() + learned.offset;
   result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
   if (const auto large = rig::judge_disparity_offset(offset_.value() + step.motion.offset))
     preparation_.warn(rig::warning(*large));
-  result.ambiguous_motion = step.ambiguity.exists();
+  result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
   if (const double jump = offset_.jump(current_->frame); jump != 0) {
     char text[64];
@@ -354,7 +354,7 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, co
                        std::string(text) + " along the epipolar lines and followed, also in later frames: do the "
                                            "cameras swing, or are the images cut or stabilised one by one?"});
   }
-  if (step.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.ambiguity), result);
+  if (step.verdict.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.verdict.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;
   result.diagnostics.search = step.matches.search;
 }
@@ -375,13 +375,13 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
 
   odometry::KeyRigFitness fitness;
   fitness.quads = static_cast<int>(step.matches.size());
-  fitness.inlier_ratio = step.motion.inlier_ratio;
+  fitness.inlier_ratio = step.motion.inlier_ratio();
   fitness.median_parallax = odometry::median_parallax(step.base->edges, step.matches, distances_);
   fitness.rotation = Eigen::AngleAxisd(current_from_key.transform.linear()).angle();
   fitness.frames = current_->frame - state_.key.frame();
 
-  const pose::PoseAndOffset learned = step.motion.learned.value_or(pose::PoseAndOffset());
-  report(step, learned, result);
+  const pose::PoseAndOffset& learned = step.motion.learned;
+  report(step, result);
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
   result.relative_covariance = pose::in_other_order(current_from_key.covariance);
@@ -401,7 +401,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     // than the last, most distant one.
     offset_.update(learned.offset, learned.offset_variance, fitness.frames);
     if (!key_is_ambiguous_) earlier_.remember(state_.key, step.mean_inverse_depth());
-    key_is_ambiguous_ = step.ambiguity.exists();
+    key_is_ambiguous_ = step.verdict.ambiguity.exists();
     state_.set_key(current_, world_from_current);
   } else {
     state_.base = {current_, current_from_key, key_from_current};

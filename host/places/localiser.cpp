@@ -276,11 +276,12 @@ std::optional<Match> Localiser::Implementation::compare(const places::Place& pla
   if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
   const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
-  const pose::MotionEstimate& motion = step->motion;
-  const pose::RelativePose current_from_key = motion.adopted();
-  return Match{&place,         current_from_key,      map_from_key * current_from_key.transform.inverse(),
-               motion.inliers, step->verdict.support, step->mean_inverse_depth(),
-               step->ambiguity};
+  const odometry::Verdict& verdict = step->verdict;
+  const pose::RelativePose current_from_key = step->motion.adopted();
+  const Eigen::Isometry3d found = map_from_key * current_from_key.transform.inverse();
+  return Match{
+      &place,           current_from_key, found, step->motion.inliers, verdict.support, step->mean_inverse_depth(),
+      verdict.ambiguity};
 }
 
 void Localiser::Implementation::set_location(const Match& match, Localisation& result) const {

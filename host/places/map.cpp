@@ -292,7 +292,7 @@ std::optional<GraphEdge> Map::Implementation::search(const places::Place& place,
   query.seed = config_.seed + static_cast<std::uint64_t>(closure.frame);
   if (near_prediction) {
     query.prediction = graph_.pose(node).inverse() * graph_.pose(place.node);
-    query.is_near_prediction = true;
+    query.only_near_prediction = true;
   }
   const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
@@ -301,7 +301,7 @@ std::optional<GraphEdge> Map::Implementation::search(const places::Place& place,
   closure.frame_from_other = frame_from_other.transform;
   closure.inliers = motion.inliers;
   closure.support = step->verdict.support;
-  closure.verdict = step->ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
+  closure.verdict = step->verdict.ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
   GraphEdge edge =
       GraphEdge::of(place.node, node, frame_from_other,
                     pose::rig_sensitivity(frame_from_other.transform.inverse(), step->mean_inverse_depth()), true);

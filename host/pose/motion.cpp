@@ -29,48 +29,41 @@ double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& in
 
 }  // namespace
 
-void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
-                               std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
-                               double offset_variance, MotionEstimate& estimate, RefinementGoal goal) {
-  std::vector<std::uint8_t> inlier = std::move(estimate.inlier);
-  estimate = {};
-  estimate.inlier = std::move(inlier);
-  estimate.inlier.assign(quads.size(), 0);
-  if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return;
+Refusal MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
+                                  std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
+                                  double offset_variance, MotionEstimate& motion, RefinementGoal goal) {
+  std::vector<std::uint8_t> inlier = std::move(motion.inlier);
+  motion = {};
+  motion.inlier = std::move(inlier);
+  motion.inlier.assign(quads.size(), 0);
+  if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return Refusal::too_few_quads;
 
-  estimate.status = MotionStatus::no_consensus;
   const Consensus consensus = find_consensus(quads, rig, config, seed, initial, consensus_);
-  estimate.hypotheses = consensus.hypotheses;
-  estimate.draws = consensus.draws;
-  if (!consensus.found) return;
+  motion.hypotheses = consensus.hypotheses;
+  motion.draws = consensus.draws;
+  if (!consensus.found) return Refusal::no_consensus;
 
-  Eigen::Isometry3d pose = consensus.current_from_previous;
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  motion.current_from_previous = motion.learned.current_from_previous = consensus.current_from_previous;
   bool solved = true;
   if (config.refine) {
-    const Refined refined = refine(quads, rig, config, pose, offset_variance, refinement_, estimate.inlier, goal);
-    pose = refined.current_from_previous;
-    covariance = refined.covariance;
-    solved = refined.solved;
-    estimate.offset = refined.offset;
-    estimate.learned = refined.learned;
-    estimate.inliers = refined.inliers;
+    solved = refine(quads, rig, config, offset_variance, refinement_, motion, goal);
   } else {
-    estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,
-                                      kInlierOrientation, estimate.inlier);
+    motion.inliers = select_inliers(quads.scoring, LaterCameras(rig, motion.current_from_previous),
+                                    config.inlier_distance, kInlierOrientation, motion.inlier);
   }
-  estimate.inlier_ratio = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
-  if (estimate.inliers < config.min_inliers || estimate.inlier_ratio < config.min_inlier_ratio) return;
-  const Eigen::Isometry3d adopted = estimate.learned ? estimate.learned->current_from_previous : pose;
-  const bool is_finite = pose.matrix().allFinite() && covariance.allFinite() && adopted.matrix().allFinite() &&
-                         (!estimate.learned || estimate.learned->covariance.allFinite());
-  if (!solved || !is_finite || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
-    estimate.status = MotionStatus::badly_spread;
-    return;
+  Refusal refusal = Refusal::none;
+  if (!motion.has_consensus(config)) {
+    refusal = Refusal::no_consensus;
+  } else if (!solved || !motion.current_from_previous.matrix().allFinite() ||
+             !motion.learned.current_from_previous.matrix().allFinite() || !motion.learned.covariance.allFinite() ||
+             spread(quads, motion.inlier, rig.left) < config.min_spread) {
+    refusal = Refusal::badly_spread;
   }
-  estimate.status = MotionStatus::ok;
-  estimate.current_from_previous = pose;
-  estimate.covariance = std::move(covariance);
+  if (refusal != Refusal::none) {
+    motion.current_from_previous.setIdentity();
+    motion.learned = {};
+  }
+  return refusal;
 }
 
 }  // namespace quadedge::pose

@@ -37,7 +37,7 @@ double systematic_ratio(const Matrix7d& information, double focal_length) {
 }
 
 /// \param free solution of the equations with a prior of `variance` \param spread see fit_offset()
-PoseAndOffset learned_from(const FreeFit& free, const Matrix7d& information, double variance, double spread,
+PoseAndOffset learned_from(const PoseAndOffset& free, const Matrix7d& information, double variance, double spread,
                            double focal_length) {
   const Elimination quads(information);
   const double systematic = systematic_ratio(information, focal_length);
@@ -106,27 +106,29 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
 class Refinement {
  public:
   Refinement(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, RefinementWorkspace& work,
-             std::vector<std::uint8_t>& inlier, Refined& result)
-      : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), inlier_(inlier), result_(result) {}
+             MotionEstimate& motion)
+      : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), motion_(motion) {}
 
-  void run(double offset_variance, RefinementGoal goal) {
+  /// Returns whether the last fit had a solution.
+  bool run(double offset_variance, RefinementGoal goal) {
+    motion_.offset = 0;
+    motion_.learned = {};
     // Every n-th quad is used to find the pose, all quads to refine it.
     const std::size_t every = std::max<std::size_t>(1, quads_.size() / kSelectionQuads);
     alternate(every);
-    if (goal == RefinementGoal::pose) {
-      result_.inliers = find_inliers();
-      return;
-    }
-    if (result_.solved && every > 1) {
+    const bool is_measured = goal == RefinementGoal::pose_and_covariance && solved_;
+    if (is_measured && every > 1) {
       select(1);
       take_selected();
       if (!(offset_variance > 0)) fit(true);  // with the offset, the final fit follows
     }
-    if (result_.solved && !(offset_variance > 0 && find_offset(offset_variance))) {
-      if (offset_variance > 0 && every > 1) fit(true);
-      if (result_.solved) result_.covariance = covariance_at(0).inflated();
+    if (!is_measured || !(offset_variance > 0 && find_offset(offset_variance))) {
+      if (is_measured && offset_variance > 0 && every > 1) fit(true);
+      if (is_measured && solved_) motion_.learned.covariance = covariance_at(0).inflated();
+      motion_.learned.current_from_previous = motion_.current_from_previous;
     }
-    result_.inliers = find_inliers();
+    find_inliers();
+    return solved_;
   }
 
  private:
@@ -140,16 +142,16 @@ class Refinement {
     }
   }
 
-  int find_inliers() {
-    return select_inliers(quads_.scoring, LaterCameras(rig_, result_.current_from_previous), config_.inlier_distance,
-                          kInlierOrientation, inlier_);
+  void find_inliers() {
+    motion_.inliers = select_inliers(quads_.scoring, LaterCameras(rig_, motion_.current_from_previous),
+                                     config_.inlier_distance, kInlierOrientation, motion_.inlier);
   }
 
   void select(std::size_t every) {
     find_inliers();
     work_.rows.clear();
-    for (std::size_t i = 0; i < inlier_.size(); i += every)
-      if (inlier_[i] != 0) work_.rows.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < motion_.inlier.size(); i += every)
+      if (motion_.inlier[i] != 0) work_.rows.push_back(static_cast<std::int32_t>(i));
   }
 
   void take_selected() {
@@ -158,35 +160,36 @@ class Refinement {
   }
 
   bool fit(bool knows_scale) {
-    Eigen::Isometry3d candidate = result_.current_from_previous;
-    result_.solved = fit_pose(config_, knows_scale, work_, candidate);
-    if (result_.solved && work_.reprojection_scale > 0) scale_ = std::sqrt(work_.reprojection_scale);
-    if (result_.solved) result_.current_from_previous = candidate;
-    return result_.solved;
+    Eigen::Isometry3d candidate = motion_.current_from_previous;
+    solved_ = fit_pose(config_, knows_scale, work_, candidate);
+    if (solved_ && work_.reprojection_scale > 0) scale_ = std::sqrt(work_.reprojection_scale);
+    if (solved_) motion_.current_from_previous = candidate;
+    return solved_;
   }
 
   /// Returns false, with the pose unchanged, if the fit with the offset has no solution.
   bool find_offset(double variance) {
-    OffsetFit both;
-    both.free.current_from_previous = result_.current_from_previous;
     const auto fit_both = [&](const MeasuredCovariance& covariance) {
-      return fit_offset(config_, covariance, variance, work_.reprojection_scale, rig_.left.fx, work_.terms, both);
+      PoseAndOffset free;
+      free.current_from_previous = motion_.current_from_previous;
+      free.offset = motion_.offset;
+      const auto learned =
+          fit_offset(config_, covariance, variance, work_.reprojection_scale, rig_.left.fx, work_.terms, free);
+      if (!learned) return false;
+      motion_.current_from_previous = free.current_from_previous;
+      motion_.offset = free.offset;
+      motion_.learned = *learned;
+      return true;
     };
     // An offset that is not yet included in the disparities would look like correlated errors. It is therefore
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
-    result_.current_from_previous = both.free.current_from_previous;
-    const OffsetFit unweighted = both;
-    if (!fit_both(covariance_at(both.free.offset))) both = unweighted;
-    result_.current_from_previous = both.free.current_from_previous;
-    result_.covariance = both.learned.covariance;
-    result_.offset = both.free.offset;
-    result_.learned = both.learned;
+    fit_both(covariance_at(motion_.offset));
     return true;
   }
 
   MeasuredCovariance covariance_at(double offset) {
-    return measure_covariance(work_.terms, work_.last_rows, quads_, rig_, config_, result_.current_from_previous,
+    return measure_covariance(work_.terms, work_.last_rows, quads_, rig_, config_, motion_.current_from_previous,
                               offset, work_.reprojection_scale, work_.covariance);
   }
 
@@ -195,18 +198,18 @@ class Refinement {
   const PoseConfig& config_;
   const NoiseModel noise_;
   RefinementWorkspace& work_;
-  std::vector<std::uint8_t>& inlier_;
-  Refined& result_;
-  double scale_ = 1;  ///< of the last fit
+  MotionEstimate& motion_;
+  bool solved_ = false;  ///< whether the last fit had a solution
+  double scale_ = 1;     ///< of the last one that had
 };
 
 }  // namespace
 
-bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
-                double reprojection_scale, double focal_length, ReprojectionTerms& terms, OffsetFit& result) {
+std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
+                                        double reprojection_scale, double focal_length, ReprojectionTerms& terms,
+                                        PoseAndOffset& free) {
   const double weight = std::max(covariance.small_cell_inflation, 1.0);
   const double spread = std::max(covariance.inflation, 1.0) / weight;
-  FreeFit& free = result.free;
   Normal<7> normal;
   for (int iteration = 0; iteration < kFitSteps; ++iteration) {
     normal = normal_by_pose_and_offset(terms, free.current_from_previous, free.offset,
@@ -216,23 +219,18 @@ bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, 
     normal.matrix(6, 6) += 1.0 / variance;
     normal.gradient(6) += free.offset / variance;
     Vector7d step;
-    if (!solve(normal, step)) return false;
+    if (!solve(normal, step)) return std::nullopt;
     free.current_from_previous = perturb(step.head<6>(), free.current_from_previous);
     free.offset += step(6);
     if (-normal.gradient.dot(step) < kFitTolerance * kFitTolerance) break;
   }
   normal.matrix(6, 6) -= 1.0 / variance;
-  result.learned = learned_from(free, normal.matrix, variance, spread, focal_length);
-  return true;
+  return learned_from(free, normal.matrix, variance, spread, focal_length);
 }
 
-Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
-               const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
-               std::vector<std::uint8_t>& inlier, RefinementGoal goal) {
-  Refined result;
-  result.current_from_previous = initial;
-  Refinement(quads, rig, config, workspace, inlier, result).run(offset_variance, goal);
-  return result;
+bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, double offset_variance,
+            RefinementWorkspace& workspace, MotionEstimate& motion, RefinementGoal goal) {
+  return Refinement(quads, rig, config, workspace, motion).run(offset_variance, goal);
 }
 
 }  // namespace quadedge::pose

@@ -2,48 +2,30 @@
 /// \file refinement.hpp  Robust least squares on SE(3) over the positions of many quads, and over the pose and a common
 /// offset of all disparities (doc/method.md section 6).
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "pose/covariance.hpp"
+#include "pose/motion_estimate.hpp"
 #include "pose/reprojection_terms.hpp"
 #include "pose/scoring.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::pose {
 
-/// Solution of the equations.
-struct FreeFit {
-  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
-  /// [px], added to every right point along its epipolar line, away from the point at infinity.
-  double offset = 0;
-};
-
-/// A pose and the disparity offset, with their uncertainties.
-struct PoseAndOffset : FreeFit {
-  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose [rad, m]
-  double offset_variance = 0;              ///< [px^2], including the prior
-};
-
-struct OffsetFit {
-  FreeFit free;  ///< in: initial pose and offset; out: solution
-  /// What is worth learning from it. Where an offset looks like a motion, as with all edges at one depth straight ahead
-  /// or while the camera hardly moves, small systematic errors of the edges decide about the free offset. Systematic
-  /// errors (kSystematicPosition, kSystematicDisparity) are added to its variance.
-  PoseAndOffset learned;
-};
-
 /// Continues a fit of `terms` with one more unknown: the common offset of all disparities left by rectification, with a
 /// zero-mean prior of variance `variance` [px^2]. Edges at all depths separate it from a motion along the optical axis;
-/// a stationary camera leaves the prior unchanged. \param covariance the information of the quads is reduced by
-/// small_cell_inflation relative to the prior; the covariance of the result is that of a fit with these weights, with
-/// errors that scatter by `inflation` \param reprojection_scale ratio of measured to assumed variance of the
-/// reprojection residuals \param focal_length of the left camera [px] \returns false if the equations have no solution
-bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
-                double reprojection_scale, double focal_length, ReprojectionTerms& terms, OffsetFit& result);
+/// a stationary camera leaves the prior unchanged.
+/// \param covariance the information of the quads is reduced by small_cell_inflation relative to the prior; the
+/// covariance of the result is that of a fit with these weights, with errors that scatter by `inflation`
+/// \param reprojection_scale ratio of measured to assumed variance of the reprojection residuals
+/// \param focal_length of the left camera [px]
+/// \param free in: initial pose and offset; out: the solution of the equations, without its uncertainties
+/// \returns what is worth learning from it, see MotionEstimate::learned; nothing if the equations have no solution
+std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
+                                        double reprojection_scale, double focal_length, ReprojectionTerms& terms,
+                                        PoseAndOffset& free);
 
 /// Buffers of refine(), kept between calls so that steady-state operation allocates nothing.
 struct RefinementWorkspace {
@@ -57,25 +39,16 @@ struct RefinementWorkspace {
 /// Result wanted from refine(): the pose alone suffices for a motion that a guided search will measure.
 enum class RefinementGoal { pose, pose_and_covariance };
 
-/// Result of refine().
-struct Refined {
-  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
-  int inliers = 0;
-  Matrix6d covariance = Matrix6d::Zero();  ///< see MeasuredCovariance::inflated()
-  bool solved = false;  ///< false: the last fit had no solution; the pose is that before it and the covariance zero
-  double offset = 0;    ///< free disparity offset, see OffsetFit [px]
-  std::optional<PoseAndOffset> learned;  ///< see OffsetFit; without a value there was no fit with an offset
-};
-
 /// Alternates between selecting inliers and Gauss-Newton with Student-t weights over their positions, until the
 /// selection hardly changes; the variance of the errors is measured in each step. All inliers are then used in
 /// fit_offset() with a prior of `offset_variance` [px^2], or in one more fit if that is 0. With RefinementGoal::pose,
 /// neither offset nor covariance is computed. The true depth of each quad is eliminated in closed form, which is the
 /// Schur complement of a bundle adjustment of the two rigs and removes the scale bias of plain PnP. Directions are not
-/// used: the errors of slopes are correlated with the directions that they are compared with. \param initial
-/// current_from_previous, left cameras, metres \param inlier one byte per quad, selected at the final pose
-Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
-               const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
-               std::vector<std::uint8_t>& inlier, RefinementGoal goal = RefinementGoal::pose_and_covariance);
+/// used: the errors of slopes are correlated with the directions that they are compared with.
+/// \param motion in: the initial pose; out: pose, offset, what is learned, and the inliers at the pose
+/// \returns false if the last fit had no solution; the pose is that before it and the covariance zero
+bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, double offset_variance,
+            RefinementWorkspace& workspace, MotionEstimate& motion,
+            RefinementGoal goal = RefinementGoal::pose_and_covariance);
 
 }  // namespace quadedge::pose
