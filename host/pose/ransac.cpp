@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <tbb/parallel_for.h>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,11 @@
 namespace quadedge::pose {
 
 namespace {
+
+/// Pairs that are drawn one by one, which most searches do not exceed; then so many are solved together, in parallel
+/// by blocks.
+constexpr int kDrawsAlone = 256;
+constexpr std::size_t kDrawsTogether = 256, kDrawsPerBlock = 16;
 
 /// Indices of the non-zero bytes, ascending.
 void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_t>& rows) {
@@ -66,19 +72,46 @@ class Search {
     const double pairs = 0.5 * static_cast<double>(order.size()) * static_cast<double>(order.size() - 1);
     const double useful = std::max<double>(kMaxHypotheses, kDrawsPerPair * pairs);
     const int max_draws = useful < config_.max_draws ? static_cast<int>(useful) : config_.max_draws;
-    while (best_.draws < max_draws && best_.hypotheses < std::min(needed_, kMaxHypotheses)) {
-      const double pool_size = std::min(first_pool + growth * best_.draws, static_cast<double>(order.size()));
+    const auto draw = [&](int number) -> PairSample {
+      const double pool_size = std::min(first_pool + growth * number, static_cast<double>(order.size()));
       const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
       order.sort_first(pool);
-      ++best_.draws;
       const std::size_t a = random_index(random_, pool);
       std::size_t b = random_index(random_, pool - 1);
       if (b >= a) ++b;
-      if (const auto motion = solve(order[a], order[b])) consider(*motion);
+      return {order[a], order[b], std::nullopt};
+    };
+    const auto is_done = [&] {
+      return best_.draws >= max_draws || best_.hypotheses >= std::min(needed_, kMaxHypotheses);
+    };
+    while (!is_done()) {
+      work_.drawn.clear();
+      const std::size_t together = best_.draws < kDrawsAlone ? 1 : kDrawsTogether;
+      while (work_.drawn.size() < together)
+        work_.drawn.push_back(draw(best_.draws + static_cast<int>(work_.drawn.size())));
+      solve_drawn();
+      for (std::size_t i = 0; i < together && !is_done(); ++i) {
+        ++best_.draws;
+        if (work_.drawn[i].motion) consider(*work_.drawn[i].motion);
+      }
     }
   }
 
-  std::optional<Eigen::Isometry3d> solve(std::size_t a, std::size_t b) {
+  /// Solves all pairs that are drawn, also those behind the end of the search: where the search ends does not depend on
+  /// how many are solved together.
+  void solve_drawn() {
+    const std::size_t blocks = (work_.drawn.size() + kDrawsPerBlock - 1) / kDrawsPerBlock;
+    if (work_.pairs.size() < blocks) work_.pairs.resize(blocks);
+    const auto solve_block = [&](std::size_t block) {
+      const std::size_t end = std::min(work_.drawn.size(), (block + 1) * kDrawsPerBlock);
+      for (std::size_t i = block * kDrawsPerBlock; i < end; ++i)
+        work_.drawn[i].motion = solve(work_.drawn[i].first, work_.drawn[i].second, work_.pairs[block]);
+    };
+    if (blocks == 1) return solve_block(0);
+    tbb::parallel_for(std::size_t{0}, blocks, solve_block);
+  }
+
+  std::optional<Eigen::Isometry3d> solve(std::size_t a, std::size_t b, PairWorkspace& work) const {
     const double dx = static_cast<double>(quads_.scoring.left_x[a]) - static_cast<double>(quads_.scoring.left_x[b]);
     const double dy = static_cast<double>(quads_.scoring.left_y[a]) - static_cast<double>(quads_.scoring.left_y[b]);
     if (dx * dx + dy * dy < min_distance_squared_) return std::nullopt;
@@ -92,10 +125,10 @@ class Search {
     }
     auto motion = solve_two_quads(before, after, limits_.max_cosine);
     if (!motion || config_.local_optimisation_rounds == 0) return motion;
-    work_.pair_terms[0] = make_sample_term(quads_, a, noise_, rig_.left);
-    work_.pair_terms[1] = make_sample_term(quads_, b, noise_, rig_.left);
+    work.terms[0] = make_sample_term(quads_, a, noise_, rig_.left);
+    work.terms[1] = make_sample_term(quads_, b, noise_, rig_.left);
     Eigen::Isometry3d fitted = *motion;
-    return fit_sample(work_.pair_terms, pair_rows_, config_, fitted, work_.fit) ? fitted : *motion;
+    return fit_sample(work.terms, pair_rows_, config_, fitted, work.fit) ? fitted : *motion;
   }
 
   void consider(const Eigen::Isometry3d& motion) {

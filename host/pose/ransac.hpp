@@ -23,13 +23,27 @@ struct Consensus {
   int draws = 0;       ///< pairs drawn, including rejected ones
 };
 
+/// Two quads that were drawn, and the motion that they give, if they give one.
+struct PairSample {
+  std::size_t first, second;
+  std::optional<Eigen::Isometry3d> motion;
+};
+
+/// Buffers of the fit of one pair.
+struct PairWorkspace {
+  std::vector<SampleTerm> terms = std::vector<SampleTerm>(2);
+  SampleWorkspace fit;
+};
+
 /// Buffers of find_consensus(), kept between calls.
 struct ConsensusWorkspace {
   SubsetWorkspace subset;
   std::vector<SamplingOrder::Entry> order;
   std::vector<std::int32_t> scored_rows, preview_rows;
   ScoringArrays scored, preview;
-  std::vector<SampleTerm> preview_terms, pair_terms = std::vector<SampleTerm>(2);
+  std::vector<SampleTerm> preview_terms;
+  std::vector<PairSample> drawn;
+  std::vector<PairWorkspace> pairs;
   std::vector<std::int32_t> inlier_rows;
   std::vector<std::uint8_t> mask;
   SampleWorkspace fit;
