@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Times libviso2 in turn with `quadedge bench` on KITTI 06 and MH_01 and makes its figures in doc/results/peers.json.
 
-    scripts/peers.py VISO2 --data DIR [--rounds N] [--frames N] [--quadedge FILE] [--out FILE]
+    scripts/peers.py VISO2 --data DIR [--rounds N] [--frames N] [--kernels TEXT] [--quadedge FILE] [--out FILE]
 
 VISO2 is a program that you have built: libviso2 is GPL and no part of this repository. It is called as
     VISO2 LEFT_FOLDER RIGHT_FOLDER F CU CV BASELINE
@@ -69,20 +69,20 @@ def median_of_viso2(program, images, camera):
     return float(found[1])
 
 
-def median_of_quadedge(program, sequence, frames, folder):
+def median_of_quadedge(program, sequence, preset, options, folder):
     file = Path(folder) / "bench.json"
-    subprocess.run([program, "bench", sequence, "--frames", str(frames), "--warm-up", "2", "--quiet", "--force",
-                    "--json", file], stdout=subprocess.DEVNULL, check=True)
+    subprocess.run([program, "bench", sequence, "--preset", preset, "--frames", str(options.frames), "--warm-up", "2",
+                    "--quiet", "--force", "--json", file], stdout=subprocess.DEVNULL, check=True)
     return json.loads(file.read_text(encoding="utf-8"))["latency_ms"]["median"]
 
 
-def add(peers, title, ours, theirs):
+def add(peers, title, kernels, times):
     """Enters the times [ms] of the rounds."""
-    own, other = statistics.median(ours), statistics.median(theirs)
-    peers["libviso2"]["in_turn"][title] = stamped({"quadedge_ms": ours, "libviso2_ms": theirs,
-                                                   "threads": os.cpu_count()})
+    own, other = statistics.median(times["quadedge_ms"]), statistics.median(times["libviso2_ms"])
+    named = f"{title}, {kernels}" if kernels else title
+    peers["libviso2"]["in_turn"][named] = stamped(times | {"threads": os.cpu_count()})
     for row in peers["rows"]:
-        if row[0] == "libviso2" and title == "KITTI 06":
+        if row[0] == "libviso2" and named == "KITTI 06":
             row[1] = f"{other:.0f} ms (QuadEdge in turn with it: {own:.0f} ms)"
 
 
@@ -92,6 +92,7 @@ def main():
     parser.add_argument("--data", type=Path, default=os.environ.get("QUADEDGE_DATA"), required=False)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--frames", type=int, default=30)
+    parser.add_argument("--kernels", help="what is special about the kernels, for the row's name")
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge")
     parser.add_argument("--out", type=Path, default=result_tables.RESULTS / "peers.json")
     options = parser.parse_args()
@@ -105,13 +106,14 @@ def main():
             if cv2:
                 timed.append(("EuRoC MH_01", flight, Path(folder), rectified(flight, Path(folder))))
             for title, sequence, images, camera in timed:
-                ours, theirs = [], []
+                times = {"quadedge_ms": [], "fast_ms": [], "libviso2_ms": []}
                 for _ in range(options.rounds):
-                    theirs.append(median_of_viso2(options.viso2.resolve(), images, camera))
-                    ours.append(median_of_quadedge(options.quadedge, sequence, options.frames, folder))
-                    print(f"{title}: libviso2 {theirs[-1]:.1f} ms, QuadEdge {ours[-1]:.1f} ms", file=sys.stderr,
-                          flush=True)
-                add(peers, title, ours, theirs)
+                    times["libviso2_ms"].append(median_of_viso2(options.viso2.resolve(), images, camera))
+                    for name, preset in (("quadedge_ms", "default"), ("fast_ms", "fast")):
+                        times[name].append(median_of_quadedge(options.quadedge, sequence, preset, options, folder))
+                    print(f"{title}: " + ", ".join(f"{name} {values[-1]:.1f}" for name, values in times.items()),
+                          file=sys.stderr, flush=True)
+                add(peers, title, options.kernels, times)
     except (OSError, ValueError, subprocess.CalledProcessError) as error:
         print(f"peers: {error}", file=sys.stderr)
         return 1

@@ -169,13 +169,15 @@ def pace(results):
     """Frames per second, and beside libviso2 where both ran in turn, for the README."""
     others, rows = results["peers"], []
     for title, timed in others["frames_per_second"].items():
-        own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
-               if row["title"].startswith(title) and row.get("preset", "default") == "default"]
-        rows.append([title.removesuffix(", flight"), *own[:1], "-", timed.get("OpenCV", "-"), origin(results["speed"])])
+        own = {row.get("preset", "default"): f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
+               if row["title"].startswith(title)}
+        rows.append([title.removesuffix(", flight"), own["default"], own["fast"], "-", timed.get("OpenCV", "-"),
+                     origin(results["speed"])])
     for title, timed in others["libviso2"]["in_turn"].items():
-        both = [f"{1000 / statistics.median(timed[name]):.0f}" for name in ("quadedge_ms", "libviso2_ms")]
-        rows.append([f"{title}, in turn", *both, "-", origin(timed)])
-    return table(["frames per second", "QuadEdge", "libviso2", "OpenCV SIFT + PnP", "QuadEdge of"], rows,
+        rates = [f"{1000 / statistics.median(timed[name]):.0f}" if name in timed else "-"
+                 for name in ("quadedge_ms", "fast_ms", "libviso2_ms")]
+        rows.append([f"{title}, in turn", *rates, "-", origin(timed)])
+    return table(["frames per second", "QuadEdge", "`fast`", "libviso2", "OpenCV SIFT + PnP", "QuadEdge of"], rows,
                  others["timed"] + "\n")
 
 

@@ -116,19 +116,22 @@ with tempfile.TemporaryDirectory() as folder:
                                         "P1: 700 0 600 -350 0 700 180 0 0 0 1 0\n")
     log = Path(folder) / "log"
     for name, text in (("viso2", f'echo "viso2 ${{@:3}}" >>{log}; echo "libviso2 9 frames median 20.0 ms, p99 30 ms"'),
-                       ("bench", f'echo bench >>{log}; echo \'{{"latency_ms": {{"median": 41.6}}}}\' >"${{@: -1}}"')):
+                       ("bench", f'echo bench >>{log}; [ "$4" = fast ] && time=25 || time=41.6; '
+                                 'echo "{\\"latency_ms\\": {\\"median\\": $time}}" >"${@: -1}"')):
         (Path(folder) / name).write_text(f"#!/bin/bash\n{text}\n")
         (Path(folder) / name).chmod(0o755)
     file = out / "peers.json"
     file.write_text(json.dumps(others["peers"]))
-    done = run("peers.py", Path(folder) / "viso2", "--quadedge", Path(folder) / "bench", "--rounds", 2,
-               "--data", Path(folder) / "data", "--out", file)
-    assert done.returncode == 0, done.stderr
-    assert log.read_text().splitlines() == ["viso2 700.0 600.0 180.0 0.5", "bench"] * 2, log.read_text()
+    for kernels in ((), ("--kernels", "half as wide")):
+        log.write_text("")
+        done = run("peers.py", Path(folder) / "viso2", "--quadedge", Path(folder) / "bench", "--rounds", 2, *kernels,
+                   "--data", Path(folder) / "data", "--out", file)
+        assert done.returncode == 0, done.stderr
+    assert log.read_text().splitlines() == ["viso2 700.0 600.0 180.0 0.5", "bench", "bench"] * 2, log.read_text()
     timed = json.loads(file.read_text())
-    assert timed["libviso2"]["in_turn"]["KITTI 06"]["quadedge_ms"] == [41.6, 41.6], timed
     shown = result_tables.render("pace", {"peers": timed, "speed": others["speed"]})
-    assert re.search(r"\| KITTI 06, in turn \| 24 \| 50 \| - \| [0-9a-f]{7}\+?, [\d-]{10} \|", shown), shown
+    for title in ("KITTI 06", "KITTI 06, half as wide"):
+        assert re.search(rf"\| {title}, in turn \| 24 \| 40 \| 50 \| - \| [0-9a-f]{{7}}\+?, [\d-]{{10}} \|", shown), shown
     assert "| libviso2 | 20 ms (QuadEdge in turn with it: 42 ms) |" in result_tables.render(
         "peers", {"peers": timed, "speed": others["speed"], "drift": {"rows": [
             {"scene": scene, "end_percent": 1} for scene in ("room", "cables")]}})
