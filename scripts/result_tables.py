@@ -23,7 +23,7 @@ BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re
 PART_OF = {"quads": "matching", "pace": "speed"} | {
     name: "paper" for name in TABLES if name.startswith("paper-")} | dict.fromkeys(
     ("beside", "compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
-# Part -> (title, introduction, tables)
+# Part -> (title, introduction, tables and headings)
 PAGES = {
     "accuracy": ("Accuracy", "Errors are origin-aligned means: absolute (APE) and from frame to frame (RPE)."
                  " [accuracy.md](../accuracy.md) explains them.", ("systems", "steps", "paths", "consistency")),
@@ -39,9 +39,14 @@ PAGES = {
               " leaves about ten grey levels. Light applies to all frames, with camera noise of 8 grey levels, gamma to"
               " both cameras. The fixed edge threshold is 2 grey levels per pixel."
               " [accuracy.md](../accuracy.md#disturbances) sums up.", ("light",)),
-    "paper": ("The paper's method", "Errors from frame to frame of the default without an extension, and of the paper's"
-              " method with one alone, where it has the step. [paper.md](../paper.md) explains them.",
-              ("paper-extensions", "paper-commands")),
+    "paper": ("The paper's method", "[paper.md](../paper.md) explains the tables.", (
+        "## Table 1: stereo\n\nRecall / precision [%] / ambiguity. Precision is the mean over edges with candidates,"
+        " ambiguity the paper's: candidates per edge of the pool less 1.", "paper-stereo",
+        "## Table 2: in time, left images\n\nThe right ones differ little.", "paper-temporal",
+        "## Table 3: pairs of quads\n\nRecall / precision [%].", "paper-constraints",
+        "## Trajectories", "paper-trajectories",
+        "## Extensions\n\nErrors from frame to frame of the default without an extension, and of the paper's method"
+        " with one alone, where it has the step.", "paper-extensions", "## Commands", "paper-commands")),
 }
 NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
 
@@ -59,7 +64,7 @@ def page(part, results):
     if part not in results:
         return f"# {title}\n\n{render(part, results)}"
     blocks = [f"# {title}\n", f"Made by `scripts/measure.py --only {part}`. {about}\n",
-              *(render(name, results) for name in names)]
+              *(f"{name}\n" if name.startswith("#") else render(name, results) for name in names)]
     if "commands" in results[part]["rows"][0] and part != "paper":  # whose commands are a table
         blocks += [f"## Commands\n\n{NAMES}\n", command_list(results[part]["rows"])]
     return "\n".join(blocks)
