@@ -1,9 +1,10 @@
 /// \file place_words.cpp  Makes the table of words of host/places/place_store.hpp from rendered scenes: a
 /// projection on the principal axes of their wide descriptors, and words by k-means. The same table on every run.
 ///
-///   place_words > host/places/place_words.inc
+///   place_words > host/places/place_words.bin
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <random>
@@ -66,12 +67,13 @@ void improve(const Projected& descriptors, Eigen::Matrix<float, kWordNumbers, kW
   }
 }
 
+/// The numbers with five decimals, columns one after another.
 template <class Matrix>
-void print(const char* name, const Matrix& matrix) {
-  std::printf("// %s", name);
-  for (Eigen::Index i = 0; i < matrix.size(); ++i)
-    std::printf("%s%.5fF,", i % 10 == 0 ? "\n" : " ", static_cast<double>(matrix.data()[i]));
-  std::printf("\n");
+void write(const Matrix& matrix) {
+  for (Eigen::Index i = 0; i < matrix.size(); ++i) {
+    const auto rounded = static_cast<float>(std::round(1e5 * static_cast<double>(matrix.data()[i])) / 1e5);
+    std::fwrite(&rounded, sizeof rounded, 1, stdout);
+  }
 }
 
 void make_table() {
@@ -93,10 +95,9 @@ void make_table() {
   for (int word = 0; word < kWords; ++word)
     table.words.col(word) = projected.col(static_cast<Eigen::Index>(random() % static_cast<unsigned>(all.cols())));
   improve(projected, table.words);
-  std::printf("// Made by bench/place_words.cpp; columns one after another.\n");
-  print("mean", table.mean);
-  print("projection", table.projection);
-  print("words", table.words);
+  write(table.mean);
+  write(table.projection);
+  write(table.words);
 }
 
 }  // namespace

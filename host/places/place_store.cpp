@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "quadedge/error.hpp"
@@ -12,19 +14,22 @@ namespace {
 
 constexpr float kWideNorm = 512;  ///< of a wide descriptor
 
-constexpr std::array<float, kWideBytes + kWordNumbers*(kWideBytes + kWords)> kTable = {
-#include "places/place_words.inc"
+/// Of place_words.bin: floats in the order of the members of PlaceWords, columns one after another, little-endian.
+constexpr std::uint8_t kTable[] = {
+#include "place_words.inc"
 };
+static_assert(sizeof kTable == sizeof(float) * (kWideBytes + kWordNumbers * (kWideBytes + kWords)));
 
 }  // namespace
 
 const PlaceWords& place_words() {
   static const PlaceWords words = [] {
     PlaceWords table;
-    const float* next = kTable.data();
+    const std::uint8_t* next = kTable;
     const auto read = [&](auto& matrix) {
-      matrix = Eigen::Map<const std::decay_t<decltype(matrix)>>(next);
-      next += matrix.size();
+      const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(matrix.size());
+      std::memcpy(matrix.data(), next, bytes);
+      next += bytes;
     };
     read(table.mean);
     read(table.projection);
