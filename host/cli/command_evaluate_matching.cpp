@@ -86,39 +86,6 @@ void print_quads(const char* pool, const evaluation::PooledQuads& quads) {
               quads.counts.candidates);
 }
 
-const PooledRow* find(const std::vector<PooledRow>& rows, int order) {
-  for (const auto& row : rows) {
-    if (row.row.order == order) return &row;
-  }
-  return nullptr;
-}
-
-void print_sweep_row(const std::vector<PooledRow>& rows, int order) {
-  const PooledRow* row = find(rows, order);
-  if (row == nullptr) return;
-  const FilterCounts &paired = row->row.paired, &all = row->row.all;
-  std::printf(" | %7s %7s %8s %7s %7s", percent(paired.recall()).c_str(), percent(paired.precision()).c_str(),
-              decimal(paired.ambiguity_mean(), 3).c_str(), percent(all.recall()).c_str(),
-              percent(all.precision()).c_str());
-}
-
-void print_sweep_title(const char* table, const std::vector<PooledRow>& rows, int order) {
-  const PooledRow* row = find(rows, order);
-  if (row != nullptr)
-    std::printf(" | %-40s", (std::string(table) + " " + std::to_string(order) + " " + row->row.filter).c_str());
-}
-
-/// Calls `print` for the chosen rows of all three tables.
-template <class Print>
-void for_rows(const evaluation::MatchingSummary& summary, const std::vector<int>& stereo_orders,
-              const std::vector<int>& temporal_orders, const Print& print) {
-  for (const int order : stereo_orders) print("stereo", summary.stereo, order);
-  for (const int order : temporal_orders) {
-    print("left", summary.temporal_left, order);
-    print("right", summary.temporal_right, order);
-  }
-}
-
 /// Tables 1 to 3, the quads and the disparity errors of one or several results.
 void print_matching(const std::string& title, const evaluation::MatchingSummary& summary) {
   std::printf("\n=== %s: %d stereo frame%s ===\n", title.c_str(), summary.frames, summary.frames == 1 ? "" : "s");
@@ -149,125 +116,14 @@ void print_matching(const std::string& title, const evaluation::MatchingSummary&
   print_constraints(summary);
 }
 
-/// Heading of the lines that print_sweep_line prints; `filters`: the rows of the table that are shown.
-void print_sweep_heading(const std::string& key, const evaluation::MatchingSummary& summary,
-                         const std::vector<int>& stereo_orders, const std::vector<int>& temporal_orders) {
-  std::printf("%12s", "");
-  for_rows(summary, stereo_orders, temporal_orders, print_sweep_title);
-  std::printf("\n%12s", key.substr(key.find('.') + 1).substr(0, 12).c_str());
-  for_rows(summary, stereo_orders, temporal_orders, [](const char*, const std::vector<PooledRow>& rows, int order) {
-    if (find(rows, order) != nullptr)
-      std::printf(" | %7s %7s %8s %7s %7s", "rec", "prec", "ambig", "rec.all", "prec.all");
-  });
-  std::printf("  quads rec  prec  prec.all  disp.med\n");
-}
-
-/// Recall, precision and ambiguity of some rows for one value of a threshold.
-void print_sweep_line(double value, const evaluation::MatchingSummary& summary, const std::vector<int>& stereo_orders,
-                      const std::vector<int>& temporal_orders) {
-  std::printf("%12g", value);
-  for_rows(summary, stereo_orders, temporal_orders,
-           [](const char*, const std::vector<PooledRow>& rows, int order) { print_sweep_row(rows, order); });
-  const FilterCounts& quads = summary.quads_paired.counts;
-  std::printf("  %9s %5s %9s %9s\n", percent(quads.recall()).c_str(), percent(quads.precision()).c_str(),
-              percent(summary.quads_all.counts.precision()).c_str(), decimal(summary.disparity_median, 4).c_str());
-  std::fflush(stdout);
-}
-
 constexpr int kRenderedFrames = 10;  // of a built-in scene, unless --frames says otherwise
-
-/// What `--sweep SECTION.FIELD=FIRST:LAST:STEP` asks for.
-struct Sweep {
-  std::string key;
-  std::vector<double> values;        ///< FIRST, FIRST + STEP, ... up to LAST
-  std::vector<int> stereo_orders;    ///< rows of Table 1 that the constant affects, and the last one
-  std::vector<int> temporal_orders;  ///< rows of Table 2
-};
-
-/// Which filter a constant belongs to; the beginning of its name decides.
-template <class Filter>
-struct Belongs {
-  const char* key;
-  Filter filter;
-};
-constexpr Belongs<StereoFilter> kStereo[] = {{"stereo.epipolar_distance", StereoFilter::epipolar_distance},
-                                             {"stereo.min_depth", StereoFilter::disparity},
-                                             {"stereo.max_disparity", StereoFilter::disparity},
-                                             {"stereo.orientation", StereoFilter::orientation},
-                                             {"stereo.sift_max", StereoFilter::sift},
-                                             {"stereo.ncc_min", StereoFilter::ncc},
-                                             {"stereo.ncc_nearly_best", StereoFilter::nearly_best_ncc},
-                                             {"stereo.sift_nearly_best", StereoFilter::nearly_best_sift},
-                                             {"stereo.shift", StereoFilter::refinement},
-                                             {"stereo.refine_", StereoFilter::refinement},
-                                             {"stereo.cluster", StereoFilter::refinement},
-                                             {"stereo.refined_ncc_min", StereoFilter::similarity},
-                                             {"stereo.refined_ncc_min", StereoFilter::relaxation},
-                                             {"stereo.relaxation", StereoFilter::relaxation},
-                                             {"stereo.support_weight", StereoFilter::relaxation}};
-constexpr Belongs<TemporalFilter> kTemporal[] = {{"temporal.radius", TemporalFilter::displacement},
-                                                 {"temporal.orientation", TemporalFilter::orientation},
-                                                 {"temporal.ncc_min", TemporalFilter::ncc},
-                                                 {"temporal.sift_max", TemporalFilter::sift},
-                                                 {"temporal.ncc_nearly_best", TemporalFilter::nearly_best_ncc},
-                                                 {"temporal.sift_nearly_best", TemporalFilter::nearly_best_sift}};
-
-/// Rows of the filters that a constant belongs to, then the last row.
-template <class Filter, std::size_t Size>
-std::vector<int> rows_of(const std::string& key, const Belongs<Filter> (&table)[Size]) {
-  std::vector<int> rows;
-  for (const auto& entry : table) {
-    if (key.rfind(entry.key, 0) == 0) rows.push_back(order_of(entry.filter));
-  }
-  rows.push_back(order_of(Filter::best));
-  return rows;
-}
-
-/// The configuration with one constant changed. \throws UsageError for a value out of its range.
-Config with_value(Config config, const std::string& key, double value) {
-  const auto& all = constants();
-  const auto constant =
-      std::find_if(all.begin(), all.end(), [&](const Constant& candidate) { return candidate.key() == key; });
-  const ConfigField field = constant == all.end() ? ConfigField(static_cast<bool*>(nullptr)) : constant->field(config);
-  if (auto* const* real = std::get_if<double*>(&field)) {
-    **real = value;
-  } else if (auto* const* whole = std::get_if<int*>(&field)) {
-    **whole = static_cast<int>(std::lround(value));
-  } else {
-    throw UsageError("--sweep: no numeric constant '" + key + "'; --help-all lists all constants");
-  }
-  check_config(config);
-  return config;
-}
-
-/// \throws UsageError for malformed text, an unknown key, or a constant that is not a number.
-Sweep parse_sweep(const std::string& text) {
-  const auto equals = text.find('=');
-  double first = 0, last = 0, step = 0;
-  int length = 0;
-  if (equals == std::string::npos ||
-      std::sscanf(text.c_str() + equals, "=%lf:%lf:%lf%n", &first, &last, &step, &length) != 3 ||
-      equals + static_cast<std::size_t>(length) != text.size() || !(step > 0) || !(last >= first) ||
-      !((last - first) / step < 1000)) {
-    throw UsageError("--sweep " + text +
-                     ": expected SECTION.FIELD=FIRST:LAST:STEP, for example stereo.ncc_min=0.4:0.9:0.05");
-  }
-  Sweep sweep;
-  sweep.key = text.substr(0, equals);
-  const int count = static_cast<int>((last - first) / step + 1e-9) + 1;
-  for (int i = 0; i < count; ++i) sweep.values.push_back(first + i * step);
-  sweep.stereo_orders = rows_of(sweep.key, kStereo);
-  sweep.temporal_orders = rows_of(sweep.key, kTemporal);
-  with_value({}, sweep.key, first);
-  return sweep;
-}
 
 class EvaluateMatchingCommand : public Command {
  public:
   EvaluateMatchingCommand()
       : Command("evaluate matching", "recall, precision and ambiguity after every filter (Tables 1 to 3)",
                 "  quadedge evaluate matching two_view_training/terrace_2s --html terrace.html --json terrace.json\n"
-                "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05") {}
+                "  quadedge evaluate matching room --frames 5 --stereo.ncc_min 0.8") {}
   void declare(Options& options) override {
     options.positionals("PATH", paths_,
                         "stereo pairs with disparities, sequences with depth (`quadedge synth`), folders of these, or "
@@ -279,7 +135,6 @@ class EvaluateMatchingCommand : public Command {
     options.number("--scene-seed", scene_.seed, "seed of the built-in scenes");
     options.number("--tolerance", tolerance_.position,
                    "maximum distance of a veridical match from the true position [px]");
-    options.text("--sweep", sweep_, "print only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.output("--json", json_, "also write the tables to a file");
     options.output(
         "--html", html_,
@@ -295,9 +150,6 @@ class EvaluateMatchingCommand : public Command {
     if (frames_ < 0) throw UsageError("--frames " + std::to_string(frames_) + ": expected 0 or more");
     if (!(tolerance_.position > 0 && tolerance_.position <= 100))
       throw UsageError("--tolerance: expected more than 0 and at most 100 px");
-    if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
-      throw UsageError("--sweep excludes --json, --html and --draw");
-    }
     report::check_output_file(html_, force_);
     place_data_of_page();
     report::refuse_shared_files({html_, json_}, {});
@@ -306,8 +158,7 @@ class EvaluateMatchingCommand : public Command {
     const Config config = method_.config();
     open_sources();
     Device device = method_.open_device();
-    if (!sweep_.empty()) return run_sweep(config, device);
-    const auto results = evaluate(config, device, true);
+    const auto results = evaluate(config, device);
     if (results.size() > 1) {
       for (const auto& result : results) print_matching(result.name, evaluation::summarise({result}));
     }
@@ -347,14 +198,14 @@ class EvaluateMatchingCommand : public Command {
     }
   }
 
-  std::vector<evaluation::MatchingResult> evaluate(const Config& config, Device& device, bool with_figures) const {
+  std::vector<evaluation::MatchingResult> evaluate(const Config& config, Device& device) const {
     Progress progress(quiet_);
     std::vector<evaluation::MatchingResult> results;
     for (const auto& source : sources_) {
       evaluation::MatchingOptions options;
       options.frames = frames_;
       options.tolerance = tolerance_;
-      options.distributions = with_figures;
+      options.distributions = true;
       if (!html_.empty() || !draw_.empty()) options.draw_frame = std::numeric_limits<int>::max();
       options.progress = [&](int done, int all) { progress.update(source->name(), done, all); };
       results.push_back(evaluation::evaluate_matching(*source, device, config, options));
@@ -367,20 +218,9 @@ class EvaluateMatchingCommand : public Command {
     return results;
   }
 
-  int run_sweep(const Config& config, Device& device) const {
-    const Sweep sweep = parse_sweep(sweep_);
-    for (std::size_t i = 0; i < sweep.values.size(); ++i) {
-      const auto summary =
-          evaluation::summarise(evaluate(with_value(config, sweep.key, sweep.values[i]), device, false));
-      if (i == 0) print_sweep_heading(sweep.key, summary, sweep.stereo_orders, sweep.temporal_orders);
-      print_sweep_line(sweep.values[i], summary, sweep.stereo_orders, sweep.temporal_orders);
-    }
-    return 0;
-  }
-
   std::vector<std::string> paths_;
   SyntheticOptions scene_;
-  std::string size_, sweep_, json_, html_, draw_;
+  std::string size_, json_, html_, draw_;
   int frames_ = 0;
   bool force_ = false, quiet_ = false;
   evaluation::MatchingTolerance tolerance_;
