@@ -16,10 +16,10 @@ namespace quadedge::evaluation {
 
 /// Rows of Table 3: all pairs of quads, then the constraints of the paper's Equation 9 in succession.
 inline constexpr std::array<const char*, 7> kConstraintNames = {
-    "baseline",           "length of D",    "angle of D and T1", "angle of D and T2",
+    "all pairs",          "length of D",    "angle of D and T1", "angle of D and T2",
     "angle of T1 and T2", "D not along T1", "handedness"};
 
-/// Pairs of quads that satisfy constraints 1 to `order`. Veridical: both quads are veridical.
+/// Element k: the pairs of quads that satisfy constraints 1 to k. Veridical: both quads are veridical.
 struct ConstraintCounts {
   std::int64_t pairs = 0, veridical = 0;
 };
@@ -32,7 +32,7 @@ struct MotionError {
 MotionError motion_error(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth);
 
 /// Median errors of the motions obtained from single pairs (Proposition 2), over the pairs that satisfy constraints 1
-/// to `order`. NaN if too few pairs give a motion.
+/// to k, in element k. NaN if too few pairs give a motion.
 using PairAccuracy = std::array<MotionError, kConstraintNames.size()>;
 
 /// Measurements of the pairs of one frame.

@@ -67,7 +67,7 @@ void DeviceFrontend::measure(const stages::DeviceStereoEdges& stereo_edges, stag
   used_threshold_ = &threshold;
 }
 
-bool DeviceFrontend::smooths(FrameEdges& current) {
+bool DeviceFrontend::smooth_if_noisy(FrameEdges& current) {
   if (is_smoothed_) return false;
   is_smoothed_ = noise_gate_.judge(threshold_.host_noise(), threshold_.host_gradient());
   if (!is_smoothed_) return false;
@@ -82,7 +82,7 @@ bool DeviceFrontend::smooths(FrameEdges& current) {
 void DeviceFrontend::detect(FrameEdges& current) {
   do {
     find_edges();
-  } while (smooths(current));
+  } while (smooth_if_noisy(current));
   counts_.edge_threshold = used_threshold_->host_threshold();
   current.edges_spacing = std::max(selection_.host_spacing(), static_cast<double>(kClosestSelection));
   counts_.edges_left = left_.edges.host_count;
@@ -122,7 +122,7 @@ FrameEdges& DeviceFrontend::start(const StereoFrame& frame) {
   if (noise_gate_.is_open()) {
     threshold_.request();
     context_.finish();
-    smooths(current);
+    smooth_if_noisy(current);
   }
   return current;
 }

@@ -45,14 +45,13 @@ class DeviceFrontend : public StagedFrontend {
            const PixelMask& hidden, int max_value, const Config& config);
   };
 
-  void take_left_mask() override {
-    left_.mask.set(calibration_.left_mask, config_.edges.margin, left_.detection.maxima());
-  }
+  void take_left_mask() override { left_.mask.set(calibration_.left_mask, config_.edges.margin); }
   FrameEdges& start(const StereoFrame& frame) override;
   /// Prepares both images for detection and measures their threshold.
   void measure(const stages::DeviceStereoEdges& stereo_edges, stages::EdgeThreshold& threshold, float known_noise);
   /// Smooths both images and measures them again, if their noise asks for it and they are not smoothed yet.
-  bool smooths(FrameEdges& current);
+  /// \returns whether it did, so that edges are to be found again
+  bool smooth_if_noisy(FrameEdges& current);
   void find_edges();
   void detect(FrameEdges& current) override;
   void describe(const FrameEdges& current, bool by_sift) override;

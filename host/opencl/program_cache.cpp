@@ -4,8 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string_view>
+#include <thread>
 #include <unistd.h>
 
 #define XXH_INLINE_ALL  // header-only
@@ -58,7 +60,9 @@ void ProgramCache::keep(const std::string& key, const Binary& binary) const {
   if (folder_.empty()) return;
   std::error_code failed;
   fs::create_directories(folder_, failed);
-  const std::string unfinished = path(key) + "." + std::to_string(getpid());
+  // Named as a program, so that what a crash leaves is removed as the oldest file some day.
+  const auto thread = std::hash<std::thread::id>()(std::this_thread::get_id());
+  const std::string unfinished = path(key) + "." + std::to_string(getpid()) + "." + std::to_string(thread) + kSuffix;
   {
     std::ofstream stream(unfinished, std::ios::binary);
     const std::string_view bytes(reinterpret_cast<const char*>(binary.data()), binary.size());

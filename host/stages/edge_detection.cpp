@@ -151,20 +151,19 @@ void EdgeDetection::find_maxima_in_tiles(const PaddedPlane& plane, const opencl:
 
 EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima)
     : context_(context), local_size_(context.is_cpu() ? 1 : 64) {
-  set(mask, margin, maxima);
-}
-
-void EdgeMask::set(const PixelMask& mask, int margin, const EdgeMaxima& maxima) {
-  width_ = mask.width;
-  height_ = mask.height;
-  if (mask.empty()) return;
-  hidden_.write(context_, with_border(mask, margin).hidden);
-  if (std::exchange(is_built_, true)) return;
+  // Also without a mask, as one that is found in mid-run should not delay that frame.
   if (maxima.at_pixels) {
     pixels_ = {context_, context_.program({"edge_mask.cl"}, maxima.defines()), "edge_mask_pixels"};
   } else {
     rows_ = {context_, opencl::joint_program(context_, {"edge_mask.cl"}), "edge_mask_rows"};
   }
+  set(mask, margin);
+}
+
+void EdgeMask::set(const PixelMask& mask, int margin) {
+  width_ = mask.width;
+  height_ = mask.height;
+  if (!mask.empty()) hidden_.write(context_, with_border(mask, margin).hidden);
 }
 
 void EdgeMask::run(EdgeMaxima& maxima) {

@@ -12,7 +12,8 @@ namespace quadedge::stages {
 /// Stage 2a: the threshold of a frame's edges, from what its images show.
 /// Measures contrast and noise of a stereo pair. The threshold stays on the device, where the edge detection reads it,
 /// so the host does not wait. If edges.threshold > 0, it is used and nothing is measured. The threshold of the previous
-/// frame is kept while it is close to what the images show. All variants give the same bytes.
+/// frame stays in use while it is within a factor kThresholdHold of the measured one (hysteresis). All variants give
+/// the same bytes.
 class EdgeThreshold : private Stage {
  public:
   /// `variants`: stage "edge_threshold". \throws UsageError for an unknown variant.
@@ -116,7 +117,7 @@ class EdgeMask {
   EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima);
 
   /// Replaces the mask, between frames.
-  void set(const PixelMask& mask, int margin, const EdgeMaxima& maxima);
+  void set(const PixelMask& mask, int margin);
   /// Enqueues only.
   void run(EdgeMaxima& maxima);
 
@@ -124,7 +125,6 @@ class EdgeMask {
   opencl::Context& context_;
   int width_ = 0, height_ = 0;
   std::size_t local_size_;
-  bool is_built_ = false;
   opencl::Buffer<cl_uchar> hidden_;  ///< empty: no mask
   opencl::Kernel<void(cl_int width, cl_int height, const cl_uchar* mask, cl_float* winners, cl_int* counts)> rows_;
   opencl::Kernel<void(cl_int pixels, const cl_uchar* mask, cl_uchar* flags)> pixels_;
