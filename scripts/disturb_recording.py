@@ -28,6 +28,10 @@ NOISE = 2.0  # grey levels
 DISPARITY = 25.0  # of a board [px]
 
 
+def files(recording, side):
+    return sorted((recording.root / recording.parts[side]).iterdir())
+
+
 def transform(numbers):
     matrix = np.eye(4)
     matrix[:3, :4] = np.reshape(numbers, (-1, 4))[:3]
@@ -46,9 +50,6 @@ class Kitti:
         self.right_from_left = np.eye(4)
         self.right_from_left[0, 3] = projections[1][0, 3] / self.focal
         self.intrinsics = projections[0]
-
-    def files(self, side):
-        return sorted((self.root / self.parts[side]).iterdir())
 
     def rays(self, side, shape):
         v, u = np.mgrid[:shape[0], :shape[1]]
@@ -77,9 +78,6 @@ class Euroc:
         body = [transform(each["data"]) for each in numbers]
         self.right_from_left = np.linalg.inv(body[1]) @ body[0]
 
-    def files(self, side):
-        return sorted((self.root / self.parts[side]).iterdir())
-
     def rays(self, side, shape):
         v, u = np.mgrid[:shape[0], :shape[1]]
         (fu, fv, cu, cv), (k1, k2, p1, p2) = self.lens[side]
@@ -103,8 +101,7 @@ class Euroc:
 def on_board(recording, side, shape):
     """Where the pixels' rays meet the plane of the board, in pixels of the left camera at the plane's depth."""
     x, y = recording.rays(side, shape)
-    baseline = np.linalg.norm(recording.right_from_left[:3, 3])
-    depth = recording.focal * baseline / DISPARITY
+    depth = recording.focal * np.linalg.norm(recording.right_from_left[:3, 3]) / DISPARITY
     left_from_camera = np.eye(4) if side == 0 else np.linalg.inv(recording.right_from_left)
     rays = np.stack([x, y, np.ones_like(x)])
     rays = np.tensordot(left_from_camera[:3, :3], rays, 1)
@@ -126,14 +123,13 @@ def sample(photo, u, v):
 
 def alter(args):
     recording = (Kitti if (args.recording / "sequences").exists() else Euroc)(args.recording, args.sequence)
-    begin, end = (int(x) if x else None for x in args.frames.split(":"))
-    frames = slice(begin, end)
+    frames = slice(*(int(x) if x else None for x in args.frames.split(":")))
     photo = np.asarray(Image.open(args.photo).convert("L"), float) if args.board else None
     recording.start(args.out, frames)
     random = np.random.default_rng(args.seed)
     for side, part in enumerate(recording.parts):
         still = places = None
-        for number, file in enumerate(recording.files(side)[frames]):
+        for number, file in enumerate(files(recording, side)[frames]):
             image = np.asarray(Image.open(file).convert("L"), float).copy()
             if still is None:
                 still = image.copy()

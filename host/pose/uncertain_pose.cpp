@@ -13,13 +13,10 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 }  // namespace
 
 Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform) {
-  Eigen::Matrix3d cross;
-  const Eigen::Vector3d t = transform.translation();
-  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
   Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();
   result.topLeftCorner<3, 3>() = transform.linear();
   result.bottomRightCorner<3, 3>() = transform.linear();
-  result.bottomLeftCorner<3, 3>() = cross * transform.linear();
+  result.bottomLeftCorner<3, 3>() = cross_matrix(transform.translation()) * transform.linear();
   return result;
 }
 
