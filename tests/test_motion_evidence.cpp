@@ -153,17 +153,30 @@ TEST_CASE("motion evidence: global matches confirm the motion that they follow",
   MotionStep global;
   odometry::Verdict verdict;
   global.quads = generated::generate(problem, 3).quads;
-  evidence.compare_globally(global, problem.motion, verdict);
+  global.motion.inlier.assign(global.quads.size(), 1);
+  evidence.compare_globally(global, nullptr, problem.motion, verdict);
   CHECK(verdict.agrees_globally);
   CHECK(verdict.global_ratio > 0.9);
-  evidence.compare_globally(global, shift(-1, 0.9), verdict);
+  CHECK(verdict.rival_ratio < 0.1);
+  // What they leave may follow another motion: 20 quads of these, beside 40.
+  generated::Problem other = problem;
+  other.motion = shift(-1, 0.9);
+  other.quads = 20;
+  MotionStep rest;
+  rest.quads = generated::generate(other, 5).quads;
+  rest.motion.inlier.assign(rest.quads.size(), 1);
+  evidence.compare_globally(global, &rest, problem.motion, verdict);
+  CHECK(verdict.rival_ratio == Approx(0.5).margin(0.05));
+  evidence.compare_globally(global, &rest, other.motion, verdict);
   CHECK_FALSE(verdict.agrees_globally);
+  CHECK(verdict.rival_ratio > 10);
   // Neighbours on one curve count once.
   problem.quads = 1;
   problem.copies = 40;
   global.quads = generated::generate(problem, 4).quads;
   REQUIRE(global.quads.size() == 40);
-  evidence.compare_globally(global, problem.motion, verdict);
+  global.motion.inlier.assign(40, 1);
+  evidence.compare_globally(global, nullptr, problem.motion, verdict);
   CHECK_FALSE(verdict.agrees_globally);
 }
 

@@ -169,8 +169,16 @@ TEST_CASE("motion selection: edges of distant views that are not found again are
   Verdict confirmed = moving(found(0.5), 0.6);
   confirmed.global_ratio = 0.5;
   CHECK_FALSE(choose({confirmed}, kPredicted).ambiguity.exists());
+  // Fewer global matches suffice if the rest of them propose nothing, in as many places as a pose needs.
   confirmed.global_ratio = 0.2;
-  CHECK(choose({confirmed}, kPredicted).ambiguity.kind == AmbiguityKind::moving_image);
+  confirmed.rival_ratio = 0.4;
+  CHECK_FALSE(choose({confirmed}, kPredicted).ambiguity.exists());
+  Verdict elsewhere = confirmed, sparse = confirmed, unknown = confirmed;
+  elsewhere.rival_ratio = 0.6;
+  sparse.agrees_globally = false;
+  unknown.global_ratio = unknown.rival_ratio = 0;
+  for (const Verdict& doubtful : {elsewhere, sparse, unknown})
+    CHECK(choose({doubtful}, kPredicted).ambiguity.kind == AmbiguityKind::moving_image);
   // A competing motion counts by what the chosen one does not explain.
   CHECK(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.3).ambiguity.ratio == Approx(0.42));
   CHECK_FALSE(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.4).ambiguity.exists());
@@ -205,6 +213,29 @@ TEST_CASE("motion selection: another motion on all sides counts if more matches 
   CHECK(ambiguity_of(rest, false).exists());
   rest.is_rest = true;  // has to prevail: its area alone is no evidence
   CHECK_FALSE(ambiguity_of(rest, false).exists());
+}
+
+TEST_CASE("motion selection: after most of the image has changed, the next three frames are searched", "[odometry]") {
+  const auto searches_after = [](double before, double changed) {
+    TrackRecord record{quadedge::Config()};
+    MotionStep step;
+    step.clear();
+    step.verdict = moving(found(0.5), before);
+    step.is_checked = true;
+    for (int frame = 0; frame < 3; ++frame) record.remember(step);  // the first ones
+    step.verdict = moving(found(0.5), changed);
+    record.remember(step);
+    int searches = 0;
+    step.verdict = moving(found(0.5), 0.05);  // what has appeared is followed
+    while (searches < 10 && record.is_check_due(step.verdict)) {
+      record.remember(step);
+      ++searches;
+    }
+    return searches;
+  };
+  CHECK(searches_after(0.2, 0.75) == 3);
+  CHECK(searches_after(0.2, 0.45) == 0);
+  CHECK(searches_after(0.6, 0.75) == 0);  // as in every step of distant views
 }
 
 TEST_CASE("motion selection: another part of the image is remembered for three searches", "[odometry]") {

@@ -94,10 +94,19 @@ bool MotionEvidence::is_same_motion(const MotionStep& found, const Eigen::Isomet
   return shared >= kSharedInlierRatio * inliers;
 }
 
-void MotionEvidence::compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion,
-                                      Verdict& verdict) const {
-  std::vector<std::uint8_t> agrees;
+void MotionEvidence::compare_globally(const MotionStep& global_matches, const MotionStep* rest,
+                                      const Eigen::Isometry3d& motion, Verdict& verdict) const {
+  std::vector<std::uint8_t> agrees, of_rest;
   const int agreeing = select(global_matches, motion, kGlobalInlierDistance, pose::kInlierOrientation, agrees);
+  if (rest != nullptr) select(*rest, motion, kGlobalInlierDistance, pose::kInlierOrientation, of_rest);
+  const auto follow_instead = [](const std::vector<std::uint8_t>& proposed, const std::vector<std::uint8_t>& these) {
+    int count = 0;
+    for (std::size_t q = 0; q < these.size(); ++q) count += proposed[q] != 0 && these[q] == 0 ? 1 : 0;
+    return count;
+  };
+  const int rival = std::max(follow_instead(global_matches.motion.inlier, agrees),
+                             rest == nullptr ? 0 : follow_instead(rest->motion.inlier, of_rest));
+  verdict.rival_ratio = rival / std::max(1.0, static_cast<double>(agreeing));
   verdict.global_ratio = agreeing / std::max(1.0, static_cast<double>(agrees.size()));
   verdict.agrees_globally =
       pose::count_cells(global_matches.quads.scoring, agrees, pose::kInflationCell) >= config_.pose.min_inliers;

@@ -34,10 +34,12 @@ class MotionEvidence {
   /// \param chosen current_from_base, since the base of `other`
   ExplainedCells explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen, double distance) const;
 
-  /// Compares a motion since the global matches' base with them: sets global_ratio and agrees_globally. It agrees if
-  /// they follow it in at least as many image cells as an estimate needs inliers: a global match can lie anywhere, so
-  /// that a wrong motion agrees with hardly any. Matches in the same cell count once, since their errors are alike.
-  void compare_globally(const MotionStep& global_matches, const Eigen::Isometry3d& motion, Verdict& verdict) const;
+  /// Compares a motion since the global matches' base with them: sets global_ratio, agrees_globally and rival_ratio. It
+  /// agrees if they follow it in at least as many image cells as an estimate needs inliers: a global match can lie
+  /// anywhere, so that a wrong motion agrees with hardly any. Matches in the same cell count once, since their errors
+  /// are alike. \param rest what their own motion left of them, with another motion of these; may be null
+  void compare_globally(const MotionStep& global_matches, const MotionStep* rest, const Eigen::Isometry3d& motion,
+                        Verdict& verdict) const;
 
   /// Counts the global matches that a motion explains and that of `chosen` does not: sets match_spread, balance
   /// and agrees_globally. \param other, by_chosen motions since the global matches' base

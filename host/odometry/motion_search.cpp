@@ -226,17 +226,20 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
 }
 
 std::vector<Verdict> MotionSearch::verdicts_on(const Candidates& candidates, const MotionQuery& query) const {
-  const auto global = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& candidate) {
-    return candidate.hypothesis == Hypothesis::global_matches;
-  });
+  const auto proposed = [&](Hypothesis hypothesis) -> const MotionStep* {
+    for (const Candidate& candidate : candidates)
+      if (candidate.hypothesis == hypothesis) return candidate.proposed.get();
+    return nullptr;
+  };
+  const MotionStep *global = proposed(Hypothesis::global_matches), *rest = proposed(Hypothesis::rest_of_global_matches);
   std::vector<Verdict> verdicts;
   for (const Candidate& candidate : candidates) {
     const MotionStep& step = candidate.outcome();
     Verdict verdict = step.verdict;
     if (!candidate.confirmed) verdict.refuse(Refusal::duplicate);
     verdict.has_all_inliers = !is_close_to_another(candidate.hypothesis);
-    if (verdict.is_confirmed() && global != candidates.end())
-      evidence_.compare_globally(*global->proposed, motion_since(query.base, query, step), verdict);
+    if (verdict.is_confirmed() && global != nullptr)
+      evidence_.compare_globally(*global, rest, motion_since(query.base, query, step), verdict);
     verdicts.push_back(verdict);
   }
   return verdicts;

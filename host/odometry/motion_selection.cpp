@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "odometry/motion_step.hpp"
 #include "odometry/odometry_constants.hpp"
@@ -48,9 +49,15 @@ double competing_area(std::size_t chosen, const std::vector<Verdict>& verdicts, 
   return largest;
 }
 
+/// Whether the global matches confirm a motion with which most of the image is not found again.
+bool is_confirmed_globally(const Verdict& verdict) {
+  if (verdict.global_ratio >= kConfirmedGlobalRatio) return true;
+  return verdict.global_ratio > 0 && verdict.agrees_globally && verdict.rival_ratio < kRivalRatio;
+}
+
 Ambiguity ambiguity_of(std::size_t chosen, const std::vector<Verdict>& verdicts, const Comparison& comparison) {
   const Verdict& verdict = verdicts[chosen];
-  if (verdict.moving_ratio > kMinorityMotionRatio && verdict.global_ratio < kConfirmedGlobalRatio)
+  if (verdict.moving_ratio > kMinorityMotionRatio && !is_confirmed_globally(verdict))
     return {AmbiguityKind::moving_image, verdict.moving_ratio};
   if (verdict.still_ratio > kStillQuadRatio && verdict.around_ratio > kMovingSidesRatio)
     return {AmbiguityKind::moving_sides, verdict.around_ratio};
@@ -146,9 +153,10 @@ void TrackRecord::remember(const MotionStep& found) {
   }
   if (!found.is_checked) return;
   doubtful_checks_ = found.shows_other_part && was_certain ? kRechecks : std::max(0, doubtful_checks_ - 1);
-  rechecks_ = was_ambiguous_ ? kRechecks : std::max(0, rechecks_ - 1);
+  const double moving_ratio = found.verdict.moving_ratio, before = std::exchange(checked_moving_ratio_, moving_ratio);
+  const bool has_appeared = moving_ratio > std::max(kMinorityMotionRatio, before + kAppearanceStep);
+  rechecks_ = was_ambiguous_ || has_appeared ? kRechecks : std::max(0, rechecks_ - 1);
   frames_to_check_ = rechecks_ > 0 ? 0 : kCheckInterval - 1;
-  checked_moving_ratio_ = found.verdict.moving_ratio;
 }
 
 double TrackRecord::confident_support() const {

@@ -57,6 +57,7 @@ struct Verdict {
   bool has_all_inliers = true;  ///< false: confirmed with close agreement, which uses fewer quads than there are
   bool agrees_globally = true;  ///< with the global matches, if there are any
   double global_ratio = 0;      ///< fraction of the global matches that agree; 0 if there are none
+  double rival_ratio = 0;       ///< global matches of another motion that they propose, over those that agree
 
   Refusal refusal = Refusal::no_consensus;
   // Of the motion that select() chose:

@@ -40,6 +40,9 @@ constexpr double kMinorityMotionRatio = 0.5;
 /// A motion that this fraction of the global matches agree with is not that of a minority: between distant views, most
 /// edges are not found again.
 constexpr double kConfirmedGlobalRatio = 1.0 / 3.0;
+/// Nor is one that fewer agree with, if each other motion that they propose has fewer than this many per match of it:
+/// the rest are mismatches, which propose nothing.
+constexpr double kRivalRatio = 0.5;
 
 /// A part of the image that moves otherwise counts above these fractions of all image cells and of those that the
 /// chosen motion does not explain.
@@ -59,9 +62,10 @@ constexpr int kFreeCellThinning = 2;
 
 /// The rest of the image is searched for another motion after this number of frames, or earlier if the moving ratio has
 /// risen to kCheckedMovingRatio and by kMovingRatioStep; at the start, after a loss and after one was found, in each of
-/// the next kRechecks frames.
+/// the next kRechecks frames. If it has risen by kAppearanceStep to more than kMinorityMotionRatio, something may have
+/// appeared that only the next frames' edges can show and that their motions may follow: it is searched for in these.
 constexpr int kCheckInterval = 10, kRechecks = 3;
-constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1;
+constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1, kAppearanceStep = 0.25;
 
 /// Two motions whose explained areas have a ratio above this are ambiguous.
 constexpr double kCompetingAreaRatio = 0.4;

@@ -143,8 +143,10 @@ void add_board(Sequence& sequence, const Board& board) {
                    y0 = 0.5 * (kHeight - height);
       for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-          const double cover = std::clamp(x - x0 + 0.5, 0.0, 1.0) * std::clamp(x0 + width - x + 0.5, 0.0, 1.0) *
-                               std::clamp(y - y0 + 0.5, 0.0, 1.0) * std::clamp(y0 + height - y + 0.5, 0.0, 1.0);
+          const double cover =
+              i < board.begin ? 0
+                              : std::clamp(x - x0 + 0.5, 0.0, 1.0) * std::clamp(x0 + width - x + 0.5, 0.0, 1.0) *
+                                    std::clamp(y - y0 + 0.5, 0.0, 1.0) * std::clamp(y0 + height - y + 0.5, 0.0, 1.0);
           if (cover == 0 && !board.still_camera) continue;
           double grey = (1 - cover) * image.view().value(x, y);
           if (cover > 0) grey += cover * board_grey(x - x0, y - y0, board.fine);

@@ -44,6 +44,7 @@ struct Board {
   double speed = 4;          ///< [px per frame]
   double disparity = 11;     ///< nearer than the scene [px]
   bool fine = false;         ///< texture: a mosaic of squares instead of blobs
+  std::size_t begin = 0;     ///< frame in which it appears
   bool still_camera = true;  ///< all frames show the scene of the first one, each with new camera noise
 };
 void add_board(Sequence& sequence, const Board& board);

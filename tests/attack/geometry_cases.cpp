@@ -89,11 +89,11 @@ void halve_right(Sequence& s) {
 }
 
 Alteration boards(double area, double speed, bool fine) {
-  return [=](Sequence& s) { add_board(s, {area, speed, 11, fine, true}); };
+  return [=](Sequence& s) { add_board(s, {area, speed, 11, fine, 0, true}); };
 }
 
-Alteration boards_before_a_moving_camera(double area, bool fine) {
-  return [=](Sequence& s) { add_board(s, {area, 4, 11, fine, false}); };
+Alteration boards_before_a_moving_camera(double area, bool fine, std::size_t begin = 0) {
+  return [=](Sequence& s) { add_board(s, {area, 4, 11, fine, begin, false}); };
 }
 
 /// Changes the pixels of every image, depending on the frame number.
@@ -254,6 +254,7 @@ std::vector<GeometryCase> make_cases() {
   for (const bool fine : {false, true})
     cases.push_back({std::string("board over 60 % before a moving camera") + (fine ? ", mosaic" : ""), Demand::reported,
                      room, boards_before_a_moving_camera(0.6, fine)});
+  add("board over 60 % appears, cables", Demand::reported, cables, boards_before_a_moving_camera(0.6, true, 5));
   for (const double area : {0.1, 0.2, 0.4, 0.6})
     for (const double speed : {2.0, 4.0, 8.0})
       for (const bool fine : {false, true})
