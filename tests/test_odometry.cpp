@@ -371,8 +371,10 @@ TEST_CASE("odometry: a right camera that turns during the recording is noticed o
     const auto results = track(scene, all_devices().front(), scene.config);
     for (std::size_t i = 0; i < results.size(); ++i) {
       CHECK(is_tracked(results[i].status));
-      for (const Warning& warning : results[i].warnings)
+      for (const Warning& warning : results[i].warnings) {
+        CHECK(warning.kind != WarningKind::unsynchronised_cameras);
         if (warning.kind == WarningKind::changed_rig) frames.push_back(i);
+      }
     }
     return frames;
   };

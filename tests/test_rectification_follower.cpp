@@ -67,6 +67,7 @@ TEST_CASE("rectification follower: a camera that turns is learned anew after fou
     const bool has_turned = frame >= 30;
     const double change = followed.observe(matches_of(has_turned ? turned : RectificationError{}, random));
     CHECK((change > 0.5) == (frame == 33));
+    CHECK(followed.is_contradicted() == (has_turned && frame <= 33));
     changes += change > 0 ? 1 : 0;
   }
   CHECK(changes == 1);

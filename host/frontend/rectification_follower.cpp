@@ -53,7 +53,8 @@ double RectificationFollower::observe(const std::vector<rig::CornerMatch>& match
   if (!is_settled_) next_ = error_;
   is_settled_ = true;
   double change = 0;
-  if (!contradicts(matches)) {
+  is_contradicted_ = contradicts(matches);
+  if (!is_contradicted_) {
     changed_ = rig::RowModel(rig_.right);
     rows_.add(matches);
   } else if (changed_.sums().frames > kContradicting) {

@@ -30,6 +30,8 @@ class RectificationFollower {
   /// Begins with what earlier recordings with the rig have shown.
   void start_from(const rig::RowModel::Sums& known);
   const rig::RowModel& rows() const { return rows_; }
+  /// Whether the frame last observed contradicted the earlier ones: its rows are not those of the known rig.
+  bool is_contradicted() const { return is_contradicted_; }
 
   /// Of the current frame; zero unless the images show clearly that it matters.
   const RectificationError& error() const { return error_; }
@@ -44,6 +46,7 @@ class RectificationFollower {
   RectificationError error_, next_;  ///< of the current frame, and of the next one
   rig::RowModel rows_;               ///< of the frames taken
   rig::RowModel changed_;            ///< of the last ones, which contradict the others
+  bool is_contradicted_ = false;     ///< by the last frame
   bool is_settled_ = false;          ///< whether a frame has been taken
   bool is_second_search_ = false;
 };

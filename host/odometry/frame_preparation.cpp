@@ -35,9 +35,15 @@ rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
                             counts.epipolar_correction);
 }
 
-void FramePreparation::adopt(const rig::RigReport& report) {
-  const double change = report.matches != nullptr ? frontend_->observe(*report.matches) : 0;
+void FramePreparation::adopt(const rig::RigReport& report, const std::optional<Eigen::Isometry3d>& current_from_last) {
+  if (report.matches == nullptr) return;
+  const double change = frontend_->observe(*report.matches);
+  // A camera that has just turned displaces points once, whatever moves then, which a late camera does with all motion.
+  if (current_from_last && !frontend_->rectification().is_contradicted()) {
+    if (const auto late = rig_monitor_.observe_motion(*current_from_last)) warn(rig::warning(*late));
+  }
   if (change == 0) return;
+  rig_monitor_.forget_motions();
   char text[160];
   std::snprintf(
       text, sizeof text,

@@ -2,6 +2,7 @@
 /// \file frame_preparation.hpp  What a frame goes through before its motion is searched for: the stereo edges, and
 /// whether the images fit the rig.
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <set>
@@ -43,8 +44,9 @@ class FramePreparation {
   rig::RigReport judge(const StereoFrame& frame);
   /// Warns of the findings. \returns the reason why the frame cannot be located, if there is one
   std::optional<FrameFault> fault(const rig::RigReport& report);
-  /// Takes over what a frame that was located shows of the rows.
-  void adopt(const rig::RigReport& report);
+  /// Takes over what a frame that was located shows of the rows, and of the cameras' synchronisation if the rows are
+  /// those of the frames before. \param current_from_last left cameras [m], if that frame was located, too
+  void adopt(const rig::RigReport& report, const std::optional<Eigen::Isometry3d>& current_from_last);
   /// Hides pixels of the left image, besides those that the rig masks, from the next frame on.
   void hide(const PixelMask& mask) { frontend_->hide(mask); }
 
@@ -53,7 +55,6 @@ class FramePreparation {
   std::vector<Warning> new_warnings();
 
   frontend::Frontend& frontend() const { return *frontend_; }
-  rig::RigMonitor& rig_monitor() { return rig_monitor_; }
 
  private:
   RecordedImages recorded_;

@@ -127,10 +127,11 @@ class StereoOdometry::Implementation {
   odometry::EarlierRigs earlier_;
   bool key_is_ambiguous_ = false;  ///< the motion that gave the key rig its pose
   odometry::ConstantVelocity velocity_;
-  bool has_returned_ = false;           ///< the last frame was located against an earlier key rig
-  bool was_lost_ = false;               ///< the last frame
-  frontend::FrameEdgesHandle current_;  ///< of the last frame tracked; null before the first frame
-  odometry::StepHandle step_;           ///< its motion; null if none was searched for
+  bool has_returned_ = false;                           ///< the last frame was located against an earlier key rig
+  bool was_lost_ = false;                               ///< the last frame
+  std::optional<Eigen::Isometry3d> current_from_last_;  ///< of a frame just located, if the last one was, too
+  frontend::FrameEdgesHandle current_;                  ///< of the last frame tracked; null before the first frame
+  odometry::StepHandle step_;                           ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
   bool starts_segment_ = false;    ///< with the next frame that has edges
   std::vector<double> distances_;  ///< buffer of median_parallax()
@@ -174,7 +175,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
       lose(lost_status(step_->verdict.refusal), refusal_text(step_->verdict), result);
     result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
   }
-  if (result.world_from_left) preparation_.adopt(rig_report);
+  if (result.world_from_left) preparation_.adopt(rig_report, std::exchange(current_from_last_, std::nullopt));
   if (rig_report.new_mask) hide(*rig_report.new_mask);
   result.segment = state_.segment;
   state_.world_from_last = result.pose_or_prediction();
@@ -368,10 +369,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   const Eigen::Isometry3d current_from_base = current_from_key.transform * state_.base.from_key.transform.inverse();
   const int frames = current_->frame - state_.base.frame_edges->frame;
   if (!has_returned_) velocity_.observe(current_from_base, frames);
-  if (frames == 1) {
-    if (const auto late = preparation_.rig_monitor().observe_motion(current_from_base))
-      preparation_.warn(rig::warning(*late));
-  }
+  if (frames == 1) current_from_last_ = current_from_base;
 
   odometry::KeyRigFitness fitness;
   fitness.quads = static_cast<int>(step.matches.size());

@@ -178,7 +178,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
     velocity_.observe(result.map_from_left->inverse() * *last_, 1);
   else
     velocity_.forget();
-  if (result.map_from_left) preparation_.adopt(report);
+  if (result.map_from_left) preparation_.adopt(report, std::nullopt);
   last_ = result.map_from_left;
   result.latency_ms = milliseconds_since(start);
   return result;
