@@ -47,6 +47,18 @@ TEST_CASE("bad data: an empty or missing folder is refused by name", "[cli]") {
   CHECK(run_program({"check", folder.path()}).code == 3);
 }
 
+TEST_CASE("check: a damaged image hides nothing of what the others say of the calibration", "[cli]") {
+  const DamagedSequence sequence;
+  std::filesystem::rename(sequence / "rgb", sequence / "once_left");
+  std::filesystem::rename(sequence / "rgb2", sequence / "rgb");
+  std::filesystem::rename(sequence / "once_left", sequence / "rgb2");
+  std::ofstream(sequence.image("rgb", 1)) << "not an image";
+  const auto result = run_program({"check", sequence.path()});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("error: ") && Contains(sequence.image("rgb", 1).filename().string()));
+  CHECK_THAT(result.out, Contains("warning: ") && Contains("exchanged"));
+}
+
 TEST_CASE("edges: a file that is not an image is refused by name", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "text.png") << "not an image";

@@ -58,6 +58,13 @@ TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leave
   for (int i = 0; i <= most; ++i)
     CHECK((earlier.find(rigs[static_cast<std::size_t>(i)].frame_edges()) == nullptr) == (i == 4));
   CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).size() == odometry::kEarlierTrials);
+}
+
+TEST_CASE("earlier rigs: one that was returned to is kept once", "[odometry][key_rig]") {
+  EarlierRigs earlier;
+  const KeyRig first = turned(0, 0), second = turned(1, 1);
+  for (const KeyRig* rig : {&first, &second, &first}) earlier.remember(*rig, 0);
+  CHECK(frames_of(earlier.nearest(Eigen::Isometry3d::Identity())) == std::vector<int>{0, 1});
   earlier.clear();
   CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).empty());
 }

@@ -69,7 +69,7 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   last_ = std::nullopt;
   constexpr int kFrames = 12;
   const bool shows_rows = frames == 0 ? (pair.number & (pair.number - 1)) == 0  // ever fewer
-                                      : pair.number % std::max(1, frames / kFrames) == 0;
+                                      : pair.number * kFrames % frames < kFrames;
   if (shows_rows) see_rows(dataset.rig, pair);
   if (pair.number == 0 || pair.number == frames / 2) {
     check_rig_evidence(dataset, pair, found_);

@@ -18,9 +18,10 @@ std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
+  bool empty() const { return !dataset_; }
   /// The dataset of the pairs, without its stream. Valid after the first see().
   const Dataset& dataset() const { return dataset_.value(); }
-  /// Adds the findings. To be called once. \returns the corrected calibration
+  /// Adds the findings. To be called once, after see(). \returns the corrected calibration
   StereoCalibration finish(DatasetCheck& check);
 
  private:

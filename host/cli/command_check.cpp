@@ -52,8 +52,9 @@ class CheckCommand : public Command {
     const auto see = [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); };
     DatasetCheck check = source_.is_own_camera() ? check_stereo_source(source_.own_camera(), see)
                                                  : check_dataset(path_, source_.layout(options_), see);
-    if (!check.errors.empty()) return check;
+    if (evidence.empty()) return check;
     const StereoCalibration corrected = evidence.finish(check);
+    if (!check.errors.empty()) return check;
     const Dataset& dataset = evidence.dataset();
     if (!calibration_.empty())
       write_calibration(calibration_,

@@ -14,6 +14,7 @@ double EarlierRigs::difference(const Kept& one, const Eigen::Isometry3d& world_f
 }
 
 void EarlierRigs::remember(const KeyRig& rig, double inverse_depth) {
+  if (find(rig.frame_edges()) != nullptr) return;  // was returned to
   if (!kept_.empty() && difference(kept_.back(), rig.world_from_left()) < kSameView) return;
   kept_.push_back({rig, inverse_depth});
   if (kept_.size() <= kEarlierRigs) return;

@@ -12,7 +12,7 @@ namespace quadedge::odometry {
 class EarlierRigs {
  public:
   /// Keeps a key rig that is replaced, if its view differs from that of the last one kept. Beyond kEarlierRigs the one
-  /// that is most similar to its successor leaves. \param inverse_depth mean of what it sees [1/m]
+  /// that is most similar to its successor leaves. \param inverse_depth mean of what is seen from nearly there [1/m]
   void remember(const KeyRig& rig, double inverse_depth);
   void clear() { kept_.clear(); }
 

@@ -125,7 +125,8 @@ class StereoOdometry::Implementation {
 
   odometry::TrackingState state_;
   odometry::EarlierRigs earlier_;
-  bool key_is_ambiguous_ = false;  ///< the motion that gave the key rig its pose
+  bool keeps_key_ = true;     ///< for a loss, when it is replaced: the motion that gave it its pose is not ambiguous
+  double inverse_depth_ = 0;  ///< mean of what the frame located last sees [1/m]
   odometry::ConstantVelocity velocity_;
   bool has_returned_ = false;                           ///< the last frame was located against an earlier key rig
   bool was_lost_ = false;                               ///< the last frame
@@ -192,7 +193,7 @@ void StereoOdometry::Implementation::restart() {
   last_stamp_ns_.reset();
   velocity_.forget();
   earlier_.clear();
-  key_is_ambiguous_ = false;
+  keeps_key_ = true;
   starts_segment_ = starts_segment_ || state_.has_started();
   const odometry::TrackingState before = std::exchange(state_, {});
   state_.segment = before.segment;
@@ -311,9 +312,9 @@ void StereoOdometry::Implementation::return_to_earlier(FrameResult& result) {
   has_returned_ = found != nullptr && step_->base != state_.base.frame_edges && step_->base != state_.key.frame_edges();
   if (!has_returned_) return;
   const odometry::KeyRig earlier = *found;
-  if (!key_is_ambiguous_) earlier_.remember(state_.key, step_->mean_inverse_depth());
+  if (keeps_key_) earlier_.remember(state_.key, step_->mean_inverse_depth());
   state_.set_key(earlier.frame_edges(), earlier.pose());
-  key_is_ambiguous_ = false;
+  keeps_key_ = true;
   velocity_.forget();
   add_message("located against frame " + std::to_string(earlier.frame()) + ", not since the last frame", result);
 }
@@ -323,7 +324,7 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
   const auto number = [](int of) { return std::to_string(of); };
   const int last = state_.base.frame_edges->frame, lost = state_.lost->frame_edges->frame, segment = ++state_.segment;
   earlier_.clear();
-  key_is_ambiguous_ = false;
+  keeps_key_ = true;
   state_.set_key(state_.lost->frame_edges,
                  {state_.lost->world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()},
                  odometry::PoseOrigin::predicted);
@@ -394,12 +395,13 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
 
   state_.lost = std::nullopt;
   was_lost_ = false;
+  inverse_depth_ = step.mean_inverse_depth();
   if (result.new_key_rig) {
     // All frames located against one key rig share its disparities, so that together they carry no more information
     // than the last, most distant one.
     offset_.update(learned.offset, learned.offset_variance, fitness.frames);
-    if (!key_is_ambiguous_) earlier_.remember(state_.key, step.mean_inverse_depth());
-    key_is_ambiguous_ = step.verdict.ambiguity.exists();
+    if (keeps_key_) earlier_.remember(state_.key, step.mean_inverse_depth());
+    keeps_key_ = !step.verdict.ambiguity.exists();
     state_.set_key(current_, world_from_current);
   } else {
     state_.base = {current_, current_from_key, key_from_current};
@@ -416,7 +418,11 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   result.predicted_world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
   result.reference_frame = state_.key.frame();
   if (status == FrameStatus::lost_too_few_edges || status == FrameStatus::lost_rig_mismatch) return;
-  if (!state_.base_is_key()) state_.set_key(state_.base.frame_edges, state_.world_from_base());
+  if (!state_.base_is_key()) {
+    if (keeps_key_) earlier_.remember(state_.key, inverse_depth_);
+    state_.set_key(state_.base.frame_edges, state_.world_from_base());
+    keeps_key_ = false;  // no result says that it is a key rig, and its motion may be ambiguous
+  }
   state_.lost = odometry::LostFrame{current_, *result.predicted_world_from_left};
 }
 

@@ -71,10 +71,10 @@ struct RefinementSettings {
 };
 RefinementSettings refinement_settings(const StereoConfig& config);
 
-/// A refined position, and what remains between the two patches there.
+/// A refined position, and what remains between the two patches.
 struct Refined {
   Eigen::Vector2d position;  ///< [px]
-  double rms = 0;            ///< weighted residual [grey levels]
+  double rms = 0;            ///< weighted residual before the last step [grey levels]
 };
 
 /// Moves `start` along `axes` (one or two unit vectors, as columns) until its patches look like those of `fixed`:

@@ -50,6 +50,7 @@ struct LocatedFrame {
   std::int64_t stamp_ns = 0;
   int node = -1;  ///< -1: lost
   Eigen::Isometry3d node_from_left = Eigen::Isometry3d::Identity();
+  GraphEdge motion;  ///< from its node to itself, in case it becomes a reference
 };
 
 /// A closure that may be kept.
@@ -124,29 +125,28 @@ class Map::Implementation {
   odometry::MotionSearch search_;
   std::vector<LocatedFrame> frames_;
   std::vector<int> frame_of_node_;
-  /// Motion of the frame located last, from its node to itself, in case it becomes a reference.
-  GraphEdge last_motion_;
+  GraphEdge last_motion_;  ///< of the frame located last
   std::vector<Closure> closures_;
   std::deque<ListedClosure> pending_;  ///< the latest kMostPending that no other has confirmed
   Eigen::Isometry3d map_from_odometry_ = Eigen::Isometry3d::Identity();
 };
 
-/// The node of a reference of the odometry. One that is not a node yet becomes one: the last located frame.
+/// The node of a reference of the odometry. One that is not a node yet becomes one.
 int Map::Implementation::node_of_reference(int number) {
   const LocatedFrame& reference = frame(number);
   if (frame_of_node_[static_cast<std::size_t>(reference.node)] == number) return reference.node;
-  GraphEdge edge = last_motion_;
+  GraphEdge edge = reference.motion;
   edge.to = graph_.add_node(graph_.pose(reference.node) * reference.node_from_left);
   frame_of_node_.push_back(number);
   graph_.add_edge(edge);
-  frame(number) = {reference.stamp_ns, edge.to, Eigen::Isometry3d::Identity()};
+  frame(number) = {reference.stamp_ns, edge.to, Eigen::Isometry3d::Identity(), {}};
   return edge.to;
 }
 
 /// Enters the frame tracked last. Key rigs and lost frames with edges become nodes.
 void Map::Implementation::locate(const FrameResult& result) {
   const int number = static_cast<int>(frames_.size());
-  frames_.push_back({result.stamp_ns});
+  frames_.emplace_back().stamp_ns = result.stamp_ns;
   const bool has_motion = result.status == FrameStatus::tracked;
   if (has_motion) {
     const int reference = node_of_reference(result.reference_frame);
@@ -155,6 +155,7 @@ void Map::Implementation::locate(const FrameResult& result) {
                                  result.diagnostics.rig_sensitivity, false);
     frame(number).node = reference;
     frame(number).node_from_left = result.current_from_reference->inverse();
+    frame(number).motion = last_motion_;
     if (result.new_key_rig) node_of_reference(number);
   } else if (result.status != FrameStatus::lost_too_few_edges && result.status != FrameStatus::lost_rig_mismatch) {
     frame(number).node = graph_.add_node(result.pose_or_prediction());

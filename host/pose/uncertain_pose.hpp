@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "pose/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/trajectory.hpp"
 

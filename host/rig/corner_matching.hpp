@@ -49,9 +49,9 @@ class CornerMatcher {
   /// deviations of a few pixels. Allocates nothing in steady state.
   void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& matches) const;
 
-  /// Searches for corners of the left image in the right one by normalised correlation, over a quarter of the image
-  /// width to both sides along the line and a tenth of the image height across it. Uses images reduced to a width of
-  /// about 320 px and takes some ten milliseconds.
+  /// Searches for corners of the left image in the right one by normalised correlation: to both sides along the line
+  /// over a quarter of the image width or 1.25 `max_disparity`, whichever is more, but at most half of the width, and
+  /// over a tenth of the image height across it. Uses images reduced to a width of about 320 px.
   /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
   /// \param every searches for every `every`-th corner, in `every`-th of the time
   CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none,

@@ -89,7 +89,7 @@ void bind_synthetic(nb::module_& module) {
       "path: \"ellipse\", \"handheld\", \"drive\" or \"loop\".\n"
       "width, height: image size [px]. noise: standard deviation of the image noise [grey levels].\n"
       "blur: motion blur, averaged over the path [px]. mover: share of the left image covered by an independently\n"
-      "moving board, 0 to 1. bits: bits per pixel, 8, 12 or 16.\n\n"
+      "moving board, 0 to 0.6. bits: bits per pixel, 8, 12 or 16.\n\n"
       "Raises UsageError that names the option, its value and the allowed values.");
 }
 

@@ -18,7 +18,7 @@ def message_store():
     try:
         from rosbags.typesys import Stores, get_typestore
     except ImportError as error:
-        raise ImportError("messages of ROS need rosbags; `pip install quadedge[bag]` installs it") from error
+        raise ImportError("messages of ROS need rosbags; `pip install rosbags` installs it") from error
     return get_typestore(Stores.ROS2_HUMBLE)
 
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 from datetime import timedelta
 
 import numpy
@@ -134,6 +135,31 @@ def test_the_calibration_and_frames_of_an_oak():
     assert stamp == 3_000_007_000
     numpy.testing.assert_array_equal(left, pixels)
     numpy.testing.assert_array_equal(right, pixels + 1)
+
+
+class Exposed:
+    """An image of an OAK, whose stamp is at the end of an exposure of 8 ms."""
+
+    def getTimestamp(self, moment=depthai.CameraExposureOffset.END):  # noqa: N802
+        ends = {depthai.CameraExposureOffset.END: 0, depthai.CameraExposureOffset.MIDDLE: 4}
+        return timedelta(seconds=3) - timedelta(milliseconds=ends[moment])
+
+    def getFrame(self):  # noqa: N802
+        return numpy.zeros((2, 2), numpy.uint8)
+
+
+def test_an_oak_is_stamped_in_the_middle_of_its_exposure_and_ends_when_it_is_closed():
+    from quadedge.live import oak
+
+    assert oak.pair_of({"left": Exposed(), "right": Exposed()})[0] == 2_996_000_000
+
+    def closed():
+        raise depthai.MessageQueue.QueueException("MessageQueue was closed")
+
+    camera = oak.Camera.__new__(oak.Camera)
+    camera._pipeline = types.SimpleNamespace(isRunning=lambda: True)
+    camera._queue = types.SimpleNamespace(get=closed)
+    assert list(camera) == []
 
 
 @pytest.mark.parametrize("kind, words", [("realsense", "RealSense: found no camera"), ("oak", "OAK: found no camera")])

@@ -12,7 +12,7 @@ from ..errors import DataError
 try:
     import depthai
 except ImportError as error:
-    raise ImportError("quadedge.live needs depthai for an OAK; `pip install quadedge[oak]` installs it") from error
+    raise ImportError("quadedge.live needs depthai for an OAK; `pip install depthai` installs it") from error
 
 
 def rig_of(calibration, size: tuple[int, int]):
@@ -34,7 +34,8 @@ def rig_of(calibration, size: tuple[int, int]):
 def pair_of(group) -> tuple[int, numpy.ndarray, numpy.ndarray]:
     """Stamp [ns] and images of a depthai.MessageGroup. The stamp is that of the middle of the left exposure."""
     left, right = group["left"], group["right"]
-    return round(left.getTimestamp() / timedelta(microseconds=1)) * 1000, left.getFrame(), right.getFrame()
+    middle = left.getTimestamp(depthai.CameraExposureOffset.MIDDLE)
+    return round(middle / timedelta(microseconds=1)) * 1000, left.getFrame(), right.getFrame()
 
 
 class Camera:
@@ -62,7 +63,11 @@ class Camera:
     def __iter__(self) -> Iterator[tuple[int, numpy.ndarray, numpy.ndarray]]:
         """Ends when the camera is closed or unplugged."""
         while self._pipeline.isRunning():
-            yield pair_of(self._queue.get())
+            try:
+                group = self._queue.get()
+            except depthai.MessageQueue.QueueException:  # it is closed
+                return
+            yield pair_of(group)
 
     def close(self) -> None:
         """Stops the camera."""

@@ -10,7 +10,7 @@ from ..errors import DataError
 try:
     import pyrealsense2
 except ImportError as error:
-    raise ImportError("quadedge.live needs pyrealsense2 for a RealSense camera; `pip install quadedge[realsense]` "
+    raise ImportError("quadedge.live needs pyrealsense2 for a RealSense camera; `pip install pyrealsense2` "
                       "installs it") from error
 
 _WAIT_MS, _SILENCE_S = 500, 5.0

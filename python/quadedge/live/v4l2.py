@@ -35,7 +35,8 @@ class Camera:
             raise UsageError("v4l2: found no calibration, expected --calibration FILE, because the camera has none")
         if not shutil.which("ffmpeg"):
             raise UsageError("v4l2: found no program ffmpeg, expected it on PATH")
-        wanted = ["-fflags", "nobuffer", "-f", "v4l2"] if _is_device(source) else ["-re"]
+        wanted = ["-fflags", "nobuffer", "-f", "v4l2"] if _is_device(source) else []
+        wanted += ["-re"] if Path(source).is_file() else []
         wanted += ["-video_size", f"{width}x{height}"] if width else []
         wanted += ["-framerate", str(fps)] if fps else []
         call = ["ffmpeg", "-nostdin", "-loglevel", "error", *wanted, "-i", source,

@@ -22,7 +22,7 @@ try:
     from cyclonedds.sub import DataReader
     from cyclonedds.topic import Topic
 except ImportError as error:
-    raise ImportError("quadedge.ros2 needs cyclonedds; `pip install quadedge[ros2]` installs it") from error
+    raise ImportError("quadedge.ros2 needs cyclonedds; `pip install cyclonedds rosbags` installs it") from error
 
 _BASES = {"bool": bool, "byte": idl_types.uint8, "char": idl_types.uint8, "float32": idl_types.float32,
           "float64": idl_types.float64, "string": str,

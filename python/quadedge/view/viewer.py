@@ -21,7 +21,7 @@ def _rerun():
         import rerun
         import rerun.blueprint
     except ImportError as error:
-        raise ImportError("quadedge.view needs rerun-sdk; `pip install quadedge[view]` installs it") from error
+        raise ImportError("quadedge.view needs rerun-sdk; `pip install rerun-sdk` installs it") from error
     return rerun
 
 
