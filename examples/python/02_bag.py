@@ -2,7 +2,7 @@
 
     python 02_bag.py RECORDING OUT [CALIBRATION]
 
-Needs `pip install quadedge[bag]`. Without CALIBRATION, the recorded camera_info is used.
+Needs rosbags (the extra `bag`). Without CALIBRATION, the recorded camera_info is used.
 """
 
 import sys

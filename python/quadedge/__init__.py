@@ -8,10 +8,9 @@
     print(result.status, result.world_from_left)       # None for a lost frame
 
 Images, edges and poses come from the compiled module ``quadedge._quadedge``, which is loaded when the first of its
-names is used; ``quadedge.report`` needs none of it. ``quadedge.bag`` reads recordings of ROS (``pip install
-quadedge[bag]``), ``quadedge.view`` shows results (``pip install quadedge[view]``). Lengths are metres, angles radians,
-stamps nanoseconds, image positions pixels with the centre of the top-left pixel at (0, 0). Camera frames: x right, y
-down, z forward.
+names is used; ``quadedge.report`` needs none of it. ``quadedge.bag`` reads recordings of ROS (with the extra
+``bag``), ``quadedge.view`` shows results (with ``view``). Lengths are metres, angles radians, stamps nanoseconds, image
+positions pixels with the centre of the top-left pixel at (0, 0). Camera frames: x right, y down, z forward.
 """
 
 import importlib

@@ -1,4 +1,4 @@
-"""Where PyPI's OpenCL runtime for CPUs is, which ``pip install "quadedge[cpu]"`` installs."""
+"""Where PyPI's OpenCL runtime for CPUs is, which the extra ``cpu`` installs."""
 
 import importlib.metadata
 import os

@@ -1,4 +1,4 @@
-"""Reads stereo recordings of ROS 1, ROS 2 and MCAP. Needs rosbags: ``pip install quadedge[bag]``.
+"""Reads stereo recordings of ROS 1, ROS 2 and MCAP. Needs rosbags (the extra ``bag``).
 
     recording = quadedge.bag.open_bag("flight.bag")
     odometry = quadedge.Odometry(recording.rig)

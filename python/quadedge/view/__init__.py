@@ -1,4 +1,4 @@
-"""Shows results in rerun's viewer. Needs rerun-sdk: ``pip install quadedge[view]``.
+"""Shows results in rerun's viewer. Needs rerun-sdk (the extra ``view``).
 
     viewer = quadedge.view.Viewer(save="flight.rrd")     # or web=True; without either, a window opens
     for frame in dataset:
