@@ -109,18 +109,18 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
       return some;
     };
     TemporalMatches of_some;
-    frontend->match_globally(*first, among(1), of_some);
+    frontend->match_globally(*first, *frontend->latest(), among(1), of_some);
     CHECK(same_bytes(of_some, frontend->match_globally(*first, 1000000)));
-    frontend->match_globally(*first, among(3), of_some);
+    frontend->match_globally(*first, *frontend->latest(), among(3), of_some);
     CHECK(of_some.size() > 30);
     for (std::size_t m = 0; m < of_some.size(); ++m) {
       CHECK(of_some.previous[m] % 3 == 0);
       CHECK(of_some.current[m] % 3 == 0);
       CHECK(of_some.left_x[m] == second->edges.left_x[static_cast<std::size_t>(of_some.current[m])]);
     }
-    frontend->match_globally(*first, {among(1).of_base, {}}, of_some);
+    frontend->match_globally(*first, *frontend->latest(), {among(1).of_base, {}}, of_some);
     CHECK(of_some.size() == 0);
-    frontend->match_globally(*first, {{}, among(1).of_current}, of_some);
+    frontend->match_globally(*first, *frontend->latest(), {{}, among(1).of_current}, of_some);
     CHECK(of_some.size() == 0);
     return matches;
   };

@@ -78,7 +78,7 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
     for (std::size_t i = 0; i < query.current->edges.size(); ++i)
       among.of_current.push_back(static_cast<std::int32_t>(i));
     TemporalMatches found;
-    frontend->match_globally(*query.base, among, found);
+    frontend->match_globally(*query.base, *frontend->latest(), among, found);
     CHECK(found.size() > 100);
     CHECK(same_bytes(found, frontend->match_globally(*query.base, 1000000)));
   }

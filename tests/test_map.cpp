@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -35,6 +36,7 @@ void black(int count, std::vector<Shot>& shots) {
 struct Outcome {
   std::vector<FrameResult> results;
   std::vector<Closure> closures;
+  std::size_t most_at_once = 0, in_the_end = 0;  ///< comparisons that one frame ended, and finish()
   Trajectory trajectory;
   Eigen::Isometry3d map_from_odometry;
   int segments = 0;
@@ -62,9 +64,15 @@ Outcome track(const std::vector<Shot>& shots, const Config& config, bool with_ma
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const auto stamp = static_cast<std::int64_t>(i) * 50'000'000;
     outcome.results.push_back(odometry.track({stamp, shots[i].left.view(), shots[i].right.view()}));
-    if (map) map->add(outcome.results.back());
+    if (!map) continue;
+    const std::size_t before = map->closures().size();
+    map->add(outcome.results.back());
+    outcome.most_at_once = std::max(outcome.most_at_once, map->closures().size() - before);
   }
   if (!map) return outcome;
+  outcome.in_the_end = map->closures().size();
+  map->finish();
+  outcome.in_the_end = map->closures().size() - outcome.in_the_end;
   outcome.closures = map->closures();
   outcome.trajectory = map->trajectory();
   outcome.map_from_odometry = map->map_from_odometry();
@@ -145,6 +153,19 @@ TEST_CASE("map: black frames, another place in other light, and back: the segmen
     after += number >= away ? 1 : 0;
   }
   CHECK(after >= 5);
+}
+
+TEST_CASE("map: comparisons are spread over frames, and the rest is made in the end", "[device]") {
+  std::vector<Shot> shots;
+  visit(small("room", "ellipse", 60), 0, 56, 4, shots);
+  black(5, shots);
+  visit(small("cables", "ellipse", 60), 0, 12, 4, shots);
+  visit(small("room", "ellipse", 60), 30, 22, -2, shots);
+  const Outcome outcome = track(shots, with_gap(10));
+  check_kept(outcome, shots);
+  REQUIRE(outcome.closures.size() > 3);
+  CHECK(outcome.most_at_once == 1);
+  CHECK(outcome.in_the_end > 0);
 }
 
 TEST_CASE("map: a street that is driven once has no closure", "[device]") {

@@ -17,18 +17,22 @@ class CountingFrontend : public frontend::Frontend {
       : Frontend(rig, config.stereo), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
 
   frontend::FrameEdgesHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
-  void match(const frontend::FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override {
+  frontend::FrameEdgesHandle latest() const override { return reference_->latest(); }
+  void match(const frontend::FrameEdges& base, const frontend::FrameEdges& current, const TemporalSearch& search,
+             TemporalMatches& matches) override {
     ++(search.coarse ? coarse : guided);
     largest_radius = std::max(largest_radius, search.radius);
-    reference_->match(base, search, matches);
+    reference_->match(base, current, search, matches);
   }
-  void match_globally(const frontend::FrameEdges& base, int edges, TemporalMatches& matches) override {
+  void match_globally(const frontend::FrameEdges& base, const frontend::FrameEdges& current, int edges,
+                      TemporalMatches& matches) override {
     ++global;
-    reference_->match_globally(base, edges, matches);
+    reference_->match_globally(base, current, edges, matches);
   }
-  void match_globally(const frontend::FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) override {
+  void match_globally(const frontend::FrameEdges& base, const frontend::FrameEdges& current, const GlobalSearch& among,
+                      TemporalMatches& matches) override {
     ++beside;
-    reference_->match_globally(base, among, matches);
+    reference_->match_globally(base, current, among, matches);
   }
   frontend::KeptFrameEdges keep() override { return reference_->keep(); }
   frontend::FrameEdgesHandle restore(const frontend::KeptFrameEdges& kept) override {

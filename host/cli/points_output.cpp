@@ -86,6 +86,13 @@ void LoopOutput::add(const FrameResult& result) {
   latencies_ms_.push_back(result.timing.latency_ms + ms);
 }
 
+const Map& LoopOutput::finish() {
+  const auto start = Clock::now();
+  map_.finish();
+  total_ms_ += milliseconds_since(start);
+  return map_;
+}
+
 report::LoopFacts LoopOutput::write(const std::string& folder, const std::string& saved_map) const {
   const Trajectory trajectory = map_.trajectory();
   write_tum(folder + "/trajectory_map.txt", trajectory);

@@ -58,7 +58,8 @@ class LoopOutput {
 
   /// Takes in the frame that was tracked last.
   void add(const FrameResult& result);
-  const Map& map() const { return map_; }
+  /// Ends the comparisons, after the last frame. \returns the map
+  const Map& finish();
   /// Writes trajectory_map.txt and loops.csv and, unless its name is empty, a map file. \throws DataError. \returns
   /// what they hold
   report::LoopFacts write(const std::string& folder, const std::string& saved_map) const;

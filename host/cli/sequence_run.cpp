@@ -134,7 +134,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   int lost = 0;
   const auto write_loops = [&] {
     if (!loops) return;
-    points.correct(loops->map());
+    points.correct(loops->finish());
     run.loops = loops->write(options.output, options.saved_map);
   };
   try {

@@ -168,16 +168,15 @@ RelaxationTally DeviceFrontend::find_stereo_edges(FrameEdges& current, const Epi
 
 void DeviceFrontend::finish(FrameEdges& current) {
   own(current).on_device.has_sift = false;
-  indexed_ = false;
-  global_step_ = 0;
+  indexed_ = described_ = nullptr;
   context_.flush();  // the right patches, while the host goes on
 }
 
-void DeviceFrontend::index_current() {
-  if (indexed_) return;
-  const stages::DeviceStereoEdges& edges = frames_.current().on_device;
+void DeviceFrontend::index_current(const DeviceFrameEdges& current) {
+  if (indexed_ == &current) return;
+  const stages::DeviceStereoEdges& edges = current.on_device;
   point_index_.run(edges.positions(Side::left), edges.positions(Side::right), left_index_, right_index_);
-  indexed_ = true;
+  indexed_ = &current;
 }
 
 stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& stereo_edges, Side side) const {
@@ -195,21 +194,20 @@ void DeviceFrontend::describe_by_sift(FrameEdges& frame_edges) {
   edges.has_sift = true;
 }
 
-void DeviceFrontend::match_side(Side side, const DeviceFrameEdges& base, const TemporalSearch& search,
-                                stages::DeviceCandidates& candidates) {
+void DeviceFrontend::match_side(Side side, const DeviceFrameEdges& base, const DeviceFrameEdges& current,
+                                const TemporalSearch& search, stages::DeviceCandidates& candidates) {
   temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius,
                            static_cast<float>(kTemporalOrientation), candidates);
-  filters_.run(described(base.on_device, side), described(frames_.current().on_device, side),
+  filters_.run(described(base.on_device, side), described(current.on_device, side),
                temporal_limits(config_.temporal, search), search.step, tap_ != nullptr, candidates);
 }
 
-void DeviceFrontend::match_by_lists(const DeviceFrameEdges& base, const TemporalSearch& search,
-                                    TemporalMatches& matches) {
-  match_side(Side::left, base, search, temporal_left_);
-  match_side(Side::right, base, search, temporal_right_);
+void DeviceFrontend::match_by_lists(const DeviceFrameEdges& base, const DeviceFrameEdges& current,
+                                    const TemporalSearch& search, TemporalMatches& matches) {
+  match_side(Side::left, base, current, search, temporal_left_);
+  match_side(Side::right, base, current, search, temporal_right_);
   const int alive_left = temporal_left_.living_rows(), alive_right = temporal_right_.living_rows();
   temporal_quads_.agree(temporal_left_, temporal_right_);
-  const DeviceFrameEdges& current = frames_.current();
   matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_.list(index_of(Side::left)),
                                     temporal_left_);
   matches.alive_left = alive_left;
@@ -217,16 +215,17 @@ void DeviceFrontend::match_by_lists(const DeviceFrameEdges& base, const Temporal
   if (tap_ != nullptr) tap_temporal(search);
 }
 
-void DeviceFrontend::search_in_time(FrameEdges& base_edges, const TemporalSearch& search, TemporalMatches& matches) {
-  const DeviceFrameEdges &base = own(base_edges), &current = frames_.current();
+void DeviceFrontend::search_in_time(FrameEdges& base_edges, FrameEdges& current_edges, const TemporalSearch& search,
+                                    TemporalMatches& matches) {
+  const DeviceFrameEdges &base = own(base_edges), &current = own(current_edges);
   const opencl::CopyGuard guard(context_);  // of the predictions
-  index_current();
+  index_current(current);
   predicted_.write(context_, {search.left, search.right});
   // A tap sees the lists, which the fused kernel lacks.
   const bool found = tap_ == nullptr && temporal_match_.serves(search) &&
                      temporal_match_.run(predicted_, search, base.on_device, current.on_device, left_index_,
                                          right_index_, current.edges, matches);
-  if (!found) match_by_lists(base, search, matches);
+  if (!found) match_by_lists(base, current, search, matches);
 }
 
 stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& frame_edges, const WideSubset& subset,
@@ -241,21 +240,24 @@ stages::DeviceWideEdges DeviceFrontend::describe_widely(const DeviceFrameEdges& 
     side.given.count = side.given.stride = static_cast<cl_int>(subset.edges.size());
     side.given.packed.write(side.packed.data(), side.packed.size());
   }
-  const bool is_known = &side == &wide_now_ && global_step_ == subset.step;
+  const bool is_known = &side == &wide_now_ && described_ == &frame_edges && global_step_ == subset.step;
   const stages::DeviceStereoEdges& edges = is_given ? side.given : frame_edges.on_device;
   if (!is_known) {
     wide_description_.prepare(frame_edges.on_device.left_image.pixels, small_);
     side.rows = wide_description_.describe(small_, edges, subset.step, side.descriptors);
   }
-  if (&side == &wide_now_) global_step_ = subset.step;
+  if (&side == &wide_now_) {
+    described_ = &frame_edges;
+    global_step_ = subset.step;
+  }
   return {edges, subset.step, side.rows, side.descriptors};
 }
 
 TemporalMatches DeviceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
-                                                const WideSubset& of_current) {
-  const DeviceFrameEdges& current = frames_.current();
+                                                const FrameEdges& current_edges, const WideSubset& of_current) {
+  const DeviceFrameEdges& current = own(current_edges);
   const opencl::CopyGuard guard(context_);  // until the given edges have been copied
-  // Descriptions of every step-th edge of the current frame serve all searches of a frame.
+  // Descriptions of every step-th edge of a current frame serve all of its searches in a row.
   WideSide& now = &of_current.edges == &current.edges ? wide_now_ : wide_some_;
   const auto earlier = describe_widely(own(base), of_base, wide_before_);
   return global_matching_.run(earlier, describe_widely(current, of_current, now), of_current.edges);
@@ -265,7 +267,7 @@ KeptFrameEdges DeviceFrontend::keep() {
   const DeviceFrameEdges& current = frames_.current();
   const stages::DeviceStereoEdges& stereo_edges = current.on_device;
   const stages::DeviceWideEdges described =
-      describe_widely(current, about(2 * config_.temporal.global_edges, current), wide_now_);
+      describe_widely(current, about(static_cast<int>(kKeptEdges), current), wide_now_);
   const auto wide = described.descriptors.read(static_cast<std::size_t>(described.rows) * kWideBytes);
   const auto left = stereo_edges.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
   const auto right = stereo_edges.right_patches.read(current.edges.size() * kEdgePatchBytes);

@@ -27,6 +27,7 @@ class DeviceFrontend : public StagedFrontend {
   DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
 
   FrameEdgesHandle process(const StereoFrame& frame) override;
+  FrameEdgesHandle latest() const override { return frames_.current_handle(); }
   KeptFrameEdges keep() override;
   EdgeSet edges(Side side) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
@@ -60,12 +61,12 @@ class DeviceFrontend : public StagedFrontend {
   void finish(FrameEdges& current) override;
   void tap_stereo() override;
   void describe_by_sift(FrameEdges& frame_edges) override;
-  void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
+  void search_in_time(FrameEdges& base, FrameEdges& current, const TemporalSearch& search,
+                      TemporalMatches& matches) override;
+  TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base, const FrameEdges& current,
                                   const WideSubset& of_current) override;
   std::shared_ptr<FrameEdges> spare() override { return frames_.restored(calibration_); }
   void load(const KeptFrameEdges& kept, FrameEdges& restored) override;
-  FrameEdgesHandle current_handle() const override { return frames_.current_handle(); }
   DeviceFrameEdges& own(const FrameEdges& frame_edges) override { return frames_.own(frame_edges); }
 
   /// One side of a global search.
@@ -79,8 +80,8 @@ class DeviceFrontend : public StagedFrontend {
   /// The coarse disparity of the images; null where no search is given or memory does not suffice.
   const stages::CoarseDisparity* coarse_disparity(const stages::DeviceStereoEdges& stereo_edges,
                                                   const std::optional<CoarseDisparityArguments>& search);
-  /// Indexes the current stereo edges of both images, once per frame.
-  void index_current();
+  /// Indexes the stereo edges of both images, once in a row for the same frame.
+  void index_current(const DeviceFrameEdges& current);
   /// Wide descriptors of a subset of a frame's edges; given ones are copied to the device from `packed`, which must
   /// outlive the copy.
   stages::DeviceWideEdges describe_widely(const DeviceFrameEdges& frame_edges, const WideSubset& subset,
@@ -89,9 +90,10 @@ class DeviceFrontend : public StagedFrontend {
   stages::DescribedEdges described(const stages::DeviceStereoEdges& stereo_edges, Side side) const;
   /// Runs the search with candidate lists: for searches with SIFT, for too many candidates, for taps, and for the
   /// corresponding variant.
-  void match_by_lists(const DeviceFrameEdges& base, const TemporalSearch& search, TemporalMatches& matches);
-  void match_side(Side side, const DeviceFrameEdges& base, const TemporalSearch& search,
-                  stages::DeviceCandidates& candidates);
+  void match_by_lists(const DeviceFrameEdges& base, const DeviceFrameEdges& current, const TemporalSearch& search,
+                      TemporalMatches& matches);
+  void match_side(Side side, const DeviceFrameEdges& base, const DeviceFrameEdges& current,
+                  const TemporalSearch& search, stages::DeviceCandidates& candidates);
   void tap_temporal(const TemporalSearch& search);
 
   opencl::Context& context_;
@@ -124,8 +126,9 @@ class DeviceFrontend : public StagedFrontend {
   stages::DeviceMutual owners_;
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
-  bool indexed_ = false;                   ///< for the current frame
-  int global_step_ = 0;                    ///< of the current frame's edges in wide_now_; 0: not yet described
+  const FrameEdges* indexed_ = nullptr;    ///< the frame of both indices; null: none
+  const FrameEdges* described_ = nullptr;  ///< the frame of wide_now_; null: none
+  int global_step_ = 0;                    ///< of its edges there
   opencl::Buffer<cl_char> right_patches_;  ///< of the right edges that are candidates
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
       right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT

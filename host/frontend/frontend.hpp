@@ -36,24 +36,30 @@ class Frontend {
   /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. \returns the frame's edges, which are the
   /// current ones until the next call and are then reused unless a handle exists
   virtual FrameEdgesHandle process(const StereoFrame& frame) = 0;
-  /// Stage 6: quads between an earlier frame, the base, and the current one. `search` has one entry per stereo edge of
-  /// the base. Replaces `matches`, as does match_globally().
-  virtual void match(const FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
+  /// The edges of the frame processed last. \throws std::out_of_range before the first
+  virtual FrameEdgesHandle latest() const = 0;
+  /// Stage 6: quads between an earlier frame, the base, and a current one, as a rule the latest. `search` has one entry
+  /// per stereo edge of the base. Replaces `matches`, as does match_globally().
+  virtual void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,
+                     TemporalMatches& matches) = 0;
   /// Quads between a subset of the base's edges and the current frame, matched over the whole left image by wide
   /// descriptors.
   /// \param edges approximate number of the base's edges and, twice as many, of the current frame's that take part;
   /// ignored for a restored frame, which has its own
-  virtual void match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) = 0;
+  virtual void match_globally(const FrameEdges& base, const FrameEdges& current, int edges,
+                              TemporalMatches& matches) = 0;
   /// The same among the given edges only. For a restored base, of_base is ignored: all its edges take part.
-  virtual void match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) = 0;
+  virtual void match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
+                              TemporalMatches& matches) = 0;
+  /// With the latest frame.
   TemporalMatches match(const FrameEdges& base, const TemporalSearch& search) {
     TemporalMatches matches;
-    match(base, search, matches);
+    match(base, *latest(), search, matches);
     return matches;
   }
   TemporalMatches match_globally(const FrameEdges& base, int edges) {
     TemporalMatches matches;
-    match_globally(base, edges, matches);
+    match_globally(base, *latest(), edges, matches);
     return matches;
   }
 
@@ -66,7 +72,7 @@ class Frontend {
   double observe(const std::vector<rig::CornerMatch>& matches) { return rectification_.observe(matches); }
   RectificationFollower& rectification() { return rectification_; }
 
-  /// Keeps the current frame's edges in a compact form.
+  /// Keeps the latest frame's edges in a compact form.
   virtual KeptFrameEdges keep() = 0;
   /// Restores kept frame edges as a base of match() and match_globally().
   virtual FrameEdgesHandle restore(const KeptFrameEdges& kept) = 0;

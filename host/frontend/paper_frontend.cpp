@@ -98,8 +98,9 @@ FrameEdgesHandle PaperFrontend::process(const StereoFrame& frame) {
   return frames_.current_handle();
 }
 
-void PaperFrontend::match(const FrameEdges& base, const TemporalSearch&, TemporalMatches& matches) {
-  const PaperFrameEdges &before = frames_.own(base), &now = frames_.current();
+void PaperFrontend::match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch&,
+                          TemporalMatches& matches) {
+  const PaperFrameEdges &before = frames_.own(base), &now = frames_.own(current);
   const paper::RefinementSettings settings = paper::refinement_settings(config_.stereo);
   const auto seen = [&](const PaperFrameEdges& frame_edges, Side side) {
     const bool is_left = side == Side::left;
@@ -164,8 +165,10 @@ void PaperFrontend::tap_quads(const paper::SideMatching& left, const paper::Side
   }
 }
 
-void PaperFrontend::match_globally(const FrameEdges&, int, TemporalMatches&) { refuse(); }
-void PaperFrontend::match_globally(const FrameEdges&, const GlobalSearch&, TemporalMatches&) { refuse(); }
+void PaperFrontend::match_globally(const FrameEdges&, const FrameEdges&, int, TemporalMatches&) { refuse(); }
+void PaperFrontend::match_globally(const FrameEdges&, const FrameEdges&, const GlobalSearch&, TemporalMatches&) {
+  refuse();
+}
 KeptFrameEdges PaperFrontend::keep() { refuse(); }
 FrameEdgesHandle PaperFrontend::restore(const KeptFrameEdges&) { refuse(); }
 

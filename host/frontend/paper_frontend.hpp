@@ -19,10 +19,13 @@ class PaperFrontend : public Frontend {
   PaperFrontend(const StereoRig& rig, const Config& config);
 
   FrameEdgesHandle process(const StereoFrame& frame) override;
+  FrameEdgesHandle latest() const override { return frames_.current_handle(); }
   /// The search of the paper: around the previous positions, whatever `search` contains.
-  void match(const FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) override;
-  void match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) override;
+  void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,
+             TemporalMatches& matches) override;
+  void match_globally(const FrameEdges& base, const FrameEdges& current, int edges, TemporalMatches& matches) override;
+  void match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
+                      TemporalMatches& matches) override;
   KeptFrameEdges keep() override;
   FrameEdgesHandle restore(const KeptFrameEdges& kept) override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }

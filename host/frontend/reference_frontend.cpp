@@ -131,14 +131,15 @@ void ReferenceFrontend::describe_by_sift(FrameEdges& frame_edges) {
   now.right_descriptions.sift = sift_of(now.right, now.edges.positions(Side::right));
 }
 
-void ReferenceFrontend::search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) {
-  const ReferenceFrameEdges &before = own(base), &now = frames_.current();
+void ReferenceFrontend::search_in_time(FrameEdges& base, FrameEdges& current, const TemporalSearch& search,
+                                       TemporalMatches& matches) {
+  const ReferenceFrameEdges &before = own(base), &now = own(current);
   auto result = reference::temporal_match(
       search, now.edges,
       {before.left_descriptions, now.left_descriptions, calibration_.left.width, calibration_.left.height},
       {before.right_descriptions, now.right_descriptions, calibration_.right.width, calibration_.right.height},
       config_.temporal);
-  if (tap_ != nullptr) tap_temporal(search, result);
+  if (tap_ != nullptr) tap_temporal(search, now, result);
   matches = std::move(result.matches);
 }
 
@@ -153,14 +154,13 @@ reference::WideEdges describe_widely(const ReferenceFrameEdges& frame_edges, con
 }  // namespace
 
 TemporalMatches ReferenceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
-                                                   const WideSubset& of_current) {
-  return reference::find_global_matches(describe_widely(own(base), of_base),
-                                        describe_widely(frames_.current(), of_current));
+                                                   const FrameEdges& current, const WideSubset& of_current) {
+  return reference::find_global_matches(describe_widely(own(base), of_base), describe_widely(own(current), of_current));
 }
 
 KeptFrameEdges ReferenceFrontend::keep() {
   const ReferenceFrameEdges& now = frames_.current();
-  const reference::WideEdges described = describe_widely(now, about(2 * config_.temporal.global_edges, now));
+  const reference::WideEdges described = describe_widely(now, about(static_cast<int>(kKeptEdges), now));
   std::vector<std::int32_t> itself(now.edges.size());
   std::iota(itself.begin(), itself.end(), 0);
   return keep_edges(now, {described.step, described.descriptors}, now.left_descriptions.patches, itself,

@@ -23,6 +23,7 @@ class ReferenceFrontend : public StagedFrontend {
  public:
   ReferenceFrontend(const StereoRig& rig, const Config& config);
 
+  FrameEdgesHandle latest() const override { return frames_.current_handle(); }
   KeptFrameEdges keep() override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
@@ -36,14 +37,15 @@ class ReferenceFrontend : public StagedFrontend {
   void finish(FrameEdges& current) override;
   void tap_stereo() override;
   void describe_by_sift(FrameEdges& frame_edges) override;
-  void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
+  void search_in_time(FrameEdges& base, FrameEdges& current, const TemporalSearch& search,
+                      TemporalMatches& matches) override;
+  TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base, const FrameEdges& current,
                                   const WideSubset& of_current) override;
   std::shared_ptr<FrameEdges> spare() override { return frames_.restored(); }
   void load(const KeptFrameEdges& kept, FrameEdges& restored) override;
-  FrameEdgesHandle current_handle() const override { return frames_.current_handle(); }
   ReferenceFrameEdges& own(const FrameEdges& frame_edges) override { return frames_.own(frame_edges); }
-  void tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result);
+  void tap_temporal(const TemporalSearch& search, const FrameEdges& current,
+                    const reference::TemporalMatchResult& result);
 
   reference::EdgeThreshold threshold_, smoothed_threshold_;
   NoiseGate noise_gate_;

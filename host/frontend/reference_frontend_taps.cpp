@@ -22,12 +22,12 @@ void ReferenceFrontend::tap_stereo() {
                [&](std::size_t i, std::size_t k) { return relaxation_.chosen[i] == static_cast<std::int32_t>(k); });
 }
 
-void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const reference::TemporalMatchResult& result) {
-  const StereoEdges& current = frames_.current().edges;
+void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const FrameEdges& current,
+                                     const reference::TemporalMatchResult& result) {
   for (const Side side : kSides) {
     const bool is_left = side == Side::left;
     const PinholeCamera& camera = is_left ? calibration_.left : calibration_.right;
-    const EdgePositionsView edges = current.positions(side);
+    const EdgePositionsView edges = current.edges.positions(side);
     reference::PointIndex index;
     reference::make_point_index(edges.x, edges.y, camera.width, camera.height, index);
     const auto displaced = reference::temporal_candidates(is_left ? search.left : search.right, edges, index,

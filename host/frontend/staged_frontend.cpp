@@ -34,7 +34,7 @@ FrameEdgesHandle StagedFrontend::process(const StereoFrame& frame) {
     tap_stereo();
     tap_->stereo(current.edges);
   }
-  return current_handle();
+  return latest();
 }
 
 bool StagedFrontend::search_stereo(FrameEdges& current) {
@@ -45,32 +45,34 @@ bool StagedFrontend::search_stereo(FrameEdges& current) {
   return gate_.suffices(tally) && range_suffices;
 }
 
-void StagedFrontend::match(const FrameEdges& base_edges, const TemporalSearch& search, TemporalMatches& matches) {
-  FrameEdges& base = own(base_edges);
+void StagedFrontend::match(const FrameEdges& base_edges, const FrameEdges& current_edges, const TemporalSearch& search,
+                           TemporalMatches& matches) {
+  FrameEdges &base = own(base_edges), &current = own(current_edges);
   if (tap_ != nullptr || temporal_limits(config_.temporal, search).sift_max > 0) {
     describe_by_sift(base);
-    describe_by_sift(own(*current_handle()));
+    describe_by_sift(current);
   }
   if (tap_ != nullptr)
     tap_->temporal_search({searches_, base.frame, search.left, search.right, search.radius, search.step});
-  search_in_time(base, search, matches);
+  search_in_time(base, current, search, matches);
   matches.search = searches_++;
   if (tap_ != nullptr) tap_->quads(matches);
 }
 
-void StagedFrontend::match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) {
+void StagedFrontend::match_globally(const FrameEdges& base, const FrameEdges& current, int edges,
+                                    TemporalMatches& matches) {
   matches.clear();
   if (edges == 0) return;
-  matches = search_globally(own(base), about(edges, base), about(2 * edges, *current_handle()));
+  matches = search_globally(own(base), about(edges, base), own(current), about(2 * edges, current));
 }
 
-void StagedFrontend::match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) {
+void StagedFrontend::match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
+                                    TemporalMatches& matches) {
   matches.clear();
   own(base);
-  const StereoEdges before = edges_of(base.edges, among.of_base),
-                    now = edges_of(current_handle()->edges, among.of_current);
+  const StereoEdges before = edges_of(base.edges, among.of_base), now = edges_of(current.edges, among.of_current);
   if ((!base.is_restored && before.size() == 0) || now.size() == 0) return;
-  matches = search_globally(base, {before, 1}, {now, 1});
+  matches = search_globally(base, {before, 1}, own(current), {now, 1});
   if (!base.is_restored) renumber(among.of_base, matches.previous);
   renumber(among.of_current, matches.current);
 }

@@ -20,9 +20,11 @@ struct WideSubset {
 class StagedFrontend : public Frontend {
  public:
   FrameEdgesHandle process(const StereoFrame& frame) override;
-  void match(const FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_globally(const FrameEdges& base, int edges, TemporalMatches& matches) override;
-  void match_globally(const FrameEdges& base, const GlobalSearch& among, TemporalMatches& matches) override;
+  void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,
+             TemporalMatches& matches) override;
+  void match_globally(const FrameEdges& base, const FrameEdges& current, int edges, TemporalMatches& matches) override;
+  void match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
+                      TemporalMatches& matches) override;
   FrameEdgesHandle restore(const KeptFrameEdges& kept) override;
 
  protected:
@@ -45,15 +47,15 @@ class StagedFrontend : public Frontend {
   virtual void tap_stereo() = 0;
   /// Computes SIFT descriptors of a frame's stereo edges, unless they exist.
   virtual void describe_by_sift(FrameEdges& frame_edges) = 0;
-  virtual void search_in_time(FrameEdges& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
+  virtual void search_in_time(FrameEdges& base, FrameEdges& current, const TemporalSearch& search,
+                              TemporalMatches& matches) = 0;
   /// Matches by wide descriptors. Of a restored base all edges take part.
-  virtual TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base,
+  virtual TemporalMatches search_globally(const FrameEdges& base, const WideSubset& of_base, const FrameEdges& current,
                                           const WideSubset& of_current) = 0;
   /// Edges that are not in use, for those that are restored.
   virtual std::shared_ptr<FrameEdges> spare() = 0;
   /// Takes over the kept descriptions of a frame whose edges are restored.
   virtual void load(const KeptFrameEdges& kept, FrameEdges& restored) = 0;
-  virtual FrameEdgesHandle current_handle() const = 0;
   /// The edges, to be changed. \throws std::invalid_argument for those of another front end
   virtual FrameEdges& own(const FrameEdges& frame_edges) = 0;
 

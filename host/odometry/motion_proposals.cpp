@@ -88,7 +88,7 @@ StepHandle MotionProposals::in_radius(const MotionQuery& query, double radius) {
                               search_);
   search_.coarse = true;
   StepHandle step = fits_.new_step(query.base);
-  frontend_.match(*query.base, search_, step->matches);
+  frontend_.match(*query.base, *query.current, search_, step->matches);
   fits_.fit(query, limits_, query.prediction, pose::RefinementGoal::pose, *step);
   return step;
 }
@@ -102,7 +102,7 @@ StepHandle MotionProposals::still_camera(const MotionQuery& query) {
 
 StepHandle MotionProposals::global_matches(const MotionQuery& query) {
   StepHandle step = fits_.new_step(query.base);
-  frontend_.match_globally(*query.base, config_.temporal.global_edges, step->matches);
+  frontend_.match_globally(*query.base, *query.current, config_.temporal.global_edges, step->matches);
   fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
   return step;
 }
@@ -146,7 +146,7 @@ StepHandle MotionProposals::in_free_cells(const MotionQuery& query, const Motion
   collect_free(chosen.cells, search_.left.x, search_.left.y, wanted, among_.of_base);
   collect_free(chosen.cells, current.left_x, current.left_y, 2 * wanted, among_.of_current);
   StepHandle step = fits_.new_step(query.base);
-  frontend_.match_globally(*query.base, among_, step->matches);
+  frontend_.match_globally(*query.base, *query.current, among_, step->matches);
   fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
   return step;
 }

@@ -53,28 +53,52 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, D
 }
 
 StepHandle MotionSearch::find(const MotionQuery& query) {
-  Candidates candidates;
-  std::vector<Verdict> verdicts;
-  std::size_t chosen = 0;
-  for (SearchLevel level = SearchLevel::prediction, needed = level;; level = needed) {
-    attempt_all(level, query, candidates);
-    if (level == SearchLevel::prediction) follow_jump(query, candidates);
-    verdicts = verdicts_on(candidates, query);
-    if (!verdicts.empty()) chosen = choose(candidates, query, verdicts);
-    needed = verdicts.empty() ? SearchLevel::everything : verdicts[chosen].needed;
-    if (query.only_near_prediction || needed <= level) break;
+  State state(query);
+  while (!advance(state)) {
   }
-  if (candidates.empty()) return fits_.new_step(query.base);  // only a motion near a prediction, and there is none
-  Verdict& verdict = verdicts[chosen];
-  StepHandle found = std::move(candidates[chosen].outcome());
-  found->is_checked = verdict.is_confirmed() && !query.only_near_prediction && record_.is_check_due(verdict);
+  return std::move(state.found);
+}
+
+/// A level up to the global matches, the rest of it, or the check.
+bool MotionSearch::advance(State& state) {
+  const MotionQuery& query = state.query;
+  Candidates& candidates = state.candidates_;
+  if (state.found) {
+    check(query, *state.found);
+    return true;
+  }
+  const auto hypotheses = hypotheses_at(state.level_);
+  while (state.next_ < hypotheses.size()) {
+    const Hypothesis hypothesis = hypotheses[state.next_++];
+    attempt(hypothesis, query, candidates);
+    if (hypothesis == Hypothesis::near_prediction) follow_jump(query, candidates);
+    if (hypothesis == Hypothesis::global_matches) return false;
+  }
+  std::vector<Verdict> verdicts = verdicts_on(candidates, query);
+  const std::size_t chosen = verdicts.empty() ? 0 : choose(candidates, query, verdicts);
+  const SearchLevel needed = verdicts.empty() ? SearchLevel::everything : verdicts[chosen].needed;
+  if (!query.only_near_prediction && needed > state.level_) {
+    state.level_ = needed;
+    state.next_ = 0;
+  } else if (candidates.empty()) {  // only a motion near a prediction, and there is none
+    state.found = fits_.new_step(query.base);
+  } else {
+    state.found = std::move(candidates[chosen].outcome());
+    state.found->verdict = verdicts[chosen];
+    candidates.clear();
+  }
+  if (!state.found || state.found->ok()) return false;
+  check(query, *state.found);
+  return true;
+}
+
+void MotionSearch::check(const MotionQuery& query, MotionStep& found) {
+  found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);
   Ambiguity other_part;
-  if (found->is_checked) other_part = search_free_cells(query, *found);
-  found->shows_other_part = other_part.exists();
+  if (found.is_checked) other_part = search_free_cells(query, found);
+  found.shows_other_part = other_part.exists();
   if (!other_part.exists() && query.accepts_ambiguous) other_part = record_.recent_other_part();
-  decide(query.accepts_ambiguous, other_part, verdict);
-  found->verdict = verdict;
-  return found;
+  decide(query.accepts_ambiguous, other_part, found.verdict);
 }
 
 /// If the matches near the prediction show that the right image is displaced, the prediction is tried again with the
@@ -88,7 +112,7 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
   if (!jump || !jump->is_certain(jumps_->has_jumped() ? kLaterJump : kFirstJump)) return;
   jumps_->set_jump(jump->shift);
   Candidates displaced;
-  attempt_all(SearchLevel::prediction, query, displaced);
+  attempt(Hypothesis::near_prediction, query, displaced);
   const auto area = [](const Candidates& of) {
     return of.front().is_confirmed() ? of.front().confirmed->verdict.area : 0;
   };
@@ -99,18 +123,13 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
   }
 }
 
-/// Tries the hypotheses of a level that have not been tried. They come in an order in which each has what it
-/// builds on.
-void MotionSearch::attempt_all(SearchLevel level, const MotionQuery& query, Candidates& candidates) {
-  if (level == SearchLevel::prediction) return attempt(Hypothesis::near_prediction, query, candidates);
-  attempt(Hypothesis::still_camera, query, candidates);
-  if (config_.temporal.global_edges == 0) {
-    attempt(Hypothesis::large_radius, query, candidates);
-  } else if (level == SearchLevel::everything) {
-    attempt(Hypothesis::global_matches, query, candidates);
-    attempt(Hypothesis::rest_of_global_matches, query, candidates);
-  }
-  attempt(Hypothesis::rest_of_confirmed, query, candidates);
+/// The hypotheses of a level, in an order in which each has what it builds on.
+std::vector<MotionSearch::Hypothesis> MotionSearch::hypotheses_at(SearchLevel level) const {
+  using H = Hypothesis;
+  if (level == SearchLevel::prediction) return {H::near_prediction};
+  if (config_.temporal.global_edges == 0) return {H::still_camera, H::large_radius, H::rest_of_confirmed};
+  if (level != SearchLevel::everything) return {H::still_camera, H::rest_of_confirmed};
+  return {H::still_camera, H::global_matches, H::rest_of_global_matches, H::rest_of_confirmed};
 }
 
 /// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would
@@ -119,6 +138,7 @@ bool MotionSearch::is_close_to_another(Hypothesis hypothesis) {
   return hypothesis == Hypothesis::still_camera || hypothesis == Hypothesis::rest_of_confirmed;
 }
 
+/// Tries a hypothesis, unless that has been tried.
 void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates) {
   const MotionStep* known = nullptr;  // the first confirmed motion with all of its inliers
   for (const Candidate& candidate : candidates) {
@@ -210,7 +230,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
   }
   predict_all();
   for (int round = 1;; ++round) {
-    frontend_.match(*base, search_, step->matches);
+    frontend_.match(*base, *query.current, search_, step->matches);
     fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
     evidence_.judge(search_.left, others.explained != nullptr ? 0 : config_.temporal.min_support, *step);
     if (!step->ok()) break;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file motion_search.hpp  Finds the motion of the current stereo edges since an earlier frame.
 
+#include <utility>
 #include <vector>
 
 #include "frontend/frontend.hpp"
@@ -23,7 +24,10 @@ class MotionSearch : public MotionFinder {
   /// Follows displaced images, too, which are noted in `offset`.
   MotionSearch(const Config& config, frontend::Frontend& frontend, DisparityOffset* offset);
 
+  struct State;
   StepHandle find(const MotionQuery& query) override;
+  /// Takes a step of a search, a few milliseconds, between which others may be made. \returns whether it was the last
+  bool advance(State& state);
   void remember(const MotionStep& found) override { record_.remember(found); }
   double take_pose_ms() override { return fits_.take_pose_ms(); }
   void hide(const PixelMask& left) override { hidden_ = left; }
@@ -57,7 +61,8 @@ class MotionSearch : public MotionFinder {
 
   static bool is_close_to_another(Hypothesis hypothesis);
   void follow_jump(const MotionQuery& query, Candidates& candidates);
-  void attempt_all(SearchLevel level, const MotionQuery& query, Candidates& candidates);
+  std::vector<Hypothesis> hypotheses_at(SearchLevel level) const;
+  void check(const MotionQuery& query, MotionStep& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
@@ -82,6 +87,20 @@ class MotionSearch : public MotionFinder {
   TrackRecord record_;
   PixelMask hidden_;
   TemporalSearch search_, next_search_, known_search_;  ///< kept between calls
+};
+
+/// A search under way, which begins with its query. The MotionSearch that advances it must outlive it.
+struct MotionSearch::State {
+  MotionQuery query;
+  StepHandle found = nullptr;  ///< the motion chosen, which only the last step judges finally
+
+  explicit State(MotionQuery asked) : query(std::move(asked)) {}
+
+ private:
+  friend class MotionSearch;
+  Candidates candidates_;
+  SearchLevel level_ = SearchLevel::prediction;
+  std::size_t next_ = 0;  ///< hypothesis of the level
 };
 
 }  // namespace quadedge::odometry

@@ -63,7 +63,7 @@ StepHandle PaperSearch::new_step(const frontend::FrameEdgesHandle& base) {
 StepHandle PaperSearch::find(const MotionQuery& query) {
   current_ = query.current;
   StepHandle adjacent = new_step(query.base);
-  frontend_.match(*query.base, {}, adjacent->matches);
+  frontend_.match(*query.base, *query.current, {}, adjacent->matches);
   if (query.key && query.key->frame == chain_key_ && query.base->frame == chain_end_) {
     StepHandle by_key = new_step(query.key);
     by_key->matches = propagate(chain_, adjacent->matches);

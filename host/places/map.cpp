@@ -45,6 +45,16 @@ constexpr double kNewView = 0.15;
 /// Number of closures that wait for another that agrees. One is found in the frames that follow, or not at all.
 constexpr std::size_t kMostPending = 20;
 
+/// A frame takes one step of a search for a place, and one more for every kNodesPerStep nodes that wait. Beyond
+/// kMostWaiting, the oldest is finished at once, since each holds all edges of its frame.
+constexpr std::size_t kNodesPerStep = 2, kMostWaiting = 12;
+
+/// About as many edges of a frame take part in global searches for places as a place has.
+Config for_places(Config config) {
+  config.temporal.global_edges = std::min(config.temporal.global_edges, static_cast<int>(frontend::kKeptEdges / 2));
+  return config;
+}
+
 /// Where a frame lies.
 struct LocatedFrame {
   std::int64_t stamp_ns = 0;
@@ -57,6 +67,37 @@ struct LocatedFrame {
 struct ListedClosure {
   std::size_t number;  ///< in the list of closures
   GraphEdge edge;
+};
+
+/// A node with its edges.
+struct NodeView {
+  int node = 0, frame = 0;
+  frontend::FrameEdgesHandle edges;
+  double inverse_depth = 0;  ///< mean of the edges [1/m]
+  double variance = 0;       ///< trace of the covariance of the motion measured last
+};
+
+/// A comparison with a place.
+struct Comparison {
+  Closure closure;
+  int place;    ///< its node
+  bool is_own;  ///< whether it is in the same segment
+  odometry::MotionSearch::State search;
+};
+
+/// A node that is being compared with similar places.
+struct WaitingNode {
+  struct Candidate {
+    int place;  ///< its node
+    float similarity;
+  };
+  NodeView view;
+  std::vector<Candidate> candidates;  ///< best first
+  std::size_t next = 0;               ///< the next candidate
+  std::optional<Comparison> comparison;
+  bool is_own_compared = false;        ///< a place of the same segment
+  std::optional<ListedClosure> own;    ///< with that place
+  std::vector<ListedClosure> joining;  ///< with places of other segments
 };
 
 }  // namespace
@@ -78,11 +119,13 @@ class Map::Implementation {
         config_(odometry.config()),
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
-        search_(config_, odometry::LatestFrame::of(odometry).frontend, odometry::LatestFrame::of(odometry).offset) {
+        search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend,
+                odometry::LatestFrame::of(odometry).offset) {
     places::check_map_config(config_);
   }
 
   bool add(const FrameResult& result);
+  bool finish();
   Trajectory trajectory() const;
   std::optional<Eigen::Isometry3d> pose(std::size_t frame) const;
   SavedMap saved() const;
@@ -95,15 +138,18 @@ class Map::Implementation {
   void locate(const FrameResult& result);
   int node_of_reference(int frame);
   bool recognise(int node);
+  bool advance();
+  std::optional<Comparison> begin_next(WaitingNode& waiting);
+  bool decide_all(const WaitingNode& waiting);
   bool is_joined(int one, int other) const { return graph_.component(one) == graph_.component(other); }
   const places::Place* nearest(int node, int max_gap, int min_gap, double most_change, double inverse_depth) const;
   double mean_inverse_depth() const;
   double spread(const GraphEdge& motion, double inverse_depth) const;
   bool may_overlap(const GraphEdge& motion, double inverse_depth) const;
   bool is_predictable(const GraphEdge& motion, double inverse_depth) const;
-  bool is_worthwhile(const GraphEdge& motion) const;
-  std::optional<ListedClosure> compare(const places::PlaceStore::Similar& similar, int node, bool near_prediction);
-  std::optional<GraphEdge> search(const places::Place& place, int node, bool near_prediction, Closure& closure);
+  bool is_worthwhile(const GraphEdge& motion, const NodeView& view) const;
+  Comparison begin(const NodeView& view, const places::Place& place, float similarity, bool near_prediction);
+  std::optional<ListedClosure> complete(const Comparison& comparison, const NodeView& view);
   Closure& listed(const ListedClosure& closure) { return closures_[closure.number]; }
   /// Whether its support, which a wrong motion does not reach by chance, suffices to join two segments.
   bool is_certain(const ListedClosure& closure) const {
@@ -128,6 +174,7 @@ class Map::Implementation {
   GraphEdge last_motion_;  ///< of the frame located last
   std::vector<Closure> closures_;
   std::deque<ListedClosure> pending_;  ///< the latest kMostPending that no other has confirmed
+  std::deque<WaitingNode> waiting_;    ///< oldest first
   Eigen::Isometry3d map_from_odometry_ = Eigen::Isometry3d::Identity();
 };
 
@@ -168,7 +215,12 @@ bool Map::Implementation::add(const FrameResult& result) {
   const LocatedFrame& now = frames_.back();
   if (now.node < 0) return false;
   const bool is_node = frame_of_node_[static_cast<std::size_t>(now.node)] == static_cast<int>(frames_.size()) - 1;
-  const bool changed = is_node && recognise(now.node);
+  const std::size_t waited = waiting_.size();
+  bool changed = is_node && recognise(now.node);
+  const bool has_entered = waiting_.size() > waited;  // which takes as long as a step
+  for (std::size_t steps = waited / kNodesPerStep + (has_entered ? 0 : 1); steps > 0; --steps)
+    changed = advance() || changed;
+  while (waiting_.size() > kMostWaiting) changed = advance() || changed;
   if (result.world_from_left)
     map_from_odometry_ = graph_.pose(now.node) * now.node_from_left * result.world_from_left->inverse();
   return changed;
@@ -224,22 +276,28 @@ bool Map::Implementation::may_overlap(const GraphEdge& motion, double inverse_de
   return odometry::view_change(motion.measured.transform, inverse_depth) < kMostChange + spread(motion, inverse_depth);
 }
 
-bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
-  return motion.measured.covariance.trace() > kWorthwhile * last_motion_.measured.covariance.trace();
+bool Map::Implementation::is_worthwhile(const GraphEdge& motion, const NodeView& view) const {
+  return motion.measured.covariance.trace() > kWorthwhile * view.variance;
 }
 
-/// Compares the current frame, which is a node, with places, and keeps it unless that adds no view.
+/// Compares the current frame, which is a node, with the place that it is known to see. Otherwise it waits for
+/// comparisons with similar places, and is kept, unless it adds no view. \returns whether the map has changed
 bool Map::Implementation::recognise(int node) {
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
-  const double inverse_depth = mean_inverse_depth();
+  const NodeView view{node, static_cast<int>(frames_.size()) - 1, now.frame_edges, mean_inverse_depth(),
+                      last_motion_.measured.covariance.trace()};
   const int min_gap = config_.map.min_gap;
-  if (const places::Place* seen = nearest(node, node, min_gap + 1, odometry::kSameView, inverse_depth)) {
+  if (const places::Place* seen = nearest(node, node, min_gap + 1, odometry::kSameView, view.inverse_depth)) {
     const GraphEdge motion = graph_.motion(seen->node, node);
-    if (is_predictable(motion, inverse_depth)) {
-      const auto closure = is_worthwhile(motion) ? compare({seen, 0}, node, true) : std::nullopt;
+    if (is_predictable(motion, view.inverse_depth)) {
+      if (!is_worthwhile(motion, view)) return false;
+      Comparison comparison = begin(view, *seen, 0, true);
+      while (!search_.advance(comparison.search)) {
+      }
+      const auto closure = complete(comparison, view);
       return closure && decide(*closure);
     }
-  } else if (nearest(node, min_gap, 1, kNewView, inverse_depth) != nullptr) {
+  } else if (nearest(node, min_gap, 1, kNewView, view.inverse_depth) != nullptr) {
     return false;
   }
   places::Place place{now.frontend.keep(), {}, node};
@@ -247,73 +305,112 @@ bool Map::Implementation::recognise(int node) {
   const auto may_be = [&](const places::Place& other) {
     return !is_joined(other.node, node) || node - other.node > min_gap;
   };
-  bool is_own_compared = false;
-  std::optional<ListedClosure> own;
-  std::vector<ListedClosure> joining;
-  int rank = 0;
+  WaitingNode waiting;
+  waiting.view = view;
   for (const auto& similar :
-       store_.most_similar(place.signature, places::kCandidateBatches * places::kCandidates, may_be)) {
-    const bool is_candidate = rank++ < places::kCandidates;
-    if (!is_joined(similar.place->node, node)) {
-      if (!is_candidate && !is_rival(*similar.place, joining, inverse_depth)) continue;
-      if (auto closure = compare(similar, node, false)) joining.push_back(*std::move(closure));
-    } else if (is_candidate && !is_own_compared) {
-      const GraphEdge motion = graph_.motion(similar.place->node, node);
-      is_own_compared = is_worthwhile(motion) && may_overlap(motion, inverse_depth);
-      if (is_own_compared) own = compare(similar, node, is_predictable(motion, inverse_depth));
+       store_.most_similar(place.signature, places::kCandidateBatches * places::kCandidates, may_be))
+    waiting.candidates.push_back({similar.place->node, similar.similarity});
+  if (!waiting.candidates.empty()) waiting_.push_back(std::move(waiting));
+  store_.add(std::move(place));
+  return false;
+}
+
+/// Takes one step for the node that waits longest: of the search for the motion from its next place or, after the last
+/// place, the decision. \returns whether the map has changed
+bool Map::Implementation::advance() {
+  if (waiting_.empty()) return false;
+  WaitingNode& waiting = waiting_.front();
+  if (!waiting.comparison) waiting.comparison = begin_next(waiting);
+  if (!waiting.comparison) {
+    const WaitingNode done = std::move(waiting);
+    waiting_.pop_front();
+    return decide_all(done);
+  }
+  if (!search_.advance(waiting.comparison->search)) return false;
+  auto closure = complete(*waiting.comparison, waiting.view);
+  if (closure && waiting.comparison->is_own) {
+    waiting.own = std::move(closure);
+  } else if (closure) {
+    waiting.joining.push_back(*std::move(closure));
+  }
+  waiting.comparison.reset();
+  return false;
+}
+
+/// Begins the comparison with the next candidate that is worth it. \returns nothing if none is left
+std::optional<Comparison> Map::Implementation::begin_next(WaitingNode& waiting) {
+  const NodeView& view = waiting.view;
+  while (waiting.next < waiting.candidates.size()) {
+    const bool is_candidate = waiting.next < places::kCandidates;
+    const WaitingNode::Candidate& candidate = waiting.candidates[waiting.next++];
+    const places::Place* const place = store_.find(candidate.place);
+    if (place == nullptr) continue;
+    if (!is_joined(place->node, view.node)) {
+      if (is_candidate || is_rival(*place, waiting.joining, view.inverse_depth))
+        return begin(view, *place, candidate.similarity, false);
+    } else if (is_candidate && !waiting.is_own_compared) {
+      const GraphEdge motion = graph_.motion(place->node, view.node);
+      waiting.is_own_compared = is_worthwhile(motion, view) && may_overlap(motion, view.inverse_depth);
+      if (waiting.is_own_compared)
+        return begin(view, *place, candidate.similarity, is_predictable(motion, view.inverse_depth));
     }
   }
-  store_.add(std::move(place));
-  reject_contradictions(joining);
-  bool changed = own && decide(*own);
-  for (const ListedClosure& closure : joining) changed = decide(closure) || changed;
+  return std::nullopt;
+}
+
+bool Map::Implementation::decide_all(const WaitingNode& waiting) {
+  reject_contradictions(waiting.joining);
+  bool changed = waiting.own && decide(*waiting.own);
+  for (const ListedClosure& closure : waiting.joining) changed = decide(closure) || changed;
   return changed;
 }
 
-/// Lists the comparison of the current frame with a place. \returns the closure, if a motion was found
-std::optional<ListedClosure> Map::Implementation::compare(const places::PlaceStore::Similar& similar, int node,
-                                                          bool near_prediction) {
-  Closure closure;
-  closure.frame = static_cast<int>(frames_.size()) - 1;
-  closure.other = similar.place->kept.frame;
-  closure.similarity = static_cast<double>(similar.similarity);
-  auto edge = search(*similar.place, node, near_prediction, closure);
-  closures_.push_back(closure);
-  if (!edge) return std::nullopt;
-  return ListedClosure{closures_.size() - 1, *std::move(edge)};
+bool Map::Implementation::finish() {
+  bool changed = false;
+  while (!waiting_.empty()) changed = advance() || changed;
+  return changed;
 }
 
-/// Searches for the motion from a place to the current frame, only near the map's if that is known well enough.
-std::optional<GraphEdge> Map::Implementation::search(const places::Place& place, int node, bool near_prediction,
-                                                     Closure& closure) {
-  const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
+/// Begins the search for the motion from a place to a node, only near the map's if that is known well enough.
+Comparison Map::Implementation::begin(const NodeView& view, const places::Place& place, float similarity,
+                                      bool near_prediction) {
   odometry::MotionQuery query;
-  query.current = now.frame_edges;
-  query.base = now.frontend.restore(place.kept);
-  query.seed = config_.seed + static_cast<std::uint64_t>(closure.frame);
+  query.current = view.edges;
+  query.base = odometry::LatestFrame::of(odometry_).frontend.restore(place.kept);
+  query.seed = config_.seed + static_cast<std::uint64_t>(view.frame);
   if (near_prediction) {
-    query.prediction = graph_.pose(node).inverse() * graph_.pose(place.node);
+    query.prediction = graph_.pose(view.node).inverse() * graph_.pose(place.node);
     query.only_near_prediction = true;
   }
-  const odometry::StepHandle step = search_.find(query);
-  if (!step->ok()) return std::nullopt;
-  const pose::MotionEstimate& motion = step->motion;
+  Comparison comparison{{}, place.node, is_joined(place.node, view.node), odometry::MotionSearch::State(query)};
+  comparison.closure.frame = view.frame;
+  comparison.closure.other = place.kept.frame;
+  comparison.closure.similarity = static_cast<double>(similarity);
+  return comparison;
+}
+
+/// Lists the outcome of a comparison. \returns the closure, if a motion was found
+std::optional<ListedClosure> Map::Implementation::complete(const Comparison& comparison, const NodeView& view) {
+  const odometry::MotionStep& step = *comparison.search.found;
+  Closure& closure = closures_.emplace_back(comparison.closure);
+  if (!step.ok()) return std::nullopt;
+  const pose::MotionEstimate& motion = step.motion;
   const pose::RelativePose frame_from_other = motion.adopted();
   closure.frame_from_other = frame_from_other.transform;
   closure.inliers = motion.inliers;
-  closure.support = step->verdict.support;
-  closure.verdict = step->verdict.ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
+  closure.support = step.verdict.support;
+  closure.verdict = step.verdict.ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
   GraphEdge edge =
-      GraphEdge::of(place.node, node, frame_from_other,
-                    pose::rig_sensitivity(frame_from_other.transform.inverse(), step->mean_inverse_depth()), true);
-  if (is_joined(place.node, node)) {
-    const Eigen::Isometry3d before = graph_.pose(node).inverse() * graph_.pose(place.node);
+      GraphEdge::of(comparison.place, view.node, frame_from_other,
+                    pose::rig_sensitivity(frame_from_other.transform.inverse(), step.mean_inverse_depth()), true);
+  if (is_joined(edge.from, edge.to)) {
+    const Eigen::Isometry3d before = graph_.pose(edge.to).inverse() * graph_.pose(edge.from);
     const Eigen::Isometry3d error = frame_from_other.transform * before.inverse();
     closure.deviation = std::sqrt(graph_.deviation(graph_.motion(edge.from, edge.to), edge));
     closure.distance_m = error.translation().norm();
     closure.angle_deg = Eigen::AngleAxisd(error.linear()).angle() / kDegree;
   }
-  return edge;
+  return ListedClosure{closures_.size() - 1, std::move(edge)};
 }
 
 /// Whether the loop of both closures and the map's motions between their ends closes.
@@ -443,6 +540,7 @@ StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
 Map::Map(StereoOdometry& odometry) : implementation_(std::make_unique<Implementation>(with_kept_rigs(odometry))) {}
 Map::~Map() = default;
 bool Map::add(const FrameResult& result) { return implementation_->add(result); }
+bool Map::finish() { return implementation_->finish(); }
 const Eigen::Isometry3d& Map::map_from_odometry() const { return implementation_->map_from_odometry(); }
 Trajectory Map::trajectory() const { return implementation_->trajectory(); }
 std::optional<Eigen::Isometry3d> Map::pose(int frame) const {

@@ -109,6 +109,11 @@ std::vector<PlaceStore::Similar> PlaceStore::most_similar(const PlaceSignature& 
   return found;
 }
 
+const Place* PlaceStore::find(int node) const {
+  const auto place = std::find_if(places_.begin(), places_.end(), [node](const Place& of) { return of.node == node; });
+  return place == places_.end() ? nullptr : &*place;
+}
+
 void check_map_config(const Config& config) {
   if (config.temporal.global_edges == 0)
     throw UsageError("a map needs the global search: temporal.global_edges above 0");

@@ -70,6 +70,8 @@ class PlaceStore {
   std::vector<Similar> most_similar(const PlaceSignature& signature, int count,
                                     const std::function<bool(const Place&)>& may_be) const;
 
+  /// The place of a node; null if it has left or was never kept.
+  const Place* find(int node) const;
   std::size_t size() const { return places_.size(); }
   std::size_t bytes() const { return bytes_; }
   const std::vector<Place>& places() const { return places_; }

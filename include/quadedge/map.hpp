@@ -80,6 +80,7 @@ struct Closure {
 
 /// A map of places beside an odometry, which it never changes: compares key rigs and lost frames with similar
 /// earlier ones (doc/method.md section 10), joins segments of the trajectory, and corrects it. Deterministic.
+/// Comparisons that take long are made in the frames that follow, so that each takes about as long as without the map.
 class Map {
  public:
   /// Refers to the odometry, which must outlive the map. \throws UsageError if `temporal.global_edges` is 0 or a filter
@@ -89,6 +90,8 @@ class Map {
 
   /// To be called after every frame with its result. \returns whether the map's poses have changed
   bool add(const FrameResult& result);
+  /// Makes the comparisons that still wait, after the last frame. \returns whether the map's poses have changed
+  bool finish();
 
   /// Pose of the odometry's world in the map. Identity until a closure is kept.
   const Eigen::Isometry3d& map_from_odometry() const;

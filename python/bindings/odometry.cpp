@@ -113,6 +113,7 @@ class Odometry {
   }
   Map& map() {
     if (!running().map) throw UsageError("the odometry keeps no map: expected Odometry(rig, loops=True)");
+    running().map->finish();
     return *running().map;
   }
   StereoEdgesInSpace in_space(StereoEdges edges) const {
