@@ -7,6 +7,7 @@
 #include "cli/console.hpp"
 #include "cli/points_output.hpp"
 #include "cli/rig_file.hpp"
+#include "cli/rig_observation.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -110,6 +111,11 @@ Device open_tested_device(const MethodOptions& method, report::RunRecord& run) {
   return device;
 }
 
+double device_peak_mb(const Device& device, const StereoOdometry& odometry) {
+  const std::size_t peak = device.is_reference() ? 0 : device.context()->peak_bytes();
+  return static_cast<double>(std::max(peak, odometry.device_bytes())) / (1024.0 * 1024.0);
+}
+
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                   const Interruption& interruption, PointsOutput& points, RigFile& known, report::RunRecord& run) {
@@ -145,6 +151,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
         odometry.restart();
       record.result = odometry.track(frame->view());
       known.learn(odometry, record.result);
+      observe_rig(odometry, record.result, run.rig);
       files.add(record.result);
       report_warnings(record.result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
@@ -167,8 +174,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   write_loops();
   if (run.input.frames == 0) run.input.frames = static_cast<int>(run.frames.size());
   run.input.dropped = source.dropped();
-  const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();
-  run.device_peak_mb = static_cast<double>(std::max(device_peak, odometry.device_bytes())) / (1024.0 * 1024.0);
+  run.device_peak_mb = device_peak_mb(device, odometry);
   run.host_peak_mb = host_peak_mb();
 }
 
@@ -247,6 +253,7 @@ void write_results(const FrameSource& source, const SequenceRunOptions& options,
                    report::RunRecord& run) {
   write_segments(options.output, tracked_poses(run));
   evaluate(source, options, run);
+  if (!run.rig.is_empty()) data::write_atomically(options.output + "/rig_maps.csv", report::rig_maps_csv(run.rig));
   data::write_atomically(options.output + "/report.json", report::report_json(run));
   known.write();
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));

@@ -55,6 +55,8 @@ class FramePreparation {
   std::vector<Warning> new_warnings();
 
   frontend::Frontend& frontend() const { return *frontend_; }
+  /// Of the frame judged last.
+  const std::vector<rig::CornerMatch>& corner_matches() const { return rig_monitor_.matches(); }
 
  private:
   RecordedImages recorded_;

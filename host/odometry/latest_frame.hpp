@@ -1,9 +1,13 @@
 #pragma once
 /// \file latest_frame.hpp  The frame tracked last, as a map of the same library sees it.
 
+#include <vector>
+
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "odometry/motion_step.hpp"
 #include "quadedge/odometry.hpp"
+#include "rig/corner_matching.hpp"
 
 namespace quadedge::odometry {
 
@@ -12,6 +16,8 @@ struct LatestFrame {
   frontend::Frontend& frontend;
   frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame
   const DisparityOffset& offset;
+  const MotionStep* step;                               ///< its motion; null if none was searched for
+  const std::vector<rig::CornerMatch>& corner_matches;  ///< what was compared with the calibration
 
   static LatestFrame of(const StereoOdometry& odometry);
 };

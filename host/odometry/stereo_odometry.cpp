@@ -95,7 +95,9 @@ class StereoOdometry::Implementation {
     static const StereoEdges none;
     return current_ ? current_->edges : none;
   }
-  odometry::LatestFrame latest_frame() const { return {preparation_.frontend(), current_, offset_}; }
+  odometry::LatestFrame latest_frame() const {
+    return {preparation_.frontend(), current_, offset_, step_ ? &*step_ : nullptr, preparation_.corner_matches()};
+  }
   const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
   Device& device() const { return device_; }

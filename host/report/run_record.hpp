@@ -13,6 +13,7 @@
 #include "quadedge/evaluation.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/self_test.hpp"
+#include "report/rig_maps.hpp"
 
 namespace quadedge::report {
 
@@ -76,6 +77,7 @@ struct RunRecord {
   double host_peak_mb = 0, device_peak_mb = 0;
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
   std::vector<std::vector<StageTime>> kernel_times;
+  RigMaps rig;                                                ///< empty where nothing was compared
   std::optional<PointFacts> points;                           ///< only if requested
   std::optional<LoopFacts> loops;                             ///< only with --loops
   std::string truth_file;                                     ///< empty without ground truth

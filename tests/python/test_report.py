@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_up_results import ORIGIN, accuracy, statistics, write_batch, write_matching, write_run
+from made_up_results import ORIGIN, accuracy, statistics, write_batch, write_matching, write_rig, write_run
 from parsed_page import ParsedPage
 
 pytest.importorskip("jinja2")
@@ -162,6 +162,44 @@ def test_a_page_lists_reasons_of_lost_frames_and_warnings(tmp_path):
                                               ["9", "0.900", "too few quads", "4 quads, of 20"]]
     assert "Frame 2: dim images" in page.text and "Frame None" not in page.text
     assert "--fps 30 contradicts" in page.text
+
+
+def test_maps_of_the_rig_have_one_scale_before_and_after(tmp_path):
+    write_run(tmp_path / "street", 12)
+    content = write_rig(tmp_path / "street", 0.4)
+    page = page_of(tmp_path / "street")
+    before, after, columns, _ = (page.figure(name)["data"][0] for name in (
+        "rows_before", "rows_after", "columns_before", "columns_after"))
+    assert before["z"] == [[-0.8, 0, 0], [0, 0, None]] and after["z"][0] == [0.01] * 3
+    assert before["x"] == [99.5, 299.5, 499.5] and before["y"] == [99.5, 299.5]
+    assert [before["zmin"], before["zmax"]] == [after["zmin"], after["zmax"]] == [-0.8, 0.8]
+    assert columns["zmax"] == 0.25  # that of a small map
+    assert page.figure("rows_before")["layout"]["yaxis"]["range"] == [399.5, -0.5]  # downwards
+    table = next(rows for title, rows in page.tables.items() if title.startswith("Rows and columns"))
+    assert table[1] == ["Rows", "calibration as given", "5", "0.40", "-0.80", "0.10"]
+    assert "+0.00\u2009\u00b1\u20090.30 px at the start, -0.12\u2009\u00b1\u20090.02 px at the end" in page.text
+    assert "too little, or not clearly enough" in page.text and page.text.count("Nothing beyond their noise") == 1
+    content["rig"]["row_correction_px"] = 0.85
+    (tmp_path / "street/report.json").write_text(json.dumps(content))
+    assert "The search allows for up to 0.85 px" in page_of(tmp_path / "street").text
+    write_rig(tmp_path / "street", 0.01)
+    assert page_of(tmp_path / "street").text.count("Nothing beyond their noise") == 2
+    rows = (tmp_path / "street/rig_maps.csv").read_text().splitlines()
+    (tmp_path / "street/rig_maps.csv").write_text("\n".join(rows[:4] + rows[5:]))
+    with pytest.raises(report.DamagedResults, match="rig_maps.csv: expected the maps of a run"):
+        report.make_page(tmp_path / "street")
+
+
+def test_a_run_without_points_at_new_key_rigs_says_nothing_of_columns(tmp_path):
+    write_run(tmp_path / "rest", 9)
+    content = write_rig(tmp_path / "rest", 0.01)
+    nothing = dict.fromkeys(("rms_px", "largest_px", "scatter_px", "noise_px")) | {"cells": 0}
+    content["rig"]["columns"] = {"before": nothing, "after": nothing}
+    (tmp_path / "rest/report.json").write_text(json.dumps(content))
+    page = page_of(tmp_path / "rest")
+    assert page.text.count("Nothing beyond their noise") == 1
+    assert page.row("Rows and columns of the right image: medians over its cells [px]", "Columns")[2:] == [
+        "0", *[numbers.DASH] * 3]
 
 
 def test_an_interrupted_or_killed_run_has_a_page_of_its_finished_frames(tmp_path):
@@ -416,6 +454,7 @@ def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame(tmp_path):
 
 def test_every_table_and_figure_becomes_a_file(tmp_path):
     write_run(tmp_path / "street", 12)
+    write_rig(tmp_path / "street", 0.4)
     page = page_of(tmp_path / "street", csv=tmp_path / "csv", latex=tmp_path / "tex", figures=tmp_path / "svg")
     assert len(list((tmp_path / "csv").glob("*.csv"))) == len(page.tables)
     assert len(list((tmp_path / "tex").glob("*.tex"))) == len(page.tables)

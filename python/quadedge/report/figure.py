@@ -8,6 +8,7 @@ import numpy as np
 # Blue, orange, magenta, green, violet, grey, brown: distinguishable for colour-blind readers on light and dark pages.
 COLOURS = ("#2f80d0", "#e08a00", "#c63f9d", "#2a9d7c", "#7a5af0", "#8a8f98", "#a0522d")
 GREY = 5
+SCALE = ("#5aa3e8", "#f4f4f2", "#f0a63a")  # of heat maps, whose numbers are dark on light and dark pages
 # Each style also has a line style and a marker; plotly has fewer markers in space. Beside plotly's names matplotlib's.
 _DASHES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-.", "longdash": (0, (8, 3)),
            "longdashdot": (0, (8, 3, 1, 3))}
@@ -43,6 +44,13 @@ class Figure:
     equal_units: bool = False
     wide: bool = False
     """Spans the width of the page."""
+    cells: np.ndarray | None = None
+    """In place of traces: the values of a grid of cells over the whole of x_range and y_range, its first row at the
+    upper end of the plot; NaN where there is none."""
+    cell_limit: float = 1
+    """The end of the colour scale, which is symmetric about 0."""
+    cell_label: str = ""
+    """Of the colour scale."""
 
     def add(self, name: str, x, y, z=None, *, style: int = 0, points: bool = False, fill: str = "", dash: str = "",
             times: np.ndarray | None = None, hover: list[str] | None = None) -> None:
@@ -96,6 +104,18 @@ class Figure:
         shown = {"title": {"text": getattr(self, f"{axis}_label")}, "automargin": True}
         return shown | ({"range": list(limits)} if limits else {})
 
+    def cell_centres(self) -> list[np.ndarray]:
+        """Of the columns and of the rows of cells."""
+        return [np.linspace(*limits, 2 * count + 1)[1::2]
+                for limits, count in zip((self.x_range, self.y_range[::-1]), self.cells.shape[::-1])]
+
+    def _heat_map(self) -> dict:
+        x, y = self.cell_centres()
+        return {"type": "heatmap", "x": x, "y": y, "z": list(self.cells), "texttemplate": "%{z:.2f}",
+                "textfont": {"size": 9}, "hoverongaps": False, "zmin": -self.cell_limit, "zmax": self.cell_limit,
+                "xgap": 1, "ygap": 1, "colorscale": list(zip((0, 0.5, 1), SCALE)),
+                "colorbar": {"title": {"text": self.cell_label}, "thickness": 14}}
+
     def plotly(self) -> dict:
         """The `data` and `layout` arguments of Plotly.newPlot. The page adds size, fonts and background colours."""
         layout: dict = {"title": {"text": self.full_title()}}
@@ -104,6 +124,8 @@ class Figure:
                 "aspectmode": "manual", "aspectratio": dict(zip("xyz", self.lengths(1.4))),
                 "camera": {"eye": {"x": -0.85, "y": -1.5, "z": 0.8}, "center": {"x": 0, "y": 0, "z": -0.12}}}
             return {"data": self.traces, "layout": layout}
+        if self.cells is not None:
+            return {"data": [self._heat_map()], "layout": layout | {axis + "axis": self._axis(axis) for axis in "xy"}}
         x, y = layout["xaxis"], layout["yaxis"] = self._axis("x"), self._axis("y")
         if self.categories:
             x |= {"type": "category", "categoryarray": self.categories, "categoryorder": "array", "tickangle": -40}
@@ -139,6 +161,19 @@ def _draw(axes, traces: list[dict]) -> None:
             axes.fill_between(trace["x"], floor, trace["y"], color=colour, alpha=0.3, linewidth=0)
 
 
+def _draw_cells(picture, axes, figure: Figure) -> None:
+    from matplotlib.colors import LinearSegmentedColormap
+
+    drawn = axes.imshow(figure.cells, LinearSegmentedColormap.from_list("signed", SCALE), aspect="auto",
+                        extent=(*figure.x_range, *figure.y_range), vmin=-figure.cell_limit,
+                        vmax=figure.cell_limit)
+    axes.grid(False)
+    x, y = figure.cell_centres()
+    for row, column in np.argwhere(np.isfinite(figure.cells)):
+        axes.text(x[column], y[row], f"{figure.cells[row, column]:.2f}", ha="center", va="center", fontsize=5)
+    picture.colorbar(drawn, label=figure.cell_label)
+
+
 def _finish(axes, figure: Figure) -> None:
     axes.set(title=figure.full_title(), xlabel=figure.x_label, ylabel=figure.y_label)
     if figure.is_spatial:
@@ -170,6 +205,8 @@ def write_figure(figure: Figure, folder: Path) -> list[Path]:
     with pyplot.rc_context(_MATPLOTLIB):
         picture, axes = pyplot.subplots(figsize=(7 if figure.wide else 5, 4), layout="constrained",
                                         subplot_kw={"projection": "3d"} if figure.is_spatial else {})
+        if figure.cells is not None:
+            _draw_cells(picture, axes, figure)
         _draw(axes, figure.traces)
         _finish(axes, figure)
         if any(trace["name"] for trace in figure.traces):

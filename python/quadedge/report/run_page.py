@@ -6,6 +6,7 @@ from .numbers import DASH, count, length_text, length_unit, share_of, significan
 from .origin import configuration_rows, device_text, origin
 from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
 from .results import Run
+from .rig_figures import rig_figures, rig_table
 from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
 from .table import Cell, Table
 
@@ -26,6 +27,9 @@ def run_page(run: Run, detail: Detail) -> Page:
     sections = [Section("Results", [*warnings(run), latency_table(run), *accuracy_tables(run), *loss_tables(run)])]
     figures = plots(run, [], detail) or [("Plots", [NO_PLOTS])]
     page.sections += sections + [Section(name, blocks) for name, blocks in figures]
+    if "rig" in report:
+        maps = rig_figures(run)
+        page.sections.append(Section("Rig", [rig_table(report["rig"]), *([Figures(maps)] if maps else [])]))
     pictures = picture_blocks(run, detail)
     if pictures:
         page.sections.append(Section("Pictures", pictures))

@@ -1,0 +1,64 @@
+#include "cli/rig_observation.hpp"
+
+#include "odometry/latest_frame.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+/// By how many pixels of the right image a point lies farther along its line than the motion predicts, if all
+/// disparities are `offset` px larger than those of the quad.
+double beyond_prediction(const pose::StereoMeasurement& before, const pose::StereoMeasurement& after,
+                         const Eigen::Isometry3d& motion, double offset) {
+  const double inverse_depth = before.inverse_depth + offset * before.inverse_depth_per_pixel;
+  const double z = motion.linear().row(2).dot(before.ray) + inverse_depth * motion.translation().z();
+  return offset + (after.inverse_depth - inverse_depth / z) / after.inverse_depth_per_pixel;
+}
+
+void observe_rows(const odometry::LatestFrame& frame, const PinholeCamera& right, report::RigMaps& maps) {
+  const RectificationError& error = frame.frontend.rectification().error();
+  maps.row_correction = error.largest();
+  maps.width = right.width;
+  maps.height = right.height;
+  for (const rig::CornerMatch& match : frame.corner_matches) {
+    const double u = match.right.x() / right.width, v = match.right.y() / right.height;
+    maps.rows_before.add(u, v, match.across);
+    maps.rows_after.add(u, v, match.across - error.at(u - 0.5, v - 0.5));
+  }
+}
+
+/// \param offset of all disparities, learned so far [px]
+void observe_columns(const odometry::MotionStep& step, double offset, const PinholeCamera& right,
+                     report::RigMaps& maps) {
+  const pose::QuadObservations& quads = step.quads;
+  const pose::PoseAndOffset& motion = step.motion.learned;
+  for (std::size_t q = 0; q < step.motion.inlier.size(); ++q) {
+    if (step.motion.inlier[q] == 0) continue;
+    const auto beyond = [&](double by) {
+      return beyond_prediction(quads.previous[q], quads.current[q], motion.current_from_previous, by);
+    };
+    const double u = static_cast<double>(quads.scoring.right_x[q]) / right.width,
+                 v = static_cast<double>(quads.scoring.right_y[q]) / right.height;
+    maps.columns_before.add(u, v, beyond(motion.offset - offset));
+    maps.columns_after.add(u, v, beyond(motion.offset));
+  }
+}
+
+}  // namespace
+
+void observe_rig(const StereoOdometry& odometry, const FrameResult& result, report::RigMaps& maps) {
+  const auto frame = odometry::LatestFrame::of(odometry);
+  if (!result.world_from_left || frame.corner_matches.empty()) return;
+  const auto& rectification = frame.frontend.rectification();
+  const double frames = rectification.rows().sums().frames;
+  if (frames < maps.frames) maps = {};
+  const PoseConfig& given = odometry.config().pose;
+  if (maps.frames == 0) maps.offset_start = maps.offset_end = {given.disparity_offset, given.disparity_offset_sigma};
+  maps.frames = frames;
+  if (rectification.is_contradicted()) return;
+  observe_rows(frame, odometry.rig().right, maps);
+  if (frame.step == nullptr || !frame.step->ok()) return;
+  maps.offset_end = {result.disparity_offset, result.disparity_offset_sigma};
+  if (result.new_key_rig) observe_columns(*frame.step, result.disparity_offset, odometry.rig().right, maps);
+}
+
+}  // namespace quadedge::cli

@@ -1,0 +1,67 @@
+"""What a run shows of its rig over the right image, before and after learning: a table, maps, and how to read them."""
+
+import numpy as np
+
+from .figure import FEWEST_FRAMES, Figure
+from .numbers import PLUS_MINUS
+from .results import Run
+from .table import Cell, Table
+
+LEAST_LIMIT = 0.25  # px, of a colour scale: the maps of a sound rig are pale
+NOISE = 2  # a map is noise up to this many times what independent samples leave
+STATES = {"before": "calibration as given", "after": "with what was learned"}
+TITLES = {"rows": "Rows", "columns": "Columns"}
+
+
+def rig_table(rig: dict) -> Table:
+    """The maps in a few numbers."""
+    table = Table("rig", "Rows and columns of the right image: medians over its cells [px]",
+                  ["", "", "cells", "root mean square", "largest", "scatter of single points"], text_columns=2)
+    for axis, title in TITLES.items():
+        for state, text in STATES.items():
+            found = rig[axis][state]
+            table.add(title if state == "before" else Cell("", title), text, found["cells"],
+                      *[Cell.of(found[key], 2) for key in ("rms_px", "largest_px", "scatter_px")])
+    table.notes = [rows_text(rig), columns_text(rig)]
+    return table
+
+
+def is_noise(found: dict) -> bool:
+    """Whether the cells differ from 0 by what the scatter of single points explains."""
+    return found["cells"] > 0 and found["rms_px"] <= NOISE * found["noise_px"]
+
+
+def rows_text(rig: dict) -> str:
+    """What the maps of rows are, and how the search takes them."""
+    text = "Rows: distance of points from their epipolar lines, downwards on a rectified rig. "
+    if rig["row_correction_px"]:
+        return text + f"The search allows for up to {rig['row_correction_px']:.2f} px, learned from these points."
+    if is_noise(rig["rows"]["before"]):
+        return text + "Nothing beyond their noise."
+    return text + "They are off, but too little, or not clearly enough, for the search to allow for it."
+
+
+def columns_text(rig: dict) -> str:
+    """What is learned of the columns, and what their maps are."""
+    start, end = (f"{value['px']:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
+                  for value in map(rig["disparity_offset"].get, ("start", "end")))
+    text = (f"Columns: one number is learned for the whole image, an offset of all disparities: {start} at the start, "
+            f"{end} at the end. The maps show by how much farther along their lines points of a new key rig lie than "
+            "those of the last one and the motion predict. One rig sees both, so that its errors show only as far "
+            "as points change their depth or their place in the image.")
+    return text + (" Nothing beyond their noise." if is_noise(rig["columns"]["after"]) else "")
+
+
+def rig_figures(run: Run) -> list[Figure]:
+    """Maps of rows and columns, before and after, each pair with one scale."""
+    if run.count() < FEWEST_FRAMES or not run.rig_maps:
+        return []
+    figures, rig = [], run.report["rig"]
+    for axis, title in TITLES.items():
+        maps = {text: run.rig_maps[f"{axis}_{state}"] for state, text in STATES.items()}
+        limit = float(np.nanmax(np.abs(list(maps.values())), initial=LEAST_LIMIT))
+        figures += [Figure(f"{run.name}_{axis}_{state}", f"{title}, {text}", "x in the right image [px]", "y [px]",
+                           x_range=(-0.5, rig["width"] - 0.5), y_range=(rig["height"] - 0.5, -0.5), cells=cells,
+                           cell_limit=limit, cell_label="[px]")
+                    for state, (text, cells) in zip(STATES, maps.items())]
+    return figures
