@@ -27,6 +27,7 @@ class CountingFrontend : public frontend::Frontend {
   void match_globally(const frontend::FrameEdges& base, const frontend::FrameEdges& current, int edges,
                       TemporalMatches& matches) override {
     ++global;
+    global_edges = edges;
     reference_->match_globally(base, current, edges, matches);
   }
   void match_globally(const frontend::FrameEdges& base, const frontend::FrameEdges& current, const GlobalSearch& among,
@@ -41,7 +42,7 @@ class CountingFrontend : public frontend::Frontend {
   EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }
 
-  int coarse = 0, guided = 0, global = 0, beside = 0;
+  int coarse = 0, guided = 0, global = 0, beside = 0, global_edges = 0;
   float largest_radius = 0;
 
  private:
@@ -107,6 +108,28 @@ TEST_CASE("motion search: a good prediction ends it, any other starts the global
   frames.check(turned(frames.truth()));
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->global == 1);
+}
+
+TEST_CASE("motion search: at the start few global matches suffice, unless they leave a doubt", "[odometry]") {
+  TwoFrames frames(3000);
+  frames.query.at_start = true;
+  frames.check(std::nullopt);
+  CHECK(frames.frontend->global == 1);
+  CHECK(frames.frontend->global_edges == 1000);
+  CHECK(frames.frontend->beside == 1);  // what does not follow is searched for another motion all the same
+  odometry::MotionStep ambiguous;
+  ambiguous.verdict.refusal = Refusal::none;
+  ambiguous.verdict.ambiguity = {odometry::AmbiguityKind::competing_motion, 0.5};
+  frames.search->remember(ambiguous);
+  frames.check(std::nullopt);
+  CHECK(frames.frontend->global == 2);
+  CHECK(frames.frontend->global_edges == 3000);
+
+  TwoFrames sparse(120);
+  sparse.query.at_start = true;
+  sparse.check(std::nullopt);  // the matches of 40 edges lie in too few cells
+  CHECK(sparse.frontend->global == 2);
+  CHECK(sparse.frontend->global_edges == 120);
 }
 
 TEST_CASE("motion search: verdict, inliers and covariance are those of the motion returned", "[odometry]") {

@@ -6,6 +6,8 @@
 #include "common/timing.hpp"
 #include "frontend/prediction.hpp"
 #include "odometry/odometry_constants.hpp"
+#include "pose/pose_constants.hpp"
+#include "pose/scoring.hpp"
 
 namespace quadedge::odometry {
 namespace {
@@ -100,9 +102,20 @@ StepHandle MotionProposals::still_camera(const MotionQuery& query) {
   return step;
 }
 
+StepHandle MotionProposals::few_global_matches(const MotionQuery& query) {
+  StepHandle step = matched_globally(query, config_.temporal.global_edges / kFewMatchesThinning);
+  if (!step->ok() || step->motion.inlier_ratio() < kFewMatchesRatio) return nullptr;
+  const int cells = pose::count_cells(step->quads.scoring, step->motion.inlier, pose::kInflationCell);
+  return cells >= kFewMatchesCells * config_.pose.min_inliers ? std::move(step) : nullptr;
+}
+
 StepHandle MotionProposals::global_matches(const MotionQuery& query) {
+  return matched_globally(query, config_.temporal.global_edges);
+}
+
+StepHandle MotionProposals::matched_globally(const MotionQuery& query, int edges) {
   StepHandle step = fits_.new_step(query.base);
-  frontend_.match_globally(*query.base, *query.current, config_.temporal.global_edges, step->matches);
+  frontend_.match_globally(*query.base, *query.current, edges, step->matches);
   fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
   return step;
 }

@@ -61,6 +61,8 @@ class MotionProposals {
   StepHandle in_large_radius(const MotionQuery& query);
   /// The camera is stationary, and only objects in front of it move.
   StepHandle still_camera(const MotionQuery& query);
+  /// The motion of a part of the global matches; null unless most of them agree, in many parts of the image.
+  StepHandle few_global_matches(const MotionQuery& query);
   /// The camera may have moved arbitrarily: a subset of the edges is matched over the whole image.
   StepHandle global_matches(const MotionQuery& query);
   /// The motion of the global matches is that of an object: those that it does not explain have another one.
@@ -74,6 +76,7 @@ class MotionProposals {
 
  private:
   StepHandle in_radius(const MotionQuery& query, double radius);
+  StepHandle matched_globally(const MotionQuery& query, int edges);
   /// A step with those matches of `other` for which `is_rest` is not 0.
   StepHandle with_rest_of(const MotionQuery& query, const MotionStep& other, const PoseConfig& limits);
 

@@ -53,6 +53,7 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, D
 }
 
 StepHandle MotionSearch::find(const MotionQuery& query) {
+  if (StepHandle found = find_by_few_matches(query)) return found;
   State state(query);
   while (!advance(state)) {
   }
@@ -92,6 +93,23 @@ bool MotionSearch::advance(State& state) {
   return true;
 }
 
+/// At the start a few global matches take the place of the prediction if they leave no doubt; otherwise null, as though
+/// they had not been tried.
+StepHandle MotionSearch::find_by_few_matches(const MotionQuery& query) {
+  if (!query.at_start) return nullptr;
+  Candidates candidates;
+  attempt(Hypothesis::few_global_matches, query, candidates);
+  std::vector<Verdict> verdicts = verdicts_on(candidates, query);
+  if (verdicts.empty()) return nullptr;
+  choose(candidates, query, verdicts);
+  if (verdicts.front().needed > SearchLevel::prediction) return nullptr;
+  StepHandle found = std::move(candidates.front().outcome());
+  found->verdict = verdicts.front();
+  check(query, *found);
+  return found->verdict.ambiguity.exists() ? nullptr : std::move(found);
+}
+
+/// Completes the verdict on the motion chosen, which the rest of the image may contradict.
 void MotionSearch::check(const MotionQuery& query, MotionStep& found) {
   found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);
   Ambiguity other_part;
@@ -160,6 +178,7 @@ StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query
   switch (hypothesis) {
     case Hypothesis::near_prediction: return proposals_.near_prediction(query);
     case Hypothesis::large_radius: return proposals_.in_large_radius(query);
+    case Hypothesis::few_global_matches: return proposals_.few_global_matches(query);
     case Hypothesis::still_camera: return proposals_.still_camera(query);
     case Hypothesis::global_matches: return proposals_.global_matches(query);
     case Hypothesis::rest_of_global_matches:
@@ -270,7 +289,8 @@ std::size_t MotionSearch::choose(const Candidates& candidates, const MotionQuery
   Expectation expectation;
   expectation.was_ambiguous = record_.was_ambiguous();
   expectation.confident_support = query.only_near_prediction ? kChanceSupport : record_.confident_support();
-  if (candidates.front().hypothesis == Hypothesis::near_prediction) expectation.predicted = 0;
+  const Hypothesis first = candidates.front().hypothesis;
+  if (first == Hypothesis::near_prediction || first == Hypothesis::few_global_matches) expectation.predicted = 0;
   Comparison comparison;
   comparison.is_same = [&](std::size_t one, std::size_t other) {
     const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();

@@ -35,6 +35,7 @@ class MotionSearch : public MotionFinder {
  private:
   enum class Hypothesis {
     near_prediction,
+    few_global_matches,
     still_camera,
     global_matches,
     rest_of_global_matches,
@@ -59,6 +60,7 @@ class MotionSearch : public MotionFinder {
     bool must_compete = false;                  ///< whether a motion that explains much less than `known` is given up
   };
 
+  StepHandle find_by_few_matches(const MotionQuery& query);
   static bool is_close_to_another(Hypothesis hypothesis);
   void follow_jump(const MotionQuery& query, Candidates& candidates);
   std::vector<Hypothesis> hypotheses_at(SearchLevel level) const;

@@ -23,6 +23,7 @@ struct MotionQuery {
   frontend::FrameEdgesHandle key;   ///< the key rig, preferred while in view; null if the base is the key rig
   Eigen::Isometry3d base_from_key = Eigen::Isometry3d::Identity();  ///< valid if `key` is not null
   std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
+  bool at_start = false;  ///< whether the base is the first frame, and nothing has been lost since
   std::uint64_t seed = 0;
   /// Only a motion near the prediction, with more support than chance gives; no global matches.
   bool only_near_prediction = false;

@@ -12,6 +12,12 @@ constexpr double kLargeRadiusRatio = 0.1;
 /// Inlier distance of global matches [px], since a match may be a neighbour of the correct edge.
 constexpr double kGlobalInlierDistance = 4.0;
 
+/// At the start temporal.global_edges divided by this are matched globally first. Their motion is followed if at least
+/// this ratio of the matches agrees, in this many times pose.min_inliers cells: enough to decide between motions, which
+/// the frames 1 of all recordings at hand reach twice over.
+constexpr int kFewMatchesThinning = 3, kFewMatchesCells = 4;
+constexpr double kFewMatchesRatio = 0.5;
+
 /// A motion with less support must agree with the global matches.
 constexpr double kConfidentSupport = 0.35;
 

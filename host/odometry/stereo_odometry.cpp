@@ -137,6 +137,7 @@ class StereoOdometry::Implementation {
   odometry::StepHandle step_;                           ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
   bool starts_segment_ = false;    ///< with the next frame that has edges
+  bool at_start_ = false;          ///< no motion has been searched for since the first frame
   std::vector<double> distances_;  ///< buffer of median_parallax()
 };
 
@@ -234,6 +235,7 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
         "segment " + std::to_string(state_.segment) + " starts: its place relative to the earlier ones is unknown",
         result);
   }
+  at_start_ = true;
   result.status = FrameStatus::first;
   result.world_from_left = state_.world_from_last;
   result.new_key_rig = true;
@@ -261,8 +263,10 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
     query.key = state_.key.frame_edges();
     query.base_from_key = state_.base.from_key.transform;
   }
+  query.at_start = std::exchange(at_start_, false) && query.accepts_ambiguous;
   odometry::StepHandle found = motion_search_->find(query);
   if (found->ok()) return found;
+  query.at_start = false;
   if (odometry::StepHandle returned = search_earlier(query)) return returned;
   if (!state_.lost) return found;
   query.base = state_.lost->frame_edges;
