@@ -45,6 +45,11 @@ StepHandle MotionFits::new_step(const frontend::FrameEdgesHandle& base) {
 void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
                      const std::optional<Eigen::Isometry3d>& initial, pose::RefinementGoal goal, MotionStep& step) {
   const auto start = Clock::now();
+  const auto lend_measurements = [&] {
+    step.quads.previous.swap(previous_);
+    step.quads.current.swap(current_);
+  };
+  lend_measurements();
   quad_builder_.build(measured(*step.base), query.current->edges, measured(*query.current), step.matches,
                       pose::QuadLimits(), step.quads);
   step.quads.scoring.half_length =
@@ -52,6 +57,7 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
   step.verdict = {};
   step.verdict.refusal = estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(),
                                              step.motion, goal);
+  lend_measurements();
   pose_ms_ += milliseconds_since(start);
 }
 

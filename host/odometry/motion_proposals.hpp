@@ -42,6 +42,7 @@ class MotionFits {
   const DisparityOffset& offset_;
   Pool<MotionStep> steps_;
   pose::QuadBuilder quad_builder_;
+  std::vector<pose::StereoMeasurement> previous_, current_;  ///< of the step that is fitted: 350 bytes per quad
   pose::MotionEstimator estimator_;
   double pose_ms_ = 0;
 };

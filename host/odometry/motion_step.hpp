@@ -76,7 +76,7 @@ class ExplainedCells {
 struct MotionStep {
   frontend::FrameEdgesHandle base;  ///< the earlier frame
   TemporalMatches matches;
-  pose::QuadObservations quads;
+  pose::QuadObservations quads;  ///< without measurements except while the motion is estimated
   pose::MotionEstimate motion;
   Verdict verdict;  ///< of the estimate, then of the confirmation; in what find() returns, the final one
   // Of a motion that was confirmed with all edges:

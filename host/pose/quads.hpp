@@ -50,14 +50,15 @@ inline constexpr std::vector<float> ScoringArrays::*kScoringColumns[] = {
 /// Quads: a stereo edge of the previous (or key) rig and the stereo edge of the current frame that shows the same scene
 /// point. All arrays have one row per quad; every point lies in front of both cameras of its rig.
 struct QuadObservations {
-  std::vector<StereoMeasurement> previous, current;  ///< in the left camera frame at their time
+  /// In the left camera frame at their time; only fits and samples read them.
+  std::vector<StereoMeasurement> previous, current;
   ScoringArrays scoring;
   std::vector<float> ncc;  ///< similarity
   std::vector<std::int32_t>
       competing_clusters;           ///< further clusters of the previous edge's candidates (0: unambiguous)
   std::vector<std::int32_t> match;  ///< the caller's index of the quad (row of TemporalMatches)
 
-  std::size_t size() const { return previous.size(); }
+  std::size_t size() const { return match.size(); }
   void resize(std::size_t quads);
   /// Sets quad `i`, made of two measured stereo edges and the current edge as detected [px, rad].
   void set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
