@@ -1,6 +1,7 @@
 #include "rig/static_region.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/numeric.hpp"
@@ -14,14 +15,20 @@ constexpr int kReducedCell = kStaticCell / kReduction;
 
 /// Reduced grey levels of a cell, zero-mean and of unit length; empty if the cell is flat.
 std::vector<float> texture_of(const PinholeView& view, int column, int row) {
+  // Samples in the middle between pixels, two rows and two columns of them per reduced pixel, and one more.
+  constexpr int kSide = 2 * kReducedCell + 1;
+  constexpr double kStep = kReduction / 2, kMiddle = kStep * kReducedCell + 0.5;
+  std::array<float, std::size_t{kSide * kSide}> samples{};
+  const Eigen::Vector2d middle(column * kStaticCell + kMiddle, row * kStaticCell + kMiddle);
+  view.patch(middle, kStep * Eigen::Matrix2d::Identity()).sample(kReducedCell, samples.data());
   std::vector<float> texture(kReducedCell * kReducedCell);
   float sum = 0;
   for (int y = 0; y < kReducedCell; ++y) {
     for (int x = 0; x < kReducedCell; ++x) {
-      const double u = column * kStaticCell + kReduction * (x + 0.5) - 0.5,
-                   v = row * kStaticCell + kReduction * (y + 0.5) - 0.5;
+      const float* const above = samples.data() + 2 * (y * kSide + x);
+      const float* const below = above + kSide;
       float& level = texture[static_cast<std::size_t>(y * kReducedCell + x)];
-      level = 0.25F * (view.at(u - 1, v - 1) + view.at(u + 1, v - 1) + view.at(u - 1, v + 1) + view.at(u + 1, v + 1));
+      level = 0.25F * (above[0] + above[1] + below[0] + below[1]);
       sum += level;
     }
   }
