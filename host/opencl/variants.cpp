@@ -15,7 +15,9 @@ const std::vector<Variant>& all_variants() {
   // LONG: a table, one row per variant, ordered by stage.
   // clang-format off
   static const std::vector<Variant> table = {
-      {"undistortion", "item64", {"undistortion.cl"}, Form::items, {}, 64, true, true,
+      {"undistortion", "pixels16", {"undistortion.cl"}, Form::items, {{"PIXELS", "16"}}, 64, true, false,
+       "one work-item per 16 pixels, float16, groups of 64"},
+      {"undistortion", "item64", {"undistortion.cl"}, Form::items, {}, 64, false, true,
        "one work-item per pixel, groups of 64"},
       {"smoothing", "item64", {"smoothing.cl"}, Form::items, {}, 64, true, true,
        "one work-item per pixel, groups of 64"},

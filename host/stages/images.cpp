@@ -82,6 +82,9 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
       max_value_(max_value),
       active_(!table.empty()) {
   if (!active_) return;
+  const auto at_once = variant_.defines.find("PIXELS");
+  const std::size_t pixels = at_once == variant_.defines.end() ? 1 : std::stoul(at_once->second);
+  items_ = (pixels_ + pixels - 1) / pixels;
   kernel_ = {context, variant_.program(context, image_defines(max_value)), "undistort"};
   corners_.emplace(context, max_value);
   source_x_.write(context, table.source_x);
@@ -121,7 +124,7 @@ void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& imag
 void Undistortion::undistort(opencl::Buffer<cl_uchar>& image) {
   image.ensure(context_, pixels_ * bytes_per_pixel_);
   corners_->prepare(recorded_, recorded_width_, recorded_height_);
-  kernel_(over(pixels_), corners_->values(), recorded_width_, recorded_height_, source_x_, source_y_, image,
+  kernel_(over(items_), corners_->values(), recorded_width_, recorded_height_, source_x_, source_y_, image,
           static_cast<cl_int>(pixels_));
 }
 

@@ -106,7 +106,7 @@ class Undistortion : private Stage {
   void undistort(opencl::Buffer<cl_uchar>& image);
   void upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target);
 
-  std::size_t pixels_ = 0, bytes_per_pixel_;
+  std::size_t pixels_ = 0, items_ = 0, bytes_per_pixel_;
   int max_value_, recorded_width_ = 0, recorded_height_ = 0;
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;
