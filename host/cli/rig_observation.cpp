@@ -1,5 +1,6 @@
 #include "cli/rig_observation.hpp"
 
+#include "common/matching_constants.hpp"
 #include "odometry/latest_frame.hpp"
 
 namespace quadedge::cli {
@@ -26,20 +27,27 @@ void observe_rows(const odometry::LatestFrame& frame, const PinholeCamera& right
   }
 }
 
-/// \param offset of all disparities, learned so far [px]
-void observe_columns(const odometry::MotionStep& step, double offset, const PinholeCamera& right,
+/// \param learned offset of all disparities [px]
+void observe_columns(const odometry::LatestFrame& frame, double learned, const PinholeCamera& right,
                      report::RigMaps& maps) {
+  const odometry::MotionStep& step = *frame.step;
   const pose::QuadObservations& quads = step.quads;
-  const pose::PoseAndOffset& motion = step.motion.learned;
+  const auto measured = [&](const frontend::FrameEdges& of) {
+    return of.measured_edges(frame.offset.rig_at(of.frame), kMinEpipolarAngle);
+  };
+  const pose::MeasuredEdges before = measured(*step.base), after = measured(*frame.frame_edges);
   for (std::size_t q = 0; q < step.motion.inlier.size(); ++q) {
     if (step.motion.inlier[q] == 0) continue;
+    const auto row = static_cast<std::size_t>(quads.match[q]);
     const auto beyond = [&](double by) {
-      return beyond_prediction(quads.previous[q], quads.current[q], motion.current_from_previous, by);
+      return beyond_prediction(*before[static_cast<std::size_t>(step.matches.previous[row])],
+                               *after[static_cast<std::size_t>(step.matches.current[row])],
+                               step.motion.learned.current_from_previous, by - frame.offset.value());
     };
     const double u = static_cast<double>(quads.scoring.right_x[q]) / right.width,
                  v = static_cast<double>(quads.scoring.right_y[q]) / right.height;
-    maps.columns_before.add(u, v, beyond(motion.offset - offset));
-    maps.columns_after.add(u, v, beyond(motion.offset));
+    maps.columns_before.add(u, v, beyond(0));
+    maps.columns_after.add(u, v, beyond(learned));
   }
 }
 
@@ -58,7 +66,7 @@ void observe_rig(const StereoOdometry& odometry, const FrameResult& result, repo
   observe_rows(frame, odometry.rig().right, maps);
   if (frame.step == nullptr || !frame.step->ok()) return;
   maps.offset_end = {result.disparity_offset, result.disparity_offset_sigma};
-  if (result.new_key_rig) observe_columns(*frame.step, result.disparity_offset, odometry.rig().right, maps);
+  if (result.new_key_rig) observe_columns(frame, result.disparity_offset, odometry.rig().right, maps);
 }
 
 }  // namespace quadedge::cli
