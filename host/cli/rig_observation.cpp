@@ -32,8 +32,11 @@ void observe_columns(const odometry::LatestFrame& frame, double learned, const P
                      report::RigMaps& maps) {
   const odometry::MotionStep& step = *frame.step;
   const pose::QuadObservations& quads = step.quads;
+  // Measured anew, since measured_edges() would keep them for the next frame, whose latency counts.
   const auto measured = [&](const frontend::FrameEdges& of) {
-    return of.measured_edges(frame.offset.rig_at(of.frame), kMinEpipolarAngle);
+    pose::MeasuredEdges edges;
+    pose::measure_edges(frame.offset.rig_at(of.frame), of.edges, kMinEpipolarAngle, edges);
+    return edges;
   };
   const pose::MeasuredEdges before = measured(*step.base), after = measured(*frame.frame_edges);
   for (std::size_t q = 0; q < step.motion.inlier.size(); ++q) {

@@ -68,7 +68,7 @@ bool MotionSearch::advance(State& state) {
     check(query, *state.found);
     return true;
   }
-  const auto hypotheses = hypotheses_at(state.level_);
+  const std::vector<Hypothesis>& hypotheses = hypotheses_at(state.level_);
   while (state.next_ < hypotheses.size()) {
     const Hypothesis hypothesis = hypotheses[state.next_++];
     attempt(hypothesis, query, candidates);
@@ -142,12 +142,16 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
 }
 
 /// The hypotheses of a level, in an order in which each has what it builds on.
-std::vector<MotionSearch::Hypothesis> MotionSearch::hypotheses_at(SearchLevel level) const {
+const std::vector<MotionSearch::Hypothesis>& MotionSearch::hypotheses_at(SearchLevel level) const {
   using H = Hypothesis;
-  if (level == SearchLevel::prediction) return {H::near_prediction};
-  if (config_.temporal.global_edges == 0) return {H::still_camera, H::large_radius, H::rest_of_confirmed};
-  if (level != SearchLevel::everything) return {H::still_camera, H::rest_of_confirmed};
-  return {H::still_camera, H::global_matches, H::rest_of_global_matches, H::rest_of_confirmed};
+  static const std::vector<H> near = {H::near_prediction};
+  static const std::vector<H> within_radius = {H::still_camera, H::large_radius, H::rest_of_confirmed};
+  static const std::vector<H> beside = {H::still_camera, H::rest_of_confirmed};
+  static const std::vector<H> all = {H::still_camera, H::global_matches, H::rest_of_global_matches,
+                                     H::rest_of_confirmed};
+  if (level == SearchLevel::prediction) return near;
+  if (config_.temporal.global_edges == 0) return within_radius;
+  return level == SearchLevel::everything ? all : beside;
 }
 
 /// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would

@@ -63,7 +63,7 @@ class MotionSearch : public MotionFinder {
   StepHandle find_by_few_matches(const MotionQuery& query);
   static bool is_close_to_another(Hypothesis hypothesis);
   void follow_jump(const MotionQuery& query, Candidates& candidates);
-  std::vector<Hypothesis> hypotheses_at(SearchLevel level) const;
+  const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
   void check(const MotionQuery& query, MotionStep& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);

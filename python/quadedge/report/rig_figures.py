@@ -43,7 +43,7 @@ def rows_text(rig: dict) -> str:
 
 def columns_text(rig: dict) -> str:
     """What is learned of the columns, and what their maps are."""
-    start, end = (f"{value['px']:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
+    start, end = (f"{round(value['px'], 2) + 0.0:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
     text = (f"Columns: one number is learned for the whole image, an offset of all disparities: {start} at the start, "
             f"{end} at the end. The maps show by how much farther along their lines points of a new key rig lie than "
