@@ -18,6 +18,8 @@ namespace {
 
 using Numbers = std::vector<double>;
 constexpr const char *kOffset = "pose.disparity_offset", *kSigma = "pose.disparity_offset_sigma";
+constexpr const char* kRightCamera = "right_camera";
+constexpr double kLargestError = 1;  ///< of a right camera [rad], and of its lens
 
 std::string line(const std::string& key, const std::string& value) { return key + " = " + value + "\n"; }
 
@@ -58,16 +60,24 @@ RigFile::RigFile(const std::string& name, const StereoRig& rig) : name_(name), c
   if (!std::filesystem::exists(name, unreadable) && !unreadable) return;
   std::map<std::string, Numbers> found = cameras_, rows = rows_of({});
   found.merge(rows);
-  std::size_t known = 0, offsets = 0;
+  std::size_t known = 0, offsets = 0, known_errors = 0;
   const auto entries = data::read_toml(name);
   for (const auto& entry : entries) {
     const bool is_offset = entry.key == kOffset || entry.key == kSigma;
     known += found.count(entry.key);
     offsets += is_offset ? 1 : 0;
     if (is_offset) offset_ += line(entry.key, entry.found);
+    if (entry.key != kRightCamera) continue;
+    ++known_errors;
+    Numbers error(4);
+    data::assign(entry, error);
+    if (!std::all_of(error.begin(), error.end(), [](double of) { return std::abs(of) < kLargestError; }))
+      throw UsageError(name + ": found a right camera that no run has confirmed, expected numbers below 1");
+    right_error_ = {error[0], error[1], error[2], error[3]};
   }
   const bool is_of_release_0_1 = known == 0 && offsets == 2;  // the offset alone
-  if (known + offsets != entries.size() || (known != found.size() && !is_of_release_0_1) || offsets % 2 != 0)
+  if (known + offsets + known_errors != entries.size() || (known != found.size() && !is_of_release_0_1) ||
+      offsets % 2 != 0)
     throw UsageError(name + ": found another file, expected one that an earlier run with --rig-file has written");
   if (is_of_release_0_1) return;
   for (const auto& entry : entries)
@@ -91,12 +101,13 @@ RigFile::RigFile(const std::string& name, const StereoRig& rig) : name_(name), c
 Config RigFile::with_offset(const Config& config) const { return read_config_text(offset_, name_, config); }
 
 void RigFile::start(const StereoOdometry& odometry) const {
-  odometry::LatestFrame::of(odometry).frontend.rectification().start_from(sums_);
+  odometry::LatestFrame::of(odometry).frontend.rectification().start_from(sums_, right_error_);
 }
 
 void RigFile::learn(const StereoOdometry& odometry, const FrameResult& result) {
   sums_ = odometry::LatestFrame::of(odometry).frontend.rectification().rows().sums();
   if (!(result.disparity_offset_sigma > 0)) return;
+  right_error_ = result.right_error;
   offset_ = line(kOffset, data::toml_text(result.disparity_offset)) +
             line(kSigma, data::toml_text(result.disparity_offset_sigma));
 }
@@ -106,6 +117,9 @@ void RigFile::write() const {
   std::string text = "# What `quadedge run --rig-file` has learned of a stereo rig\n";
   for (const auto& [key, numbers] : cameras_) text += line(key, data::toml_text(numbers));
   text += offset_;
+  if (!right_error_.is_zero())
+    text += line(kRightCamera, data::toml_text(Numbers{right_error_.yaw, right_error_.pitch, right_error_.radial_3,
+                                                       right_error_.radial_5}));
   for (const auto& [key, numbers] : rows_of(sums_)) text += line(key, data::toml_text(numbers));
   data::write_atomically(name_, text);
 }

@@ -12,7 +12,7 @@
 
 namespace quadedge::cli {
 
-/// The disparity offset and the rows of a rig, in a file.
+/// The disparity offset, the rows and the right camera of a rig, in a file.
 class RigFile {
  public:
   /// Reads the file if it exists. \param name empty: there is none
@@ -33,6 +33,7 @@ class RigFile {
   std::map<std::string, std::vector<double>> cameras_;  ///< by which the file is known
   std::string offset_;                                  ///< two lines of configuration, or none
   rig::RowModel::Sums sums_;
+  RightCameraError right_error_;
 };
 
 }  // namespace quadedge::cli

@@ -27,30 +27,30 @@ void observe_rows(const odometry::LatestFrame& frame, const PinholeCamera& right
   }
 }
 
-/// \param learned offset of all disparities [px]
-void observe_columns(const odometry::LatestFrame& frame, double learned, const PinholeCamera& right,
-                     report::RigMaps& maps) {
+/// \param offset added to the calibration [px] \param error of the right camera, with which the motion was found or not
+void observe_columns(const odometry::LatestFrame& frame, double offset, const RightCameraError& error,
+                     const PinholeCamera& right, report::CellMap& map) {
   const odometry::MotionStep& step = *frame.step;
   const pose::QuadObservations& quads = step.quads;
   // Measured anew, since measured_edges() would keep them for the next frame, whose latency counts.
   const auto measured = [&](const frontend::FrameEdges& of) {
     pose::MeasuredEdges edges;
-    pose::measure_edges(frame.offset.rig_at(of.frame), of.edges, kMinEpipolarAngle, edges);
+    StereoRig rig = frame.offset.rig_at(of.frame);
+    rig.right_error = error;
+    pose::measure_edges(rig, of.edges, kMinEpipolarAngle, edges);
     return edges;
   };
   const pose::MeasuredEdges before = measured(*step.base), after = measured(*frame.frame_edges);
   for (std::size_t q = 0; q < step.motion.inlier.size(); ++q) {
     if (step.motion.inlier[q] == 0) continue;
     const auto row = static_cast<std::size_t>(quads.match[q]);
-    const auto beyond = [&](double by) {
-      return beyond_prediction(*before[static_cast<std::size_t>(step.matches.previous[row])],
-                               *after[static_cast<std::size_t>(step.matches.current[row])],
-                               step.motion.learned.current_from_previous, by - frame.offset.value());
-    };
+    const auto &one = before[static_cast<std::size_t>(step.matches.previous[row])],
+               &other = after[static_cast<std::size_t>(step.matches.current[row])];
+    if (!one || !other) continue;
     const double u = static_cast<double>(quads.scoring.right_x[q]) / right.width,
                  v = static_cast<double>(quads.scoring.right_y[q]) / right.height;
-    maps.columns_before.add(u, v, beyond(0));
-    maps.columns_after.add(u, v, beyond(learned));
+    map.add(u, v,
+            beyond_prediction(*one, *other, step.motion.learned.current_from_previous, offset - frame.offset.value()));
   }
 }
 
@@ -69,7 +69,10 @@ void observe_rig(const StereoOdometry& odometry, const FrameResult& result, repo
   observe_rows(frame, odometry.rig().right, maps);
   if (frame.step == nullptr || !frame.step->ok()) return;
   maps.offset_end = {result.disparity_offset, result.disparity_offset_sigma};
-  if (result.new_key_rig) observe_columns(frame, result.disparity_offset, odometry.rig().right, maps);
+  maps.right_error = result.right_error;
+  if (!result.new_key_rig) return;
+  observe_columns(frame, 0, {}, odometry.rig().right, maps.columns_before);
+  observe_columns(frame, result.disparity_offset, result.right_error, odometry.rig().right, maps.columns_after);
 }
 
 }  // namespace quadedge::cli

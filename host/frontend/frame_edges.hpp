@@ -33,8 +33,8 @@ class FrameEdges {
     const StereoRig& used = own_calibration ? *own_calibration : calibration;
     Arguments arguments;
     arguments << used.left.fx, used.left.fy, used.left.cx, used.left.cy, used.right.fx, used.right.fy, used.right.cx,
-        used.right.cy, min_epipolar_angle,
-        Eigen::Map<const Eigen::Matrix<double, 16, 1>>(used.right_from_left.matrix().data());
+        used.right.cy, min_epipolar_angle, used.right_error.yaw, used.right_error.pitch, used.right_error.radial_3,
+        used.right_error.radial_5, Eigen::Map<const Eigen::Matrix<double, 16, 1>>(used.right_from_left.matrix().data());
     if (arguments != measured_with_) {
       pose::measure_edges(used, edges, min_epipolar_angle, measured_);
       measured_with_ = arguments;
@@ -50,7 +50,7 @@ class FrameEdges {
   }
 
  private:
-  using Arguments = Eigen::Matrix<double, 25, 1>;  ///< focal lengths, principal points, angle, right_from_left
+  using Arguments = Eigen::Matrix<double, 29, 1>;  ///< all that measure() reads
   static Arguments never() { return Arguments::Constant(std::numeric_limits<double>::quiet_NaN()); }
   mutable pose::MeasuredEdges measured_;
   mutable Arguments measured_with_ = never();

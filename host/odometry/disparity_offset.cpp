@@ -23,6 +23,7 @@ StereoRig with_disparity_offset(const StereoRig& rig, double offset) {
   moved.right = rig.right;
   moved.right_from_left = rig.right_from_left;
   moved.max_value = rig.max_value;
+  moved.right_error = rig.right_error;
   moved.right.cx -= offset * nearer.x();
   moved.right.cy -= offset * nearer.y();
   return moved;

@@ -1,9 +1,11 @@
 #pragma once
 /// \file disparity_offset.hpp  Online estimate of the common offset of all disparities.
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
+#include "odometry/right_camera.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
@@ -38,6 +40,14 @@ class DisparityOffset {
   /// That of an earlier frame.
   StereoRig rig_at(int frame) const { return with_disparity_offset(calibration_, value_ - jump(frame)); }
   double value() const { return value_; }  ///< added to disparities [px]
+  /// The rig's error beside the offset. See StereoRig.
+  void set_right_error(const RightCameraError& error) {
+    calibration_.right_error = error;
+    rig_ = rig_at(frame_);
+  }
+  RightCamera& right_camera() { return right_camera_; }
+  /// Lets the offset be learned anew from its value.
+  void widen(double variance) { variance_ = std::max(variance_, variance); }
   double variance() const {
     return variance_;
   }  ///< predicted for the next frame [px^2]; 0: disparities are assumed exact
@@ -47,6 +57,7 @@ class DisparityOffset {
   StereoRig rig_;
   double drift_;
   double value_, variance_;
+  RightCamera right_camera_;
   int frame_ = 0;                ///< the current one
   std::map<int, double> jumps_;  ///< of the frames that have jumped
   bool has_jumped_ = false;      ///< before the current frame

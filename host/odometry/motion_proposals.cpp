@@ -52,6 +52,7 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
   lend_measurements();
   quad_builder_.build(measured(*step.base), query.current->edges, measured(*query.current), step.matches,
                       pose::QuadLimits(), step.quads);
+  correct_columns(calibration(), step.quads.scoring);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
   step.verdict = {};
@@ -59,6 +60,14 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
                                              step.motion, goal);
   lend_measurements();
   pose_ms_ += milliseconds_since(start);
+}
+
+/// Moves the right points to where a right camera as calibrated would see them.
+void MotionFits::correct_columns(const StereoRig& rig, pose::ScoringArrays& quads) {
+  if (rig.right_error.is_zero()) return;
+  for (std::size_t i = 0; i < quads.size(); ++i)
+    quads.right_x[i] -= static_cast<float>(rig.right_error.column(rig.right, static_cast<double>(quads.right_x[i]),
+                                                                  static_cast<double>(quads.right_y[i])));
 }
 
 const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& frame_edges) const {

@@ -38,6 +38,8 @@ class MotionFits {
   const StereoRig& calibration() const { return offset_.rig(); }
 
  private:
+  static void correct_columns(const StereoRig& rig, pose::ScoringArrays& quads);
+
   Config config_;
   const DisparityOffset& offset_;
   Pool<MotionStep> steps_;

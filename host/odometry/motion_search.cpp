@@ -72,7 +72,10 @@ bool MotionSearch::advance(State& state) {
   while (state.next_ < hypotheses.size()) {
     const Hypothesis hypothesis = hypotheses[state.next_++];
     attempt(hypothesis, query, candidates);
-    if (hypothesis == Hypothesis::near_prediction) follow_jump(query, candidates);
+    if (hypothesis == Hypothesis::near_prediction) {
+      follow_jump(query, candidates);
+      compare_right_camera(query, candidates);
+    }
     if (hypothesis == Hypothesis::global_matches) return false;
   }
   std::vector<Verdict> verdicts = verdicts_on(candidates, query);
@@ -139,6 +142,20 @@ void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates)
   } else {
     jumps_->set_jump(0);
   }
+}
+
+/// If rows say something of the right camera that is still to be judged, the prediction is tried again with it.
+void MotionSearch::compare_right_camera(const MotionQuery& query, Candidates& candidates) {
+  if (jumps_ == nullptr || candidates.empty() || !jumps_->right_camera().is_open() || jumps_->has_jumped()) return;
+  RightCamera& right = jumps_->right_camera();
+  jumps_->set_right_error(right.claimed());
+  Candidates corrected;
+  attempt(Hypothesis::near_prediction, query, corrected);
+  const Candidate &one = candidates.front(), &other = corrected.front();
+  const bool is_comparable = one.is_confirmed() && other.is_confirmed() && one.confirmed->base == other.confirmed->base;
+  const double gain = is_comparable ? other.confirmed->motion.log_likelihood - one.confirmed->motion.log_likelihood : 0;
+  if (right.weigh(gain)) candidates = std::move(corrected);
+  jumps_->set_right_error(right.error());
 }
 
 /// The hypotheses of a level, in an order in which each has what it builds on.

@@ -63,6 +63,7 @@ class MotionSearch : public MotionFinder {
   StepHandle find_by_few_matches(const MotionQuery& query);
   static bool is_close_to_another(Hypothesis hypothesis);
   void follow_jump(const MotionQuery& query, Candidates& candidates);
+  void compare_right_camera(const MotionQuery& query, Candidates& candidates);
   const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
   void check(const MotionQuery& query, MotionStep& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);

@@ -55,6 +55,17 @@ std::unique_ptr<odometry::MotionFinder> make_search(const Config& config, fronte
   return std::make_unique<odometry::MotionSearch>(config, frontend, &offset);
 }
 
+Warning right_camera_warning(const RightCameraError& error, const PinholeCamera& right) {
+  const RightCameraError lens = {0, 0, error.radial_3, error.radial_5};
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "the right camera is not as calibrated: rows and motions show it turned by %+.3f degrees of yaw and "
+                "%+.3f of pitch, and columns at its right corners moved by %+.1f px by the lens; corrected from here "
+                "on, but a new calibration is better",
+                error.yaw / kDegree, error.pitch / kDegree, lens.column(right, right.width - 1, right.height - 1));
+  return {WarningKind::corrected_right_camera, text};
+}
+
 /// The configuration, if it and the rig are valid. \throws DataError, UsageError.
 Config checked(const StereoRig& rig, Config config) {
   odometry::check_usable(rig, config);
@@ -123,6 +134,7 @@ class StereoOdometry::Implementation {
   Config config_;
   odometry::FramePreparation preparation_;
   odometry::DisparityOffset offset_;
+  bool corrects_right_camera_ = false;  ///< as of the last key rig
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
@@ -253,6 +265,10 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
     return frame == state_.base.frame_edges->frame || frame == state_.key.frame() ||
            (state_.lost && frame == state_.lost->frame_edges->frame) || earlier_.holds(frame);
   });
+  if (!config_.is_paper()) {
+    offset_.right_camera().claim(preparation_.frontend().rectification().rows(), rig_);
+    offset_.set_right_error(offset_.right_camera().error());
+  }
   odometry::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
@@ -352,6 +368,8 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
   result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
   if (const auto large = rig::judge_disparity_offset(offset_.value() + step.motion.offset))
     preparation_.warn(rig::warning(*large));
+  result.right_error = offset_.right_camera().error();
+  if (!result.right_error.is_zero()) preparation_.warn(right_camera_warning(result.right_error, rig_.right));
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
   if (const double jump = offset_.jump(current_->frame); jump != 0) {
@@ -406,6 +424,9 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     // All frames located against one key rig share its disparities, so that together they carry no more information
     // than the last, most distant one.
     offset_.update(learned.offset, learned.offset_variance, fitness.frames);
+    const bool corrects = !offset_.right_camera().error().is_zero();
+    if (std::exchange(corrects_right_camera_, corrects) != corrects)
+      offset_.widen(config_.pose.disparity_offset_sigma * config_.pose.disparity_offset_sigma);
     if (keeps_key_) earlier_.remember(state_.key, step.mean_inverse_depth());
     keeps_key_ = !step.verdict.ambiguity.exists();
     state_.set_key(current_, world_from_current);

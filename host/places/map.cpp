@@ -521,6 +521,10 @@ SavedMap Map::Implementation::saved() const {
   for (const places::Place& place : store_.places()) {
     if (graph_.component(place.node) != largest) continue;
     places.push_back(place);
+    StereoEdges& edges = places.back().kept.edges;  // their own columns are those of a calibrated camera from here on
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      edges.right_x[i] -= static_cast<float>(offset.rig().right_error.column(
+          rig.right, static_cast<double>(edges.right_x[i]), static_cast<double>(edges.right_y[i])));
     saved.poses.push_back(graph_.pose(place.node));
   }
   return {std::move(saved), std::move(places)};

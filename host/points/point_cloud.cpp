@@ -153,6 +153,7 @@ bool PointCloud::Implementation::add(const StereoFrame& frame, const FrameResult
   if (!result.new_key_rig || !result.world_from_left || result.ambiguous_motion) return false;
   const StereoEdges& edges = odometry.stereo_edges();
   StereoRig rig = odometry::with_disparity_offset(odometry.rig(), result.disparity_offset);
+  rig.right_error = result.right_error;
   rig.left_undistortion = odometry.rig().left_undistortion;
   views_.push_back({number_of_frame, result.stamp_ns, *result.world_from_left});
   const Measured measured = points::measure_points(rig, edges, frame.left, config_);

@@ -46,6 +46,9 @@ struct MotionEstimate {
   PoseAndOffset learned;
   std::vector<std::uint8_t> inlier;  ///< one byte per quad
   int inliers = 0;
+  /// Logarithm of the likelihood of the inliers, with the noise assumed, less that of as many outliers. Known if the
+  /// covariance is.
+  double log_likelihood = 0;
   int hypotheses = 0, draws = 0;  ///< numbers of the consensus search, see Consensus
 
   /// inliers / quads

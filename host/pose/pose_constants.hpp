@@ -71,4 +71,7 @@ constexpr int kCellSizes = 5, kLeftOut = 2;
 /// A cell with more than this fraction of the information cannot be left out.
 constexpr double kLargestRatio = 0.5;
 
+/// Squared Mahalanobis error of a quad at which it is as likely as an outlier.
+constexpr double kOutlierError = 25;
+
 }  // namespace quadedge::pose

@@ -111,7 +111,7 @@ class Refinement {
 
   /// Returns whether the last fit had a solution.
   bool run(double offset_variance, RefinementGoal goal) {
-    motion_.offset = 0;
+    motion_.offset = motion_.log_likelihood = 0;
     motion_.learned = {};
     // Every n-th quad is used to find the pose, all quads to refine it.
     const std::size_t every = std::max<std::size_t>(1, quads_.size() / kSelectionQuads);
@@ -185,6 +185,10 @@ class Refinement {
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
     fit_both(covariance_at(motion_.offset));
+    const double student = 0.5 * (config_.student_dof + kReprojectionSize);
+    const auto log_density = [&](double error) { return -student * std::log1p(error / config_.student_dof); };
+    for (std::size_t i = 0; i < work_.terms.size(); ++i)
+      motion_.log_likelihood += std::max(0.0, log_density(work_.terms.error[i]) - log_density(kOutlierError));
     return true;
   }
 

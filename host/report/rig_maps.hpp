@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/numeric.hpp"
+#include "quadedge/camera.hpp"
 
 namespace quadedge::report {
 
@@ -49,6 +50,7 @@ struct RigMaps {
   };
   CellMap rows_before, rows_after, columns_before, columns_after;
   Offset offset_start, offset_end;  ///< of all disparities
+  RightCameraError right_error;     ///< learned
   double row_correction = 0;        ///< largest distance that the search of the last frame allowed for
   double frames = 0;                ///< that the learned rows rest on
   int width = 0, height = 0;        ///< of the right image

@@ -43,6 +43,8 @@ constexpr double kMinScale = 0.02;  ///< px
 // What all frames show of the rows (row_model.cpp).
 
 constexpr double kRowMemory = 100;             ///< frames
+constexpr double kFewestFrames = 2.5;          ///< before which rows say nothing of the camera
+constexpr double kSufficientFrames = 20;       ///< from which earlier recordings say nothing of it
 constexpr double kTermSigmas = 4;              ///< standard deviations below which a term counts as 0
 constexpr double kMeanSquare = 1.0 / 12;       ///< of a coordinate from -1/2 to 1/2
 constexpr double kDeviationOfMedian = 1.4826;  ///< standard deviation of normal errors over their median magnitude

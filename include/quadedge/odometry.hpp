@@ -102,6 +102,7 @@ struct FrameResult {
   bool new_key_rig = false;           ///< whether this frame becomes the key rig of the following frames
   double disparity_offset = 0;        ///< estimated so far, added to every disparity [px]
   double disparity_offset_sigma = 0;  ///< its standard deviation [px]
+  RightCameraError right_error;  ///< what rows and motions have shown of the right camera so far, beside the offset
   /// Another motion explains nearly as much of the image, or what moves may be the scene: see `message`.
   bool ambiguous_motion = false;
   FrameCounts counts;

@@ -51,6 +51,7 @@ class Odometry {
     const std::lock_guard<std::mutex> alone(in_use_);
     MappedResult result{running().odometry.track(frame), std::nullopt};
     disparity_offset_ = result.disparity_offset;
+    rig_.right_error = result.right_error;
     if (std::optional<Map>& map = running().map) {
       map->add(result);
       result.map_from_odometry = map->map_from_odometry();
@@ -169,7 +170,7 @@ void bind_warning(nb::module_& module) {
           "kind", [](const Self& self) { return to_string(self.kind); },
           "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
           "negative_disparities, unsynchronised_cameras, unknown_motion, repeated_images,\n"
-          "large_disparity_offset, static_region, displaced_images or changed_rig.")
+          "large_disparity_offset, static_region, displaced_images, corrected_right_camera or changed_rig.")
       .def_ro("text", &Self::text, "The warning in one sentence.")
       .def("__str__", [](const Self& self) { return self.text; })
       .def("__repr__", [](const Self& self) {

@@ -45,11 +45,21 @@ def columns_text(rig: dict) -> str:
     """What is learned of the columns, and what their maps are."""
     start, end = (f"{round(value['px'], 2) + 0.0:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
-    text = (f"Columns: one number is learned for the whole image, an offset of all disparities: {start} at the start, "
-            f"{end} at the end. The maps show by how much farther along their lines points of a new key rig lie than "
-            "those of the last one and the motion predict. One rig sees both, so that its errors show only as far "
-            "as points change their depth or their place in the image.")
+    text = (f"Columns: an offset of all disparities is learned, {start} at the start, {end} at the end. "
+            f"{right_camera_text(rig.get('right_camera', {}))}The maps show by how much farther along their lines "
+            "points of a new key rig lie than those of the last one and the motion predict. One rig sees both, so that "
+            "its errors show only as far as points change their depth or their place in the image.")
     return text + (" Nothing beyond their noise." if is_noise(rig["columns"]["after"]) else "")
+
+
+def right_camera_text(error: dict) -> str:
+    """By what the columns are corrected, if rows and motions agree that the right camera is not as calibrated."""
+    if not any(error.values()):
+        return ""
+    return (f"Rows and motions agree that the right camera is turned by {error['yaw_deg']:+.3f} degrees of yaw and "
+            f"{error['pitch_deg']:+.3f} of pitch against its calibration, and its lens moves points outwards by "
+            f"{1e3 * error['radial_3']:+.1f} r^3 {1e3 * error['radial_5']:+.1f} r^5 thousandths of the focal length "
+            "more (r: tangent of the angle from the axis); columns are corrected by this. ")
 
 
 def rig_figures(run: Run) -> list[Figure]:
