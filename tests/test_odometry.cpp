@@ -3,7 +3,6 @@
 #include <set>
 #include <tbb/global_control.h>
 
-#include "common/calibration.hpp"
 #include "common/undistortion.hpp"
 #include "frontends.hpp"
 #include "pose/uncertain_pose.hpp"
@@ -338,42 +337,6 @@ TEST_CASE("odometry: a wrong principal point of the right camera is warned of", 
   }
   INFO("largest offset " << largest << " px");
   CHECK(kinds.count(WarningKind::large_disparity_offset) == 1);
-}
-
-TEST_CASE("odometry: a right camera that is turned against its calibration is corrected, with a warning",
-          "[odometry][rig][device]") {
-  static const RenderedScene scene("room", 400, 250, 10);
-  const auto mean_error = [&](double yaw, int& warned, RightCameraError& found) {
-    StereoRig rig = scene.rig;
-    rig.right_from_left.linear() = rotation_by({0, yaw * kDegree, 0});  // of a camera turned the other way
-    Device device(all_devices().front(), kept_programs());
-    StereoOdometry odometry(rig, device, scene.config);
-    std::vector<FrameResult> results;
-    for (std::size_t i = 0; i < scene.left.size(); ++i) results.push_back(odometry.track(scene.frame(i)));
-    double sum = 0;
-    for (std::size_t i = 6; i < results.size(); ++i) {
-      REQUIRE(results[i].world_from_left);
-      const Eigen::Isometry3d motion = results[i - 1].world_from_left->inverse() * *results[i].world_from_left,
-                              truth = scene.world_from_left[i - 1].inverse() * scene.world_from_left[i];
-      sum += (motion.translation() - truth.translation()).norm() / 4;
-    }
-    warned = 0;
-    for (const FrameResult& result : results)
-      for (const Warning& warning : result.warnings)
-        warned += warning.kind == WarningKind::corrected_right_camera ? 1 : 0;
-    found = results.back().right_error;
-    return sum;
-  };
-  int warned = 0;
-  RightCameraError found;
-  const double sound = mean_error(0, warned, found);
-  CHECK(warned == 0);
-  CHECK(found.is_zero());
-  const double turned = mean_error(0.4, warned, found);
-  CHECK(warned == 1);
-  CHECK(found.yaw == Approx(0.4 * kDegree).epsilon(0.15));
-  INFO("mean error of a step, sound and turned " << 1e3 * sound << ", " << 1e3 * turned << " mm");
-  CHECK(turned < 2 * sound);
 }
 
 TEST_CASE("odometry: a right camera that turns during the recording is noticed once, and followed",

@@ -1,5 +1,8 @@
 #include "cli/rig_observation.hpp"
 
+#include <initializer_list>
+#include <utility>
+
 #include "common/matching_constants.hpp"
 #include "odometry/latest_frame.hpp"
 
@@ -27,9 +30,9 @@ void observe_rows(const odometry::LatestFrame& frame, const PinholeCamera& right
   }
 }
 
-/// \param offset added to the calibration [px] \param error of the right camera, with which the motion was found or not
-void observe_columns(const odometry::LatestFrame& frame, double offset, const RightCameraError& error,
-                     const PinholeCamera& right, report::CellMap& map) {
+/// Adds what the offsets [px] leave with the right camera in error by `error`, each to its map.
+void observe_columns(const odometry::LatestFrame& frame, const RightCameraError& error, const PinholeCamera& right,
+                     std::initializer_list<std::pair<double, report::CellMap*>> offsets) {
   const odometry::MotionStep& step = *frame.step;
   const pose::QuadObservations& quads = step.quads;
   // Measured anew, since measured_edges() would keep them for the next frame, whose latency counts.
@@ -49,8 +52,10 @@ void observe_columns(const odometry::LatestFrame& frame, double offset, const Ri
     if (!one || !other) continue;
     const double u = static_cast<double>(quads.scoring.right_x[q]) / right.width,
                  v = static_cast<double>(quads.scoring.right_y[q]) / right.height;
-    map.add(u, v,
-            beyond_prediction(*one, *other, step.motion.learned.current_from_previous, offset - frame.offset.value()));
+    for (const auto& [offset, map] : offsets)
+      map->add(
+          u, v,
+          beyond_prediction(*one, *other, step.motion.learned.current_from_previous, offset - frame.offset.value()));
   }
 }
 
@@ -71,8 +76,15 @@ void observe_rig(const StereoOdometry& odometry, const FrameResult& result, repo
   maps.offset_end = {result.disparity_offset, result.disparity_offset_sigma};
   maps.right_error = result.right_error;
   if (!result.new_key_rig) return;
-  observe_columns(frame, 0, {}, odometry.rig().right, maps.columns_before);
-  observe_columns(frame, result.disparity_offset, result.right_error, odometry.rig().right, maps.columns_after);
+  const std::pair<double, report::CellMap*> before = {0, &maps.columns_before},
+                                            after = {result.disparity_offset, &maps.columns_after};
+  const PinholeCamera& right = odometry.rig().right;
+  if (result.right_error.is_zero()) {
+    observe_columns(frame, {}, right, {before, after});
+  } else {
+    observe_columns(frame, {}, right, {before});
+    observe_columns(frame, result.right_error, right, {after});
+  }
 }
 
 }  // namespace quadedge::cli

@@ -185,11 +185,22 @@ class Refinement {
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
     fit_both(covariance_at(motion_.offset));
-    const double student = 0.5 * (config_.student_dof + kReprojectionSize);
-    const auto log_density = [&](double error) { return -student * std::log1p(error / config_.student_dof); };
-    for (std::size_t i = 0; i < work_.terms.size(); ++i)
-      motion_.log_likelihood += std::max(0.0, log_density(work_.terms.error[i]) - log_density(kOutlierError));
+    motion_.log_likelihood = log_likelihood();
     return true;
+  }
+
+  /// With a logarithm per product of a hundred factors of at most kOutlierError / dof + 1.
+  double log_likelihood() const {
+    constexpr std::size_t kFactors = 100;
+    const double largest = 1 + kOutlierError / config_.student_dof;
+    double sum = static_cast<double>(work_.terms.size()) * std::log(largest);
+    for (std::size_t first = 0; first < work_.terms.size(); first += kFactors) {
+      double product = 1;
+      for (std::size_t i = first; i < std::min(first + kFactors, work_.terms.size()); ++i)
+        product *= std::min(largest, 1 + work_.terms.error[i] / config_.student_dof);
+      sum -= std::log(product);
+    }
+    return 0.5 * (config_.student_dof + kReprojectionSize) * sum;
   }
 
   MeasuredCovariance covariance_at(double offset) {
