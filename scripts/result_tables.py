@@ -21,7 +21,8 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 PART_OF = {"quads": "matching", "pace": "speed"} | {
-    name: "paper" for name in TABLES if name.startswith("paper-")} | dict.fromkeys(
+    name: "paper" for name in TABLES if name.startswith("paper-")} | {
+    name: "nvidia" for name in TABLES if name.startswith("gpu-")} | dict.fromkeys(
     ("beside", "compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
 # Part -> (title, introduction, tables and headings)
 PAGES = {
@@ -32,6 +33,11 @@ PAGES = {
                  ("matching", "quads")),
     "speed": ("Speed", "Time from the images in host memory to the pose on the host. S and N are times of OpenCV"
               " functions in the same run: [performance.md](../performance.md).", ("speed",)),
+    "nvidia": ("NVIDIA GPUs", "Figures of two device kits; room and flight are rendered, kitti06 is recorded."
+               " [performance.md](../performance.md#measure-a-gpu) says how to measure another GPU.", (
+                   "## Time of a frame\n\nHost's part: while the device waits, measured with profiling.", "gpu-latency",
+                   "## Poses\n\nAgainst those of PoCL on a CPU.", "gpu-poses",
+                   "## Kernel variants\n\nMedian, and its ratio to that of the default.", "gpu-variants")),
     "disturbances": ("Disturbances", "Mean error of a step in mm, with the numbers of wrong and lost steps if there are"
                      " any, in images of 640 x 332 pixels. [accuracy.md](../accuracy.md#disturbances) sums up.",
                      ("disturbances",)),
@@ -63,9 +69,10 @@ def page(part, results):
     title, about, names = PAGES[part]
     if part not in results:
         return f"# {title}\n\n{render(part, results)}"
-    blocks = [f"# {title}\n", f"Made by `scripts/measure.py --only {part}`. {about}\n",
+    made_by = "scripts/device_kit.sh" if part == "nvidia" else f"scripts/measure.py --only {part}"
+    blocks = [f"# {title}\n", f"Made by `{made_by}`. {about}\n",
               *(f"{name}\n" if name.startswith("#") else render(name, results) for name in names)]
-    if "commands" in results[part]["rows"][0] and part != "paper":  # whose commands are a table
+    if "commands" in results[part].get("rows", [{}])[0] and part != "paper":  # whose commands are a table
         blocks += [f"## Commands\n\n{NAMES}\n", command_list(results[part]["rows"])]
     return "\n".join(blocks)
 

@@ -327,10 +327,39 @@ def ros2(results):
                              f"{end:.0f} MB. {part['cores']} cores, {part['note']}. {stamp(part)}")
 
 
+def gpu_latency(results):
+    """Time of a frame on each GPU."""
+    rows = [(device["name"], row["sequence"], row["preset"], *(f"{row[name]:.1f}" for name in
+             ("median_ms", "p90_ms", "p99_ms", "host_ms")))
+            for device in results["nvidia"]["devices"] for row in device["latency"]]
+    hosts = "; ".join(f"{device['name']}: {device['host']}, driver {device['driver']}"
+                      for device in results["nvidia"]["devices"])
+    head = ("device", "sequence", "preset", "median [ms]", "p90 [ms]", "p99 [ms]", "host's part [ms]")
+    return table(head, rows, f"Hosts: {hosts}. {stamp(results['nvidia'])}")
+
+
+def gpu_poses(results):
+    """Largest difference from the poses of PoCL."""
+    rows = [(device["name"], row["sequence"], row["poses"], row["missing"], number(row["largest_difference_m"]))
+            for device in results["nvidia"]["devices"] for row in device["poses"]]
+    return table(("device", "sequence", "poses", "missing", "largest difference [m]"), rows)
+
+
+def gpu_variants(results):
+    """Time of each kernel variant on each GPU, over that of the default."""
+    devices = results["nvidia"]["devices"]
+    rows = [(row["stage"], row["variant"] + (" (default)" if row["default"] else ""),
+             *(f"{of['median_ms']:.3f}, {of['ratio']:.2f}" for device in devices for of in device["variants"]
+               if (of["stage"], of["variant"]) == (row["stage"], row["variant"])))
+            for row in devices[0]["variants"]]
+    return table(("stage", "variant", *(f"{device['name']} [ms, ratio]" for device in devices)), rows)
+
+
 TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": beside, "pace": pace,
           "paths": paths, "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed,
           "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
-          "drift": drift_over_scenes, "ros2": ros2,
+          "drift": drift_over_scenes, "ros2": ros2, "gpu-latency": gpu_latency, "gpu-poses": gpu_poses,
+          "gpu-variants": gpu_variants,
           "paper-stereo": lambda results: paper_comparison.stereo(results, table),
           "paper-temporal": lambda results: paper_comparison.temporal(results, table),
           "paper-constraints": lambda results: paper_comparison.constraints(results, table),

@@ -19,6 +19,33 @@ LONGEST_FUNCTION = 60
 CODE = {".cpp", ".hpp", ".cl", ".py", ".sh", ".cmake", ".toml", ".txt"}
 SOURCES = (".cpp", ".hpp", ".cl", ".inc", ".py", ".sh")
 SIZED = {"host", "include", "kernels", "python", "bench", "scripts", "tests"}
+# Most lines of source per folder. Whoever raises a limit says why in the commit.
+MOST_LINES = {
+    "bench": 550,
+    "host/benchmark": 980,
+    "host/cli": 5120,
+    "host/common": 2060,
+    "host/data": 6110,
+    "host/data/calibrations": 1800,
+    "host/evaluation": 2520,
+    "host/frontend": 2860,
+    "host/odometry": 3070,
+    "host/opencl": 1770,
+    "host/paper": 1130,
+    "host/places": 1690,
+    "host/points": 530,
+    "host/pose": 3420,
+    "host/reference": 2500,
+    "host/report": 3460,
+    "host/rig": 2010,
+    "host/stages": 2250,
+    "host/synthetic": 2780,
+    "include": 2050,
+    "kernels": 5200,
+    "python": 7310,
+    "scripts": 2420,
+    "tests": 31710,
+}
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
 LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
@@ -91,17 +118,16 @@ def check_lines(tree: Tree) -> list[str]:
 
 
 def check_sizes(tree: Tree) -> list[str]:
-    """No folder has more lines of source than the table `sizes` of doc/design.md allows; no source is outside it."""
-    allowed = {row[0].strip("`").rstrip("/"): int(row[1].replace(",", "")) for row in tree.table("sizes")}
-    counted = dict.fromkeys(allowed, 0)
+    """No folder has more lines of source than MOST_LINES allows; no source is outside of it."""
+    counted = dict.fromkeys(MOST_LINES, 0)
     findings = []
     for name in tree.with_suffix(*SOURCES):
         parents = {str(parent) for parent in Path(name).parents}
-        if parents & allowed.keys():
-            counted[max(parents & allowed.keys(), key=len)] += tree.text(name).count("\n")
+        if parents & MOST_LINES.keys():
+            counted[max(parents & MOST_LINES.keys(), key=len)] += tree.text(name).count("\n")
         elif Path(name).parts[0] in SIZED:
-            findings.append(f"{name}: no folder of the table sizes in doc/design.md")
-    return findings + [f"{folder}: {counted[folder]} lines, at most {most}" for folder, most in allowed.items()
+            findings.append(f"{name}: a folder without a limit in MOST_LINES")
+    return findings + [f"{folder}: {counted[folder]} lines, at most {most}" for folder, most in MOST_LINES.items()
                        if counted[folder] > most]
 
 
