@@ -9,8 +9,8 @@ Writes doc/results.
 
 Each part is written to OUT/PART.json with commit, date and the command behind each figure; scripts/result_tables.py
 then writes the tables and the marked blocks of the documentation. The programs are those of build/, which is brought up
-to date first; the OpenCV baseline needs -DQUADEDGE_BENCHMARKS=ON. With matplotlib (build/venv), the paths through the
-rendered scenes are plotted as well.
+to date first; the OpenCV baseline needs -DQUADEDGE_BENCHMARKS=ON. Run it with build/venv/bin/python, which has the
+package: matching and paper measure with it, and matplotlib plots the paths through the rendered scenes.
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import disturbances
-from paper_comparison import measure_paper
+from paper_comparison import MATCHING, measure_paper
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 RECORDED = {
@@ -89,7 +89,8 @@ class Programs:
 
     def text(self, command):
         """The command with DATA, OUT and plain program names instead of the paths of this machine."""
-        names = {str(self.options.quadedge): "quadedge", str(self.options.baseline): "opencv_baseline"}
+        names = {str(self.options.quadedge): "quadedge", str(self.options.baseline): "opencv_baseline",
+                 sys.executable: "python"}
         parts = [names.get(str(part), str(part)) for part in command]
         short = {str(self.options.work): "OUT", str(self.options.data): "DATA", str(REPOSITORY): "."}
         for index, part in enumerate(parts):
@@ -172,7 +173,7 @@ def matching_row(title, places, programs):
     options = programs.options
     frames = ["--frames", min(MATCHED_FRAMES, options.frames or MATCHED_FRAMES)] if isinstance(places, str) else []
     paths = [places] if isinstance(places, str) else [options.data / place for place in places]
-    command = [options.quadedge, "evaluate", "matching", *paths, *frames]
+    command = [*MATCHING, *paths, *frames]
     file = options.work / f"matching_{title.replace(' ', '_').replace(',', '')}.json"
     pooled = programs.result(f"matching: {title}", file, [*command, "--json", file])["pooled"]
 

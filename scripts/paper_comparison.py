@@ -3,8 +3,10 @@ least squares added to it, and with the defaults (scripts/measure.py --only pape
 """
 
 import statistics
+import sys
 from pathlib import Path
 
+MATCHING = (sys.executable, "-m", "quadedge.matching")  # of the package that this Python has
 METHODS = {"paper": ["--preset", "paper"], "fitted": ["--preset", "paper", "--pose.refine", "true"], "default": []}
 HEADS = {"paper": "`--preset paper`", "fitted": "with least squares", "default": "default"}
 MATCHED = {
@@ -66,7 +68,7 @@ def source(place, options):
 def matching_row(title, method, programs):
     options = programs.options
     place, *frames = MATCHED[title]
-    command = [options.quadedge, "evaluate", "matching", source(place, options), *frames, *METHODS[method]]
+    command = [*MATCHING, source(place, options), *frames, *METHODS[method]]
     file = options.work / f"paper_{title.replace(' ', '_')}_{method}.json"
     pooled = programs.result(f"paper: {title}, {method}", file, [*command, "--json", file])["pooled"]
     row = {"title": title, "method": method, "commands": [programs.text(command)], "quads": pooled.get("quads")}

@@ -109,8 +109,6 @@ const std::vector<ProcessAttack> kProcessAttacks = {
     {"an output lies in the folder of the COLMAP model",
      "$QUADEDGE run $DATA -o $OUT --points-colmap $OUT.model --trace $OUT.model/sparse/0/points3D.txt", 2,
      "the folder of --points-colmap", false},
-    {"the data of a page is the page", "$QUADEDGE evaluate matching $DATA --frames 1 --html $OUT.html --json $OUT.html",
-     2, "out.html: two outputs", false},
     {"an output is a symbolic link to nothing, which stays",
      "ln -s $OUT.nothing $OUT.csv; $QUADEDGE edges $DATA/rgb/0.000000000.png --csv $OUT.csv --force; code=$?; test -L "
      "$OUT.csv || exit 99; exit $code",

@@ -99,15 +99,13 @@ TEST_CASE("match: invalid pairs are refused", "[cli]") {
   CHECK(run_program({"match", pair().left, folder / "absent.png"}).code == 3);
 }
 
-TEST_CASE("evaluate matching: a damaged dataset beside others is named", "[cli][device]") {
-  const TemporaryFolder folder;
-  for (const char* name : {"tree/damaged", "tree/sound"}) {
-    std::filesystem::create_directories(folder / name);
-    std::filesystem::copy(small_sequence(), folder / name, std::filesystem::copy_options::recursive);
+TEST_CASE("evaluate matching: says in one line what to run instead", "[cli]") {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"room", "--frames", "1"}, {"--help"}}) {
+    std::vector<std::string> arguments = {"evaluate", "matching"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = run_program(arguments);
+    CHECK(result.code == 2);
+    CHECK(result.err ==
+          "quadedge: the matching is evaluated in Python: run python -m quadedge.matching PATH instead\n");
   }
-  std::filesystem::remove(folder / "tree/damaged/calibration.txt");
-  const auto result = run_program({"evaluate", "matching", folder / "tree", "--frames", "1"});
-  INFO(result.err);
-  CHECK(result.code == 0);
-  CHECK_THAT(result.err, Contains("skipped: ") && Contains("damaged/calibration.txt"));
 }

@@ -84,7 +84,6 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
        "--trace"},
       {"bench", "--frames", "1", "--size", "160x100", "--json"},
       {"compare", "--size", "160x100", "--json"},
-      {"evaluate", "matching", "room", "--frames", "1", "--size", "160x100", "--html"},
       {"edges", image, "--csv"}};
   for (const auto& command : commands) {
     for (const std::string& file : {folder / "absent/t.json", folder / "file/t.json", folder / "results"}) {
@@ -140,7 +139,7 @@ TEST_CASE("process: an impossible path is a user error, not an internal error", 
   fs::create_symlink("itself", folder / "itself");
   for (const std::string& path : {folder / "itself", std::string(300, 'y')}) {
     for (const std::vector<std::string>& command :
-         {std::vector<std::string>{"run"}, {"check"}, {"batch"}, {"report"}, {"edges"}, {"evaluate", "matching"}}) {
+         {std::vector<std::string>{"run"}, {"check"}, {"batch"}, {"report"}, {"edges"}}) {
       INFO(command[0]);
       auto arguments = command;
       arguments.push_back(path);

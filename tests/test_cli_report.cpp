@@ -94,37 +94,3 @@ TEST_CASE("report: non-results, unknown peers and existing files are refused bef
   CHECK(code_of({"report", run, "--baseline", batch}) == 2);
   CHECK(code_of({"report", batch, "--baseline", batch, "-o", folder / "x.json"}) == 2);
 }
-
-TEST_CASE("evaluate matching keeps the figures and drawings of its report beside it, with and without Python",
-          "[matching][device][cli]") {
-  const TemporaryFolder folder;
-  const std::vector<std::string> command = {"evaluate", "matching", "room",    "--size", "320x200",
-                                            "--frames", "2",        "--quiet", "--html"};
-  auto page = command;
-  page.push_back(folder / "m.html");
-  const auto result = run_program(page, kNoPython);
-  CHECK(result.code == 2);
-  CHECK(tells_how_to_install(result.err));
-  const auto json = nlohmann::json::parse(read_text(folder / "m.json"));
-  CHECK(json["input"] == nlohmann::json::array({"room"}));
-  CHECK(json["config_changed"].empty());
-  CHECK(json["device"]["name"].get<std::string>().size() > 0);
-  CHECK_THAT(json["command"].get<std::string>(), Contains("quadedge evaluate matching room"));
-  REQUIRE(json["drawings"].size() == 3);
-  for (const auto& drawing : json["drawings"]) CHECK(fs::exists(drawing["file"].get<std::string>()));
-  CHECK(fs::exists(folder / "m_drawings/room_correct.png"));
-  // SIFT is off by default, and its rows say so.
-  CHECK(json["pooled"]["stereo"][4]["off"] == true);
-  CHECK_FALSE(json["pooled"]["stereo"][5].contains("off"));
-  const auto& cue = json["pooled"]["distributions"][1];
-  CHECK(cue["other_all"]["bins"].size() == cue["other"]["bins"].size());
-
-  CHECK(run_program(page, python_that_ends_with(0, folder)).code == 2);  // the figures exist already
-  page.push_back("--force");
-  CHECK(run_program(page, python_that_ends_with(0, folder)).code == 0);
-  CHECK(read_lines(folder / "arguments") ==
-        std::vector<std::string>{"-m", "quadedge.report", folder / "m.json", "--output", folder / "m.html", "--quiet"});
-  auto mistaken = command;
-  mistaken.push_back(folder / "n.json");
-  CHECK(run_program(mistaken, kNoPython).code == 2);
-}

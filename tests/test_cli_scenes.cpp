@@ -65,10 +65,4 @@ TEST_CASE("command line: every command that renders lists and accepts scenes and
     INFO(command);
     CHECK_THAT(run_program({command, "--help"}).out, Contains("facade") && Contains("handheld"));
   }
-  CHECK_THAT(run_program({"evaluate", "matching", "--help"}).out, Contains("facade") && Contains("handheld"));
-  const TemporaryFolder folder;
-  const auto matching = run_program({"evaluate", "matching", "facade", "--path", "handheld", "--scene-seed", "3",
-                                     "--frames", "1", "--size", "200x104", "--quiet", "--json", folder / "m.json"});
-  CHECK(matching.code == 0);
-  CHECK_THAT(matching.out, Contains("facade-handheld: 1 stereo frame ==="));
 }

@@ -27,7 +27,7 @@ TEST_CASE("find sequences: a folder of still pairs is told from one without any 
   const TemporaryFolder folder;
   for (const char* name : {"two_view/a/im0.png", "two_view/a/im1.png", "two_view/b/im0.png", "two_view/b/im1.png"})
     write_image(folder / name);
-  CHECK_THROWS_WITH(data::find_sequences(folder.path()), Contains("2 still pairs") && Contains("evaluate matching"));
+  CHECK_THROWS_WITH(data::find_sequences(folder.path()), Contains("2 still pairs") && Contains("quadedge.matching"));
   std::filesystem::remove_all(folder / "two_view");
   CHECK_THROWS_WITH(data::find_sequences(folder.path()), Contains("no sequence") && Contains("eth3d-stereo-pairs"));
 }

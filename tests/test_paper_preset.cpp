@@ -56,30 +56,3 @@ TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, an
   CHECK(loops.code == 2);
   CHECK_THAT(loops.err, Catch::Contains("the paper's method has no map"));
 }
-
-TEST_CASE("paper preset: Tables 1 and 2 have the paper's rows, and few matches of the room are wrong",
-          "[paper][matching][cli]") {
-  const TemporaryFolder folder;
-  const auto run = run_program({"evaluate", "matching", small_sequence(), "--frames", "2", "--preset", "paper",
-                                "--json", folder / "room.json", "--quiet"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
-  const auto pooled = nlohmann::json::parse(read_text(folder / "room.json"))["pooled"];
-  std::vector<std::string> stereo, temporal;
-  for (const auto& row : pooled["stereo"]) stereo.push_back(row["filter"]);
-  for (const auto& row : pooled["temporal_left"]) temporal.push_back(row["filter"]);
-  CHECK(stereo == std::vector<std::string>{"baseline", "epipolar proximity", "limited disparity", "orientation", "SIFT",
-                                           "NCC", "nearly best NCC", "nearly best SIFT", "refinement and clustering",
-                                           "similarity of representatives", "best"});
-  CHECK(temporal == std::vector<std::string>{"baseline", "displacement", "orientation", "NCC", "SIFT",
-                                             "nearly best NCC", "nearly best SIFT", "refinement and clustering",
-                                             "quad agreement", "best"});
-  const auto& last = pooled["stereo"].back();
-  CHECK(last["recall"] > 0.95);
-  CHECK(last["precision_per_edge"] > 0.95);
-  CHECK(last["ambiguity_of_pool"] < 0);  // edges without a match count, too
-  const auto &refined = pooled["temporal_left"][7], &agreed = pooled["temporal_left"][8];
-  CHECK(refined["recall"] > 0.5);
-  CHECK(agreed["precision_per_edge"] > refined["precision_per_edge"]);
-  CHECK(agreed["precision_per_edge"] > 0.8);
-}

@@ -82,6 +82,5 @@ std::unique_ptr<Command> make_devices_command();
 std::unique_ptr<Command> make_variants_command();
 std::unique_ptr<Command> make_synth_command();
 std::unique_ptr<Command> make_evaluate_trajectory_command();
-std::unique_ptr<Command> make_evaluate_matching_command();
 
 }  // namespace quadedge::cli

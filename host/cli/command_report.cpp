@@ -23,7 +23,8 @@ class ReportCommand : public Command {
                 "  quadedge report results --baseline yesterday --peer ORB-SLAM3=trajectories/orbslam3 -o "
                 "comparison.html") {}
   void declare(Options& options) override {
-    options.positional("OUT", results_, "folder of a run or a batch, or a file written by `evaluate matching --json`");
+    options.positional("OUT", results_,
+                       "folder of a run or a batch, or a file of `python -m quadedge.matching --json`");
     options.text("--baseline", baseline_, "another batch; the page shows the differences from it", "OTHER");
     options.repeated("--peer", peers_,
                      "left-camera trajectories of another system, FOLDER/SEQUENCE.txt (TUM); repeatable",
@@ -43,7 +44,7 @@ class ReportCommand : public Command {
     if (!is_batch && !is_file && !holds("report.json") && !holds("frames.csv")) {
       throw DataError(results_ +
                       ": no summary.json, report.json or frames.csv; expected the folder of a batch or of a run, "
-                      "or a file of `evaluate matching --json`");
+                      "or a file of `python -m quadedge.matching --json`");
     }
     const auto peers = named_peers();
     const bool compares = !peers.empty() || !baseline_.empty();

@@ -317,6 +317,8 @@ int answer(const CLI::App& program, const CLI::Success& request) {
 
 Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_ptr<Command>>& commands) {
   const std::vector<std::string> words = read_words(argc, argv);
+  if (words.size() > 2 && words[1] == "evaluate" && words[2] == "matching")
+    throw UsageError("the matching is evaluated in Python: run python -m quadedge.matching PATH instead");
   const bool short_help = std::any_of(words.begin() + 1, words.end(),
                                       [](const std::string& word) { return word == "--help" || word == "-h"; });
 

@@ -64,7 +64,7 @@ class ChildProcess {
 /// The file of the running program; still the same one after a new program has been put in its place.
 inline constexpr const char* kProgramFile = "/proc/self/exe";
 
-// The pages of `report`, `batch` and `evaluate matching`, which the Python module quadedge.report makes from the files
+// The pages of `report` and `batch`, which the Python module quadedge.report makes from the files
 // that these commands write.
 
 /// Starts `PYTHON -m quadedge.report ARGUMENTS`, without a shell, and waits for it. PYTHON is $QUADEDGE_PYTHON; where

@@ -161,7 +161,7 @@ std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
   if (recordings.empty()) {
     if (const std::size_t pairs = find_recordings(root_or_list, true).size(); pairs > 0) {
       fail(root_or_list, counted(pairs, "still pair") + ", which have no motion",
-           "recordings of many frames; `quadedge match` and `quadedge evaluate matching` are for pairs");
+           "recordings of many frames; `quadedge match` and `python -m quadedge.matching` are for pairs");
     }
     std::string names;
     for (const auto& layout : layouts()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file statistics.hpp  Medians, percentiles and correlations of measured values.
+/// \file statistics.hpp  Medians and percentiles of measured values.
 
 #include <vector>
 
@@ -11,9 +11,5 @@ double percentile(std::vector<double> values, double fraction);
 
 /// Middle value; NaN for no values.
 inline double median(const std::vector<double>& values) { return percentile(values, 0.5); }
-
-/// Spearman's rank correlation, from -1 to 1; equal values have their mean rank. NaN for fewer than three pairs, or
-/// where all values of one kind are equal.
-double rank_correlation(const std::vector<double>& xs, const std::vector<double>& ys);
 
 }  // namespace quadedge::report

@@ -18,6 +18,7 @@ void bind_trajectories(nb::module_& module);
 void bind_datasets(nb::module_& module);
 void bind_synthetic(nb::module_& module);
 void bind_edges(nb::module_& module);
+void bind_taps(nb::module_& module);
 void bind_odometry(nb::module_& module);
 void bind_maps(nb::module_& module);
 void bind_evaluation(nb::module_& module);

@@ -112,6 +112,10 @@ void bind_rig(nb::module_& module) {
           "right_from_left", [](const StereoRig& self) { return view_of_matrix(self.right_from_left.matrix()); }, kView,
           "(4, 4) float64: maps points from the left to the right camera frame [m].")
       .def_prop_ro("baseline", &StereoRig::baseline, "Distance between the cameras [m].")
+      .def_prop_ro(
+          "is_pinhole",
+          [](const StereoRig& self) { return self.left_undistortion.empty() && self.right_undistortion.empty(); },
+          "True if the recorded images are pinhole images, False if the odometry undistorts them.")
       .def_ro("max_value", &StereoRig::max_value, "Value of a saturated pixel.")
       .def_prop_ro("disparity_range", &StereoRig::disparity_range,
                    "Largest disparity expected [px]: from the data set's reader, or that of a point 0.5 m away.\n"

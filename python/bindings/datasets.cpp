@@ -89,6 +89,9 @@ void bind_dataset(nb::module_& module) {
       .def_ro("frames", &Dataset::frames, "Image files of every frame, a list of FrameFiles.")
       .def_ro("truth", &Dataset::truth, "Ground-truth poses of the left camera; empty if there are none.")
       .def_ro("truth_file", &Dataset::truth_file, "File that the ground truth was read from.")
+      .def_ro("disparity_file", &Dataset::disparity_truth,
+              "Ground-truth disparities of the first left image; empty if there are none.")
+      .def_ro("disparity_scale", &Dataset::disparity_truth_scale, "Pixels per unit stored in ``disparity_file``.")
       .def_ro("notes", &Dataset::notes, "Remarks on the data, such as assumed time stamps; a list of sentences.")
       .def("__len__", [](const Dataset& self) { return self.frames.size(); })
       .def(

@@ -46,6 +46,12 @@ void bind_stereo_edges(nb::module_& module) {
           "right", [](const Self& self) { return pairs_of(self.edges.right_x, self.edges.right_y); }, kOwned,
           "(N, 2) float32: refined position in the right image [px]; a copy.")
       .def_prop_ro(
+          "left_index", [](const Self& self) { return view_of(self.edges.left_index); }, kView,
+          "(N,) int32: index of the left edge.")
+      .def_prop_ro(
+          "right_index", [](const Self& self) { return view_of(self.edges.right_index); }, kView,
+          "(N,) int32: index of the right edge; neighbours may share it.")
+      .def_prop_ro(
           "left_direction", [](const Self& self) { return view_of(self.edges.left_direction); }, kView,
           "(N,) float32: direction of the tangent in the left image [rad].")
       .def_prop_ro(
@@ -66,6 +72,15 @@ void bind_quads(nb::module_& module) {
       .def_prop_ro(
           "current", [](const Quads& self) { return view_of(self.matches.current); }, kView,
           "(M,) int32: indices into the stereo edges of this frame.")
+      .def_prop_ro(
+          "left", [](const Quads& self) { return pairs_of(self.matches.left_x, self.matches.left_y); }, kOwned,
+          "(M, 2) float32: position in the left image [px]; a copy.")
+      .def_prop_ro(
+          "right", [](const Quads& self) { return pairs_of(self.matches.right_x, self.matches.right_y); }, kOwned,
+          "(M, 2) float32: position in the right image [px]; a copy.")
+      .def_prop_ro(
+          "competing_clusters", [](const Quads& self) { return view_of(self.matches.competing_clusters); }, kView,
+          "(M,) int32: further clusters of the earlier edge's candidates; 0: unambiguous.")
       .def_prop_ro(
           "inlier", [](const Quads& self) { return ArrayView<bool>(self.inlier.data(), {self.inlier.size()}); }, kView,
           "(M,) bool: True if the quad agrees with the estimated motion.")

@@ -2,13 +2,10 @@
 
 #include "quadedge/evaluation.hpp"
 
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/evaluate_matching.hpp"
 
 namespace quadedge::python {
 namespace {
@@ -25,42 +22,9 @@ auto column(T PerPose::*field) {
   };
 }
 
-nb::object matching(nb::handle source, nb::handle device, const std::string& preset, nb::handle config, int frames) {
-  if (frames < 0) throw UsageError("frames is " + std::to_string(frames) + ": expected 0 or more");
-  const Config constants = make_config(preset, config);
-  const Dataset* dataset = nullptr;
-  const RenderedSequence* rendered = nullptr;
-  if (!nb::try_cast(source, dataset) || dataset == nullptr) {
-    if (!nb::try_cast(source, rendered) || rendered == nullptr)
-      throw nb::type_error("expected a Dataset or a Synthetic");
-    dataset = nullptr;
-  }
-  const std::string document = DeviceArgument(device).run([&](Device& chosen) {
-    return dataset != nullptr ? evaluate_matching(*dataset, chosen, constants, frames)
-                              : evaluate_matching(rendered->options, chosen, constants, frames);
-  });
-  return nb::module_::import_("json").attr("loads")(document);
-}
-
-void bind_matching(nb::module_& module) {
-  module.def(
-      "evaluate_matching", &matching, "source"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default",
-      "config"_a = nb::none(), "frames"_a = 0,
-      nb::sig("def evaluate_matching(source: Dataset | Synthetic, device: str | int | Device = 'auto', preset: str = "
-              "'default', config: dict | str | os.PathLike | None = None, frames: int = 0) -> dict"),
-      "Measures recall, precision and ambiguity after every filter of the matching, against ground-truth disparities "
-      "or\n"
-      "depths. Returns the document that ``quadedge evaluate matching --json`` writes, as a dictionary.\n\n"
-      "frames: number of frames to evaluate, from the first one; 0 means all.\n"
-      "device, preset, config: as in Odometry; device may also be a Device.\n\n"
-      "Raises DataError for a recording without disparities or depths, and UsageError for the reference device,\n"
-      "whose stages cannot be observed.");
-}
-
 }  // namespace
 
 void bind_evaluation(nb::module_& module) {
-  bind_matching(module);
   nb::class_<ErrorStatistics>(module, "ErrorStatistics",
                               "Statistics of one kind of error, in the unit that its attribute names.")
       .def_ro("mean", &ErrorStatistics::mean)

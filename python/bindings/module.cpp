@@ -49,6 +49,7 @@ NB_MODULE(_quadedge, module) {
   bind_datasets(module);
   bind_synthetic(module);
   bind_edges(module);
+  bind_taps(module);
   bind_odometry(module);
   bind_maps(module);
   bind_evaluation(module);

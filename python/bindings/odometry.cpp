@@ -17,6 +17,7 @@
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
 #include "quadedge/result_files.hpp"
+#include "taps.hpp"
 
 namespace quadedge::python {
 namespace {
@@ -57,6 +58,11 @@ class Odometry {
       result.map_from_odometry = map->map_from_odometry();
     }
     return result;
+  }
+  void set_tap(PythonTap* tap) {
+    const std::lock_guard<std::mutex> alone(in_use_);
+    if (tap != nullptr) tap->watch(running().odometry.rig());
+    running().odometry.set_tap(tap);
   }
   void restart() {
     const std::lock_guard<std::mutex> alone(in_use_);
@@ -406,6 +412,8 @@ void bind_odometry(nb::module_& module) {
       .def_prop_ro("device", &Odometry::device, "The device in use, a DeviceInfo. Raises UsageError after close().")
       .def_prop_ro("variants", &Odometry::variants,
                    "Kernel variant of every stage, by the stage's name; empty on the plain C++ reference.")
+      .def("set_tap", &Odometry::set_tap, kReleasesGil, "tap"_a.none(), nb::keep_alive<1, 2>(),
+           "Observes all filters in the following frames with a Tap; None stops.")
       .def("restart", &Odometry::restart,
            "Forgets all earlier frames: the next one may have any stamp, and starts a new segment at the last pose,\n"
            "which is no measurement. For clocks that were set, and recordings that were joined.")

@@ -22,26 +22,29 @@ from .errors import DataError, DeviceError, Error, UsageError
 
 if TYPE_CHECKING:
     from ._quadedge import *  # noqa: F403
+    from .matching import evaluate_matching
 
     __version__: str
 
 _ERRORS = ("DataError", "DeviceError", "Error", "UsageError")
 _COMPILED = (
-    "Dataset", "Device", "DeviceInfo", "Edges", "ErrorStatistics", "Frame", "FrameCounts", "FrameDetails",
-    "FrameDiagnostics", "FrameFiles", "FrameIterator", "FrameResult", "FrameTiming", "FrameWarning", "Localisation",
-    "Map", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "ResultFiles", "Rig", "RigEvidence", "StereoEdges",
-    "Synthetic", "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image",
-    "detect_edges", "devices", "evaluate_matching", "evaluate_trajectory", "match", "open_dataset",
-    "open_stereo_source", "presets", "read_grey_image", "synthetic",
+    "Candidates", "Dataset", "Device", "DeviceInfo", "EdgePositions", "Edges", "ErrorStatistics", "Frame",
+    "FrameCounts", "FrameDetails", "FrameDiagnostics", "FrameFiles", "FrameIterator", "FrameResult", "FrameTiming",
+    "FrameWarning", "Localisation", "Map", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "ResultFiles", "Rig",
+    "RigEvidence", "Search", "StereoEdges", "StereoFilter", "Synthetic", "Tap", "TemporalFilter", "Trajectory",
+    "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image", "detect_edges", "devices",
+    "evaluate_trajectory", "match", "open_dataset", "open_stereo_source", "presets", "read_grey_image", "synthetic",
 )  # fmt: skip
 
-__all__ = [*_ERRORS, *_COMPILED, "__version__"]
+__all__ = [*_ERRORS, *_COMPILED, "__version__", "evaluate_matching"]
 
 
 def __getattr__(name: str):
     """Loads the compiled module with the first name that needs it."""
     if name == "__version__":
         return importlib.metadata.version("quadedge")
+    if name == "evaluate_matching":
+        return importlib.import_module(".matching", __name__).evaluate_matching
     if name in _COMPILED:
         opencl_runtime.announce()
         try:

@@ -143,7 +143,7 @@ def _summary() -> dict:
 
 
 def write_matching(file: Path, names: list[str], frames: int, drawings: list[dict] = ()) -> dict:
-    """Writes the output of `evaluate matching --json` for the named data sets of `frames` frames each."""
+    """Writes the output of `python -m quadedge.matching --json` for the named data sets of `frames` frames each."""
     histogram = {"below": 0, "bins": [10] * 25 + [0] * 75, "above": 50}
     cue = {"table": "stereo", "order": 1, "cue": "distance from the epipolar line", "unit": "px", "keeps_small": True,
            "thresholds": [0.5], "low": 0.0, "high": 5.0, "other_is_sample": True}

@@ -1,6 +1,5 @@
 """Recordings, rendered sequences, trajectories, and their evaluation."""
 
-import json
 
 import numpy
 import pytest
@@ -104,18 +103,6 @@ def test_errors_of_a_trajectory():
     late = quadedge.Trajectory(stamps + 10**12, poses)
     with pytest.raises(quadedge.DataError):
         quadedge.evaluate_trajectory(late, quadedge.Trajectory(stamps, poses))
-
-
-def test_matching_evaluation_agrees_with_the_command(command, room_folder, tmp_path):
-    done = command("evaluate", "matching", room_folder, "--frames", 2, "--json", tmp_path / "m.json", "--quiet")
-    assert done.returncode == 0, done.stderr
-    expected = json.loads((tmp_path / "m.json").read_text())
-    found = quadedge.evaluate_matching(quadedge.open_dataset(room_folder), frames=2)
-    assert found["pooled"] == expected["pooled"] and found["pairs"][0]["stereo"]
-    with pytest.raises(TypeError, match="expected a Dataset or a Synthetic"):
-        quadedge.evaluate_matching(None)
-    with pytest.raises(quadedge.UsageError, match="frames is -1"):
-        quadedge.evaluate_matching(quadedge.open_dataset(room_folder), frames=-1)
 
 
 def test_configuration():

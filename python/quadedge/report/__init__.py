@@ -1,6 +1,6 @@
 """Makes pages of QuadEdge's results: self-contained files with tables, interactive plots and pictures.
 
-The input is the output of `quadedge run`, `quadedge batch` and `quadedge evaluate matching --json`; images are not
+The input is the output of `quadedge run`, `quadedge batch` and `python -m quadedge.matching --json`; images are not
 processed. Needs jinja2, plotly and matplotlib, but not the compiled part of the package.
 """
 
@@ -19,7 +19,7 @@ __all__ = ["DamagedResults", "Page", "make_page"]
 def make_page(results: str | Path, output: str | Path | None = None, *, comparison: str | Path | None = None,
               markdown: str | Path | None = None, csv: str | Path | None = None, latex: str | Path | None = None,
               figures: str | Path | None = None) -> Path:
-    """Makes the page of a run, of a batch, or of a file of `evaluate matching --json`, and returns its path.
+    """Makes the page of a run, of a batch, or of a file of `python -m quadedge.matching --json`, and returns its path.
 
     results: folder of a run or batch, or the JSON file. output: path of the page; by default `report.html` in the
     folder, or the JSON file's name with .html. comparison: file that `quadedge report --baseline --peer` writes about a

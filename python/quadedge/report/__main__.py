@@ -20,7 +20,7 @@ def _make(options: dict) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m quadedge.report", description="Makes an HTML page of results.")
-    parser.add_argument("results", help="folder of a run or a batch, or a file of `quadedge evaluate matching --json`")
+    parser.add_argument("results", help="folder of a run or a batch, or a file of `python -m quadedge.matching --json`")
     parser.add_argument("-o", "--output", help="path of the page")
     parser.add_argument("--comparison", help="file that `quadedge report --baseline --peer` writes about a batch")
     parser.add_argument("--markdown", metavar="FILE", help="also write the tables of the first section as Markdown")

@@ -1,4 +1,4 @@
-"""Figures of the matching evaluation (`quadedge evaluate matching`)."""
+"""Figures of the matching evaluation (`python -m quadedge.matching`)."""
 
 import numpy as np
 

@@ -11,6 +11,7 @@ from .origin import device_text, origin
 from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
 from .results import DamagedResults, read_json
 from .run_page import configuration_table
+from .table import Table
 
 MOST_DRAWN = 8  # pairs or sequences
 MOST_MESSAGES = 12
@@ -20,21 +21,21 @@ CASCADES = (("stereo", "Stereo (Figure 3)", "stereo pairs"),
 
 
 def read_matching(file: Path) -> dict:
-    """Reads a file of `evaluate matching --json`. Raises DamagedResults."""
-    content = read_json(file, "a file of `quadedge evaluate matching --json`")
+    """Reads a file of `python -m quadedge.matching --json`. Raises DamagedResults."""
+    content = read_json(file, "a file of `python -m quadedge.matching --json`")
     for key in ("pairs", "pooled", "tolerance_px"):
         if key not in content:
-            raise DamagedResults(f"{file}: no `{key}`; expected a file of `quadedge evaluate matching --json`")
+            raise DamagedResults(f"{file}: no `{key}`; expected a file of `python -m quadedge.matching --json`")
     return content
 
 
 def matching_page(content: dict, detail: Detail) -> Page:
-    """The page of a file of `evaluate matching --json`."""
+    """The page of a file of `python -m quadedge.matching --json`."""
     pairs, pooled = content["pairs"], content["pooled"]
     title = pairs[0]["name"] if len(pairs) == 1 else f"{len(pairs)} data sets"
     page = Page(f"QuadEdge matching: {title}", _facts(content))
     page.sections.append(Section("Overview", [overview_table(pairs, pooled), *_messages(pairs)]))
-    page.sections.append(Section("Tables, pooled" if len(pairs) > 1 else "Tables", _tables(pooled, "")))
+    page.sections.append(Section("Tables, pooled" if len(pairs) > 1 else "Tables", summary_tables(pooled, "")))
     figures = [filter_figure("stereo", "Stereo, after every filter", pooled)]
     for side in ("left", "right"):
         if f"temporal_{side}" in pooled:
@@ -45,7 +46,7 @@ def matching_page(content: dict, detail: Detail) -> Page:
                                            "disparity.")]
     if len(pairs) > 1:
         for number, pair in enumerate(pairs):
-            page.sections.append(Section(f"Tables of {pair['name']}", _tables(pair, f"{number}_"), 3, fold=True))
+            page.sections.append(Section(f"Tables of {pair['name']}", summary_tables(pair, f"{number}_"), 3, fold=True))
     page.sections.append(_counts(pairs))
     page.sections += _distributions(pooled)
     page.sections += _accuracy(pairs, pooled)
@@ -81,7 +82,8 @@ def _messages(pairs: list[dict]) -> list:
     return [Text("Messages of the pipeline:"), Facts(messages)]
 
 
-def _tables(summary: dict, prefix: str) -> list:
+def summary_tables(summary: dict, prefix: str) -> list[Table]:
+    """The tables of one data set or of all; `prefix` is that of their names."""
     tables = [filter_table(f"{prefix}stereo", "Table 1: stereo", summary, "stereo"),
               disparity_table(f"{prefix}disparity", summary)]
     if "temporal_left" in summary:

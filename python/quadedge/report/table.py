@@ -1,4 +1,4 @@
-"""Tables as data, and their export to CSV, Markdown and LaTeX."""
+"""Tables as data, and their export to text, CSV, Markdown and LaTeX."""
 
 import csv
 import io
@@ -88,6 +88,21 @@ def to_markdown(table: Table) -> str:
     rule = "|---" * table.text_columns + "|--:" * (len(table.columns) - table.text_columns) + "|"
     return "\n".join([_markdown_row(table.full_columns()), rule, *map(_markdown_row, rows)]
                      + [f"\n{note}" for note in table.notes]) + "\n"
+
+
+def to_text(table: Table) -> str:
+    """The table in aligned columns, with rounded values, for a terminal."""
+    rows = [table.columns, *([" ".join(filter(None, (cell.text, cell.beside))) for cell in row] for row in table.rows)]
+    widths, above, column = [max(map(len, column)) for column in zip(*rows)], [], 0
+    for text, span in table.groups:
+        last, width = column + span - 1, sum(widths[column:column + span]) + 2 * (span - 1)
+        widths[last] += max(0, len(text) - width)
+        above.append(text.ljust(width))
+        column += span
+    lines = [table.title, "  ".join(above), *(
+        "  ".join(text.ljust(width) if number < table.text_columns else text.rjust(width)
+                  for number, (text, width) in enumerate(zip(row, widths))) for row in rows), *table.notes]
+    return "".join(f"{line.rstrip()}\n" for line in lines if line.strip())
 
 
 _LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{",

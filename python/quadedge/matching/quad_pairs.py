@@ -1,0 +1,157 @@
+"""Pairs of quads under the constraints of the paper's Equation 9: Table 3, Figures 6 and 7."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .cues import ANGLE, LENGTH, MIN_ANGLE, MIN_DETERMINANT, TANGENT, Cues
+from .draws import Draws
+
+CONSTRAINTS = ("all pairs", "length of D", "angle of D and T1", "angle of D and T2", "angle of T1 and T2",
+               "D not along T1", "handedness")
+DRAWN_PAIRS = 200_000
+MOST_MOTIONS, FEWEST_MOTIONS = 2000, 50
+"""Of the motions that a median is taken of."""
+
+
+@dataclass
+class OrientedPairs:
+    """N pairs of points with tangents: (N, 3) each, in the left camera frame of their time [m]."""
+
+    first: np.ndarray
+    first_tangent: np.ndarray
+    second: np.ndarray
+    second_tangent: np.ndarray
+
+    @classmethod
+    def of(cls, points: np.ndarray, tangents: np.ndarray, a: np.ndarray, b: np.ndarray) -> "OrientedPairs":
+        return cls(points[a], tangents[a], points[b], tangents[b])
+
+    def swapped(self, where: np.ndarray) -> "OrientedPairs":
+        """With the roles of the points exchanged there."""
+        where = where[:, None]
+        return OrientedPairs(*(np.where(where, other, own) for own, other in (
+            (self.first, self.second), (self.first_tangent, self.second_tangent), (self.second, self.first),
+            (self.second_tangent, self.first_tangent))))
+
+    def chosen(self, rows) -> "OrientedPairs":
+        return OrientedPairs(self.first[rows], self.first_tangent[rows], self.second[rows], self.second_tangent[rows])
+
+
+@dataclass
+class PairMeasurement:
+    """Of one frame, after each of CONSTRAINTS: pairs and veridical ones, and the median errors of the motions that
+    single pairs give, (rotation [deg], translation [m]); NaN of too few."""
+
+    pairs: np.ndarray
+    veridical: np.ndarray
+    errors: np.ndarray
+
+
+def _dot(a, b):
+    return (a * b).sum(axis=-1)
+
+
+def _shape(pairs: OrientedPairs):
+    """Length of D, its cosines with T1 and T2, T1 . T2, and det(D / |D|, T1, T2)."""
+    d = pairs.second - pairs.first
+    length = np.sqrt(_dot(d, d))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unit = d / length[:, None]
+    return (length, _dot(unit, pairs.first_tangent), _dot(unit, pairs.second_tangent),
+            _dot(pairs.first_tangent, pairs.second_tangent),
+            _dot(unit, np.cross(pairs.first_tangent, pairs.second_tangent)))
+
+
+def check_constraints(before: OrientedPairs, now: OrientedPairs):
+    """The quantities (5, N) that the first five constraints compare with their thresholds; whether each of the six
+    holds (6, N); and whether the fifth does only with the roles of the quads exchanged (N,)."""
+    length, first, second, tangents, determinant = _shape(before)
+    length_now, first_now, second_now, tangents_now, determinant_now = _shape(now)
+    apart = (length > 0) & (length_now > 0)
+    differences = [np.abs(length - length_now), np.abs(first - first_now), np.abs(second - second_now),
+                   np.abs(tangents - tangents_now)]
+    crosses = [np.maximum(np.abs(a), np.abs(b)) < np.cos(np.radians(MIN_ANGLE))
+               for a, b in ((first, first_now), (second, second_now))]
+    informative = np.minimum(np.abs(determinant), np.abs(determinant_now)) > MIN_DETERMINANT
+    passed = np.stack([apart & (differences[0] < LENGTH * length), apart & (differences[1] < ANGLE),
+                       apart & (differences[2] < ANGLE), differences[3] < TANGENT, apart & (crosses[0] | crosses[1]),
+                       apart & (~informative | ((determinant > 0) == (determinant_now > 0)))])
+    # The roles of the quads are interchangeable: the better of both counts, before and after.
+    angles = [np.degrees(np.arccos(np.minimum(1, np.maximum(np.abs(a), np.abs(b)))))
+              for a, b in ((first, first_now), (second, second_now))]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        values = np.stack([differences[0] / length, *differences[1:], np.maximum(*angles)])
+    return np.where(apart, values, np.nan), passed, ~crosses[0] & crosses[1]
+
+
+def _frames(pairs: OrientedPairs) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal frames [D / |D|, part of T1 across it, their product] as columns, and whether they exist."""
+    d = pairs.second - pairs.first
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = d / np.sqrt(_dot(d, d))[:, None]
+        cosine = _dot(first, pairs.first_tangent)
+        across = pairs.first_tangent - cosine[:, None] * first
+        across /= np.sqrt(_dot(across, across))[:, None]
+    return np.stack([first, across, np.cross(first, across)], axis=-1), np.abs(cosine) < 1
+
+
+def motion_of_pairs(before: OrientedPairs, now: OrientedPairs) -> np.ndarray:
+    """(N, 4, 4): the motions that map pairs to pairs (Proposition 2), midpoint to midpoint; NaN where there is none."""
+    (frames, exists), (frames_now, exists_now) = _frames(before), _frames(now)
+    motions = np.zeros((len(frames), 4, 4))
+    motions[:, 3, 3] = 1
+    motions[:, :3, :3] = frames_now @ frames.transpose(0, 2, 1)
+    middle, middle_now = 0.5 * (before.first + before.second), 0.5 * (now.first + now.second)
+    motions[:, :3, 3] = middle_now - np.einsum("nij,nj->ni", motions[:, :3, :3], middle)
+    motions[~(exists & exists_now)] = np.nan
+    return motions
+
+
+def motion_errors(estimates: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """(..., 2): rotation [deg] and translation [m] of truth^-1 estimate, for motions (..., 4, 4)."""
+    off = np.linalg.inv(truth) @ estimates
+    skew = np.stack([off[..., 2, 1] - off[..., 1, 2], off[..., 0, 2] - off[..., 2, 0], off[..., 1, 0] - off[..., 0, 1]],
+                    axis=-1)
+    trace = np.trace(off[..., :3, :3], axis1=-2, axis2=-1)
+    angle = np.degrees(np.arctan2(np.sqrt(_dot(skew, skew)), trace - 1))
+    return np.stack([angle, np.sqrt(_dot(off[..., :3, 3], off[..., :3, 3]))], axis=-1)
+
+
+def _median(errors: np.ndarray) -> np.ndarray:
+    if len(errors) < FEWEST_MOTIONS:
+        return np.full(2, np.nan)
+    return np.sort(errors, axis=0)[len(errors) // 2]
+
+
+def measure_pairs(before, now, veridical: np.ndarray, seed: int, now_from_before: np.ndarray,
+                  cues: Cues) -> PairMeasurement:
+    """Draws pairs of quads uniformly.
+
+    before, now: points and tangents (Q, 3) of the quads at both times. veridical: (Q,) bool. cues: gets the
+    distributions of the constraints.
+    """
+    measured = PairMeasurement(np.zeros(len(CONSTRAINTS), int), np.zeros(len(CONSTRAINTS), int),
+                               np.full((len(CONSTRAINTS), 2), np.nan))
+    if len(veridical) < 2:
+        return measured
+    drawn = Draws(seed).indices(2 * DRAWN_PAIRS, len(veridical)).reshape(-1, 2)
+    a, b = drawn[drawn[:, 0] != drawn[:, 1]].T
+    both = veridical[a] & veridical[b]
+    pairs_before, pairs_now = OrientedPairs.of(*before, a, b), OrientedPairs.of(*now, a, b)
+    values, passed, swapped = check_constraints(pairs_before, pairs_now)
+    pairs_before, pairs_now = pairs_before.swapped(swapped), pairs_now.swapped(swapped)
+    solvable = _frames(pairs_before)[1] & _frames(pairs_now)[1]
+    left = np.ones(len(a), bool)
+    for order in range(len(CONSTRAINTS)):
+        if order:
+            left &= passed[order - 1]
+        measured.pairs[order], measured.veridical[order] = left.sum(), (left & both).sum()
+        if ("constraints", order + 1) in cues:
+            cue = cues["constraints", order + 1]
+            cue.of["veridical"].add(values[order, left & both])
+            cue.of["other"].add(values[order, left & ~both])
+        rows = np.nonzero(left & solvable)[0][:MOST_MOTIONS]
+        motions = motion_of_pairs(pairs_before.chosen(rows), pairs_now.chosen(rows))
+        measured.errors[order] = _median(motion_errors(motions, now_from_before))
+    return measured
