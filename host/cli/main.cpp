@@ -42,9 +42,8 @@ int main(int argc, char** argv) {
     for (const auto make :
          {cli::make_run_command, cli::make_localise_command, cli::make_demo_command, cli::make_batch_command,
           cli::make_report_command, cli::make_edges_command, cli::make_match_command,
-          cli::make_evaluate_trajectory_command, cli::make_bench_command,
-          cli::make_compare_command, cli::make_synth_command, cli::make_check_command, cli::make_devices_command,
-          cli::make_variants_command})
+          cli::make_evaluate_trajectory_command, cli::make_bench_command, cli::make_compare_command,
+          cli::make_synth_command, cli::make_check_command, cli::make_devices_command, cli::make_variants_command})
       commands.push_back(make());
     const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
     if (parsed.command == nullptr) return parsed.exit_code;

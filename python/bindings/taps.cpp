@@ -24,12 +24,13 @@ void bind_filters(nb::module_& module) {
   nb::enum_<StereoFilter> stereo(module, "StereoFilter", nb::is_arithmetic(),
                                  "Stereo cascade; the value is the row of Table 1.");
   for (int order = 0; order <= order_of(StereoFilter::best); ++order) {
-    static constexpr const char* kNames[] = {"baseline",   "epipolar_distance", "disparity", "orientation",
-                                             "sift",       "ncc",               "nearly_best_ncc", "nearly_best_sift",
-                                             "refinement", "similarity",        "relaxation", "one_to_one", "best"};
+    static constexpr const char* kNames[] = {
+        "baseline",         "epipolar_distance", "disparity",  "orientation", "sift",       "ncc", "nearly_best_ncc",
+        "nearly_best_sift", "refinement",        "similarity", "relaxation",  "one_to_one", "best"};
     stereo.value(kNames[order], static_cast<StereoFilter>(order));
   }
-  stereo.def_prop_ro("title", [title](StereoFilter self) { return title(self); }, "Name in tables.");
+  stereo.def_prop_ro(
+      "title", [title](StereoFilter self) { return title(self); }, "Name in tables.");
   nb::enum_<TemporalFilter> temporal(module, "TemporalFilter", nb::is_arithmetic(),
                                      "Temporal cascade; the value is the row of Table 2.");
   for (int order = 0; order <= order_of(TemporalFilter::best); ++order) {
@@ -37,7 +38,8 @@ void bind_filters(nb::module_& module) {
                                              "nearly_best_ncc", "nearly_best_sift", "refinement",  "agreement", "best"};
     temporal.value(kNames[order], static_cast<TemporalFilter>(order));
   }
-  temporal.def_prop_ro("title", [title](TemporalFilter self) { return title(self); }, "Name in tables.");
+  temporal.def_prop_ro(
+      "title", [title](TemporalFilter self) { return title(self); }, "Name in tables.");
 }
 
 void bind_candidates(nb::module_& module) {
@@ -46,7 +48,8 @@ void bind_candidates(nb::module_& module) {
   nb::class_<Self>(module, "Candidates",
                    "Candidates in compressed rows: row i consists of ``first[i]`` .. ``first[i + 1] - 1`` of the flat\n"
                    "arrays.")
-      .def("__len__", [](const Self& self) { return self.target.size(); }, "Number of all candidates.")
+      .def(
+          "__len__", [](const Self& self) { return self.target.size(); }, "Number of all candidates.")
       .def_prop_ro("first", array(&Self::first), kView, "(rows + 1,) int32.")
       .def_prop_ro("target", array(&Self::target), kView, "(C,) int32: index of the other edge.")
       .def_prop_ro("x", array(&Self::x), kView,
@@ -59,8 +62,10 @@ void bind_candidates(nb::module_& module) {
 
 void bind_search(nb::module_& module) {
   nb::class_<EdgePositions>(module, "EdgePositions", "Positions in one image; NaN: none. All arrays are (N,) float32.")
-      .def_prop_ro("x", [](const EdgePositions& self) { return view_of(self.x); }, kView, "[px]")
-      .def_prop_ro("y", [](const EdgePositions& self) { return view_of(self.y); }, kView, "[px]")
+      .def_prop_ro(
+          "x", [](const EdgePositions& self) { return view_of(self.x); }, kView, "[px]")
+      .def_prop_ro(
+          "y", [](const EdgePositions& self) { return view_of(self.y); }, kView, "[px]")
       .def_prop_ro(
           "direction", [](const EdgePositions& self) { return view_of(self.direction); }, kView,
           "Direction of the tangent [rad].");
@@ -113,8 +118,7 @@ void bind_taps(nb::module_& module) {
           "Called after every stereo filter between the baseline and the best. Rows are left edges, targets right "
           "edges.")
       .def(
-          "stereo", [](PythonTap&, nb::handle) {}, "edges"_a,
-          nb::sig("def stereo(self, edges: StereoEdges) -> None"),
+          "stereo", [](PythonTap&, nb::handle) {}, "edges"_a, nb::sig("def stereo(self, edges: StereoEdges) -> None"),
           "Called with the final stereo edges of a frame. Their points follow the calibration, without the disparity\n"
           "offset that Odometry.edges() adds.")
       .def(

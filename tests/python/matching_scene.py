@@ -1,4 +1,4 @@
-"""A rectified rig in front of a plane, for calculation by hand: a left point (x, y) is at (x - 10, y) in the right view."""
+"""A rectified rig in front of a plane, to calculate by hand: a left point (x, y) is at (x - 10, y) on the right."""
 
 from types import SimpleNamespace
 

@@ -164,7 +164,8 @@ def test_after_a_loss_only_the_search_that_gave_the_motion_is_evaluated():
     show_search(observer, 2, 1, one, [3, 2, 1, 0], two)  # tried afterwards
     show_search(observer, 3, 1, one, [0, 1], two, 2)     # a subset of the edges
     found, _ = observer.end(result(search=1, reference_frame=1, x=0.352))
-    assert (found.temporal.quads[0].pool, found.temporal.quads[0].recall, found.temporal.quads[0].precision) == (4, 1, 1)
+    paired = found.temporal.quads[0]
+    assert (paired.pool, paired.recall, paired.precision) == (4, 1, 1)
     for table in found.temporal.tables.values():
         assert len(table) == 3 and table[1].paired.recall == table[1].paired.precision == 1
     assert found.motion[1] == pytest.approx(0.002)  # since frame 1, from the pipeline's poses of both

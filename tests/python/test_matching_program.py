@@ -54,13 +54,13 @@ def test_most_final_edges_are_true_and_tables_begin_with_every_edge(evaluated):
     pooled = evaluated[2]["pooled"]
     for table in ("stereo", "temporal_left", "temporal_right"):
         assert pooled[table][0]["recall"] == 1 and pooled[table][0]["precision"] < 0.02
-        recall = [row["recall"] for row in pooled[table]]
+        recall = [row["recall"] for row in pooled[table] if row["filter"] != "(strictly one-to-one)"]
         assert recall == sorted(recall, reverse=True)
     assert pooled["stereo"][-1]["recall"] > 0.9 and pooled["stereo"][-1]["precision"] > 0.95
     assert pooled["disparity_error_px"]["median"] < 0.1
     assert pooled["quads"]["recall"] > 0.8 and pooled["quads"]["precision"] > 0.9
-    precision = [row["precision"] for row in pooled["constraints"]]
-    assert precision == sorted(precision) and pooled["constraints"][0]["pairs"] > 390_000  # of two frames
+    pairs = [row["pairs"] for row in pooled["constraints"]]
+    assert pairs == sorted(pairs, reverse=True) and pairs[0] > 390_000  # of two frames
     # SIFT is off by default, and its rows say so.
     assert pooled["stereo"][4]["off"] and "off" not in pooled["stereo"][5]
     cue = pooled["distributions"][1]
@@ -80,7 +80,8 @@ def test_files_are_not_replaced_without_force(evaluated, tmp_path):
 def test_a_recording_gives_what_its_scene_gives(evaluated, command, tmp_path):
     done = command("synth", tmp_path / "room", "--frames", 2, "--size", "320x200", "--quiet")
     assert done.returncode == 0, done.stderr
-    (tmp_path / "damaged" / "depth").mkdir(parents=True)
+    for name in ("rgb", "depth"):
+        (tmp_path / "damaged" / name).mkdir(parents=True)
     done = evaluate(tmp_path, "--quiet", "--json", tmp_path / "m.json")
     assert done.returncode == 0, done.stderr
     content = json.loads((tmp_path / "m.json").read_text())

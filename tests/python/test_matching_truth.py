@@ -76,12 +76,13 @@ def test_a_point_is_visible_occluded_by_a_nearer_surface_or_contradicted():
 
 
 def test_in_the_right_view_a_board_occludes_the_part_of_the_wall_beside_it():
-    # Columns 20 to 29 of the left view show a board of 8 px, the rest a wall of 2 px: the board covers columns 12 to 21.
+    # Columns 20 to 29 of the left view show a board of 8 px, the rest a wall of 2 px: the board covers 12 to 21.
     left = surface(60, 9, lambda x, y: numpy.where((x >= 20) & (x < 30), 8, 2))
     right = right_from_left(left, 60)
     numpy.testing.assert_array_equal(right[4, :50], [*[2] * 12, *[8] * 10, *[numpy.nan] * 6, *[2] * 22])
     # The wall's column 16 maps to column 14, behind the board; column 10 to 8, beside it.
-    found = true_right_positions(None, FrameTruth(left, right, right_is_measured=False), edges([16, 10, 35], [4] * 3, 0))
+    truth = FrameTruth(left, right, right_is_measured=False)
+    found = true_right_positions(None, truth, edges([16, 10, 35], [4] * 3, 0))
     assert found.state.tolist() == [OCCLUDED, VISIBLE, VISIBLE] and found.x[1] == 8
 
 
@@ -99,7 +100,8 @@ def test_a_point_of_known_depth_is_located_after_a_known_motion():
     rig, wall = quadedge.Rig(camera, camera, pose), surface(100, 80, lambda x, y: scale / 2)
     before = FrameTruth(wall, wall, depth_scale=scale, world_from_left=numpy.eye(4))
     seen = surface(100, 80, lambda x, y: numpy.where(x < 20, 2 * scale / 1.6, scale / 1.6))  # a nearer obstacle
-    now, where = FrameTruth(seen, seen, depth_scale=scale, world_from_left=moved), edges([59.5, 36.5], [49.5, 39.5], 1.5)
+    now = FrameTruth(seen, seen, depth_scale=scale, world_from_left=moved)
+    where = edges([59.5, 36.5], [49.5, 39.5], 1.5)
     left, right = (true_later_positions(rig, before, now, side, where) for side in ("left", "right"))
     # Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera
     # 0.1 m farther.
@@ -207,7 +209,7 @@ def test_folders_are_searched_for_recordings_with_truth(pair, tmp_path):
     assert [source.name for source in find_sources(str(tmp_path), skipped.append)] == ["scene"]
     assert len(skipped) == 1 and "broken" in skipped[0]
     (pair / "disp0GT.pfm").unlink()
-    with pytest.raises(quadedge.DataError, match="found no ground truth of edges, expected disparities"):
+    with pytest.raises(quadedge.DataError, match="found no recording .*found no ground truth of edges, expected"):
         find_sources(str(pair), skipped.append)
     with pytest.raises(quadedge.DataError):
         find_sources(str(tmp_path), skipped.append)

@@ -1,7 +1,7 @@
 """Evaluates every filter of the matching against ground truth of the edges: the paper's Tables 1 to 3.
 
-``python -m quadedge.matching PATH`` prints the tables; doc/matching.md defines their terms. The candidates that a filter
-leaves are seen through a Tap; the pipeline never sees the ground truth.
+``python -m quadedge.matching PATH`` prints the tables; doc/matching.md defines their terms. The candidates that a
+filter leaves are seen through a Tap; the pipeline never sees the ground truth.
 """
 
 import os

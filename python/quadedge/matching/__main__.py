@@ -97,7 +97,7 @@ def _scene(name: str, options: argparse.Namespace):
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Places what a page is made of beside it. Raises UsageError for options that contradict one another or the disk."""
+    """Places what a page is made of beside it. Raises UsageError for options that contradict each other or the disk."""
     if options.frames < 0:
         raise UsageError(f"--frames {options.frames}: expected 0 or more")
     if not 0 < options.tolerance <= 100:
@@ -149,7 +149,8 @@ def _evaluate(options: argparse.Namespace, words: list[str]) -> None:
             _print(result.name, summary([result]), len(result.frames))
     _print("all" if len(results) > 1 else results[0].name, summary(results), sum(len(one.frames) for one in results))
     drawings = write_drawings(options.draw, results, tolerance) if options.draw else []
-    content = document(results, device, config, options.paths, tolerance, shlex.join([*NAME.split(), *sys.argv[1:]]), drawings)
+    command = shlex.join([*NAME.split(), *sys.argv[1:]])
+    content = document(results, device, config, options.paths, tolerance, command, drawings)
     _write(options, content)
 
 

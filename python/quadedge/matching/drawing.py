@@ -81,7 +81,8 @@ def _draw(axes, edges: np.ndarray, kinds: np.ndarray, colours: np.ndarray, true:
 
 def _draw_class(file: Path, images, matches: FinalMatches, kind: str, caption: str) -> None:
     colours = _colours(np.arange(len(matches.kind)))
-    shown = np.isin(matches.kind, [CLASSES.index(name) for name in ((kind, "occluded") if kind == "wrong" else (kind,))])
+    names = (kind, "occluded") if kind == "wrong" else (kind,)
+    shown = np.isin(matches.kind, [CLASSES.index(name) for name in names])
     left, right, true, kinds, colours = (values[shown] for values in (matches.left, matches.right, matches.true,
                                                                       matches.kind, colours))
     regions = _busiest_regions(left, images[0].shape) if kind == "correct" else []
@@ -111,8 +112,8 @@ def _draw_class(file: Path, images, matches: FinalMatches, kind: str, caption: s
 
 
 def write_drawings(folder: Path, results: list[MatchingResult], tolerance: Tolerance) -> list[dict]:
-    """Writes FOLDER/NAME_{correct,inaccurate,wrong}.png of the last frame of every result; the second result of one name
-    gets a "_2". Returns name, file and caption of each."""
+    """Writes FOLDER/NAME_{correct,inaccurate,wrong}.png of the last frame of every result; the second result of one
+    name gets a "_2". Returns name, file and caption of each."""
     folder.mkdir(parents=True, exist_ok=True)
     written, used = [], {}
     for result in results:

@@ -28,7 +28,8 @@ class Draws:
             new[:_MIDDLE] = _next(old[:_MIDDLE], old[1:_MIDDLE + 1], old[_MIDDLE:])
             new[_MIDDLE:] = _next(old[_MIDDLE:], np.append(old[_MIDDLE + 1:], new[0]), new[:_MIDDLE])
             self._state, x = new, new.copy()
-            for shift, mask in ((-29, 0x5555555555555555), (17, 0x71D67FFFEDA60000), (37, 0xFFF7EEE000000000), (-43, -1)):
+            for shift, mask in ((-29, 0x5555555555555555), (17, 0x71D67FFFEDA60000), (37, 0xFFF7EEE000000000),
+                                (-43, -1)):
                 moved = x << np.uint64(shift) if shift > 0 else x >> np.uint64(-shift)
                 x ^= moved & np.uint64(mask % 2**64)
             blocks.append(x)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import Dataset, Synthetic, open_dataset, read_grey_image
-from ..errors import DataError
+from ..errors import DataError, Error
 from .surfaces import FrameTruth, from_depth, nearness, right_from_left
 
 MASK_UNKNOWN, MASK_OCCLUDED = 0, 128
@@ -140,25 +140,26 @@ def open_source(source):
 
 
 def find_sources(path: str, skip) -> list:
-    """The recording at a path, or all with ground truth in the folders below it, sorted by path. `skip` is called with
-    the reason for leaving out a damaged one. Raises DataError if there is none."""
+    """The recording at a path, or all with ground truth in the folders below it, by path. `skip` is called with the
+    reason for leaving out one whose ground truth is there. Raises DataError if there is none."""
     try:
-        recording = open_dataset(path)
-    except DataError:
+        return [RecordedSource(open_dataset(path))]
+    except Error as problem:
         if not os.path.isdir(path):
             raise
-    else:
-        return [RecordedSource(recording)]
+        of_path = problem
     found = []
     for folder, folders, files in os.walk(path, followlinks=True):
-        folders.sort()
-        if not COMPANIONS.keys() & set(files) and "depth" not in folders:
-            continue
         try:
-            found.append(RecordedSource(open_dataset(folder)))
-        except DataError as problem:
-            skip(str(problem))
+            recording = open_dataset(folder)
+            if os.path.samefile(recording.path, folder):  # not one below it
+                found.append(RecordedSource(recording))
+                folders.clear()
+        except Error as problem:
+            is_pair = COMPANIONS.keys() & set(files) and any(name.startswith(("im", "view")) for name in files)
+            if is_pair or {"rgb", "depth"} <= set(folders):
+                skip(str(problem))
+        folders.sort()
     if not found:
-        raise DataError(f"{path}: found no recording with ground truth of edges, in it or below, expected disparities "
-                        "or depths (doc/matching.md)")
+        raise DataError(f"{path}: found no recording with ground truth of edges, in it or below ({of_path})")
     return found

@@ -173,7 +173,8 @@ def _projected(camera, camera_from_points: np.ndarray, points: np.ndarray, surfa
 
 def _points(camera, x, y, depth) -> np.ndarray:
     """(N, 3): points in the camera's frame [m]."""
-    return np.stack([(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, np.ones(len(x))], axis=1) * depth[:, None]
+    rays = np.stack([(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, np.ones(len(x))], axis=1)
+    return rays * depth[:, None]
 
 
 def true_right_positions(rig, truth: FrameTruth, edges) -> TruePositions:
