@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -40,30 +39,6 @@ TEST_CASE("command line: help and version are commands too", "[cli]") {
   CHECK(run_program({"help", "rnu"}).code == 2);
 }
 
-TEST_CASE("command line: help fits the terminal's width or COLUMNS", "[cli]") {
-  const auto fits = [](const std::string& text, std::size_t columns) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      const bool is_example = line.rfind("  quadedge ", 0) == 0;
-      INFO(line);
-      CHECK((is_example || line.size() - (!line.empty() && line.back() == '\r' ? 1 : 0) <= columns));
-    }
-  };
-  for (const unsigned short columns : {60, 80, 132}) {
-    const std::string help = run_on_terminal({"run", "--help-all"}, columns, "TERM=xterm");
-    CHECK_THAT(help, Contains("--stereo.ncc_min"));
-    fits(help, columns);
-    fits(run_program({"run", "--help"}, "COLUMNS=" + std::to_string(columns)).out, columns);
-  }
-  // Only blanks and line breaks change.
-  const auto letters = [](std::string text) {
-    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n'; }), text.end());
-    return text;
-  };
-  CHECK(letters(run_program({"run", "--help-all"}, "COLUMNS=72").out) ==
-        letters(run_program({"run", "--help-all"}, "env -u COLUMNS").out));
-}
-
 TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
   const TemporaryFolder folder;
   const std::vector<std::string> run = {"run", small_sequence(), "--device", "reference",   "--frames",
@@ -71,17 +46,6 @@ TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
   CHECK_THAT(run_on_terminal(run, 80, "TERM=xterm"), Contains("\x1b[K") && Contains("frame 1/1"));
   for (const char* environment : {"TERM=dumb", "-u TERM"})
     CHECK_THAT(run_on_terminal(run, 80, environment), !Contains("\x1b") && Contains("frame 1/1"));
-}
-
-TEST_CASE("command line: an option's former name works and is told", "[cli]") {
-  const auto former = run_program({"run", "/no/such/recording", "--map-min-views", "0"});
-  CHECK_THAT(former.err, Contains("warning: --map-min-views is called --points-min-views now"));
-  CHECK_THAT(former.err, Contains("/no/such/recording") || Contains("--points-min-views 0"));
-  CHECK_THAT(run_program({"run", "x", "--points-min-views", "2"}).err, !Contains("warning"));
-  const TemporaryFolder folder;
-  std::ofstream(folder / "old.toml") << "map-min-views = true\n";
-  CHECK_THAT(run_program({"run", "x", "--config", folder / "old.toml"}).err,
-             Contains("--points-min-views now") && Contains("old.toml"));
 }
 
 TEST_CASE("command line: invalid use ends with code 2 and names the error", "[cli]") {

@@ -324,9 +324,7 @@ TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the 
   const int edges = first_edges();
   CHECK(std::abs(learned) < 0.3);
   CHECK((sigma > 0 && sigma < 0.3));  // less than is assumed at the start
-  const auto old_name = run("--offset-file");
-  REQUIRE(old_name.code == 0);
-  CHECK_THAT(old_name.err, Contains("--offset-file is called --rig-file now"));
+  REQUIRE(run("--rig-file").code == 0);
   CHECK(value("out/config.toml", "disparity_offset") == learned);
   CHECK(value("rig.toml", "pose.disparity_offset_sigma") < sigma);
   CHECK(first_edges() >= edges);

@@ -1,9 +1,7 @@
-/// \file test_generated_pages.cpp  Manual page and shell completion.
+/// \file test_generated_pages.cpp  Shell completion.
 #include <catch2/catch.hpp>
 
 #include "program.hpp"
-
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -27,16 +25,6 @@ std::string completions(const std::string& script, const std::vector<std::string
 }
 
 }  // namespace
-
-TEST_CASE("manual page: troff accepts it without a warning, and it lists commands, options and constants", "[cli]") {
-  const TemporaryFolder folder;
-  const std::string page_file = folder / "quadedge.1";
-  shell("sh '" QUADEDGE_KERNELS "/../cmake/manual_page.sh' '" QUADEDGE_PROGRAM "' >'" + page_file + "'");
-  CHECK(shell("groff -man -ww -z -Tutf8 '" + page_file + "'") == "");
-  const std::string page = shell("groff -man -Tascii -P-cbou '" + page_file + "'");
-  CHECK_THAT(page, Contains("quadedge evaluate trajectory") && Contains("--stereo.ncc_min") && Contains("Exit codes"));
-  CHECK_THAT(page, Contains("QUADEDGE_DEVICE") && Contains("facade") && Contains("handheld"));
-}
 
 TEST_CASE("bash completion: completes commands, options, their values and constants", "[cli]") {
   const std::string script = QUADEDGE_KERNELS "/../cmake/quadedge.bash";

@@ -17,10 +17,6 @@ bool has_escape_codes(int stream);
 /// Columns of the terminal that a stream goes to: COLUMNS if set, else the terminal's own value; 0: no terminal.
 int terminal_width(int stream);
 
-/// Help text in lines of at most `width` columns (0: as it is). A line that is too long goes on below its description,
-/// the text after two blanks; lines of examples ("  quadedge ...") stay whole, so that they can be copied.
-std::string wrapped(const std::string& text, int width);
-
 /// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds;
 /// nothing with --quiet.
 class StatusLine {

@@ -3,12 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <sstream>
-#include <unistd.h>
 #include <utility>
 
 #include "cli/console.hpp"
@@ -39,21 +37,6 @@ const CLI::Validator kDecimal(
       return digits == std::string::npos || other_base ? "'" + text + "' is not a decimal integer" : "";
     },
     "");
-
-/// Names that options had in the last release, without dashes, and their names now. The old ones still work.
-const std::map<std::string, std::string> kRenamed = {{"map", "points"},
-                                                     {"map-colmap", "points-colmap"},
-                                                     {"map-min-views", "points-min-views"},
-                                                     {"offset-file", "rig-file"},
-                                                     {"temporal.wide_edges", "temporal.global_edges"}};
-
-/// The name now of an option called `name`; a warning about an old one.
-std::string name_now(const std::string& name) {
-  const auto renamed = kRenamed.find(name);
-  if (renamed == kRenamed.end()) return name;
-  note("warning: --" + name + " is called --" + renamed->second + " now; the old name goes with the next release");
-  return renamed->second;
-}
 
 /// Options of one command as options of a CLI11 application.
 class ParserOptions : public Options {
@@ -170,7 +153,7 @@ class ParserOptions : public Options {
   void apply(const std::vector<data::TomlEntry>& entries) const {
     std::map<const CLI::Option*, std::string> seen;
     for (const auto& entry : entries) {
-      const auto setting = from_file_.find(from_file_.count(entry.key) > 0 ? entry.key : name_now(entry.key));
+      const auto setting = from_file_.find(entry.key);
       if (setting == from_file_.end()) data::refuse_key(entry, keys());
       const CLI::Option* option = setting->second.option;
       const auto [first, is_new] = seen.insert({option, entry.key});
@@ -286,8 +269,7 @@ int refuse(const CLI::App& program, const CLI::Error& error) {
   return static_cast<int>(ExitCode::usage);
 }
 
-/// The words of the command line: `quadedge help [COMMAND...]` and `quadedge version` as the options of those names,
-/// renamed options under their names now.
+/// The words of the command line: `quadedge help [COMMAND...]` and `quadedge version` as the options of those names.
 std::vector<std::string> read_words(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   if (argc < 2) return words;
@@ -296,21 +278,7 @@ std::vector<std::string> read_words(int argc, char** argv) {
     words.erase(words.begin() + 1);
     words.emplace_back("--help");
   }
-  for (std::string& word : words) {
-    if (word == "--") break;
-    if (word.rfind("--", 0) != 0) continue;
-    const std::string name = word.substr(2, word.find('=') - 2);
-    word.replace(2, name.size(), name_now(name));
-  }
   return words;
-}
-
-/// Prints the requested help, wrapped to the width of the terminal, or the version.
-int answer(const CLI::App& program, const CLI::Success& request) {
-  std::ostringstream text;
-  const int code = program.exit(request, text, std::cerr);
-  std::cout << wrapped(text.str(), terminal_width(STDOUT_FILENO));
-  return code;
 }
 
 }  // namespace
@@ -345,7 +313,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
     program.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
   } catch (const CLI::Success& request) {               // --help, --help-all, --version
     const bool is_known = program.remaining().empty();  // CLI11 answers `rnu --help`, too
-    return {nullptr, is_known ? answer(program, request) : refuse(program, request)};
+    return {nullptr, is_known ? program.exit(request) : refuse(program, request)};
   } catch (const CLI::Error& error) {
     return {nullptr, refuse(program, error)};
   }
