@@ -148,6 +148,7 @@ CsvRow poses_row(int number, const FrameResult& result) {
   add_pose(row, "reference_", in_reference);
   add_covariance(row, "covariance_", result.covariance);
   add_covariance(row, "reference_covariance_", result.diagnostics.covariance_in_reference);
+  row.add("base_frame", result.diagnostics.base_frame);
   return row;
 }
 

@@ -9,6 +9,10 @@ from pathlib import Path
 
 import numpy
 
+from .errors import UsageError
+
+_RESULTS = ("frames.csv", "poses.csv", "trajectory.txt", "report.json", "config.toml")
+
 
 def add_session_options(parser: argparse.ArgumentParser) -> None:
     """Adds the options that a Session takes."""
@@ -31,6 +35,22 @@ def stopped_by_signals() -> Iterator[list[int]]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def check_session_options(options: argparse.Namespace) -> None:
+    """Raises UsageError, DataError or DeviceError for options that a Session would refuse."""
+    from . import Device, configuration
+
+    configuration(options.preset, options.config)
+    Device(options.device)
+    if not options.output:
+        return
+    if Path(options.output).is_file():
+        raise UsageError(f"{options.output}: found a file, expected a folder for results")
+    found = [name for name in _RESULTS if (Path(options.output) / name).exists()]
+    if found and not options.force:
+        raise UsageError(f"{options.output}: the folder holds results ({found[0]}); choose another folder with -o, or "
+                         "replace them with --force")
 
 
 class Session:
@@ -66,7 +86,9 @@ class Session:
             self._say(f"warning: frame {self.frames}: {warning.text}")
         if not result.is_tracked and (last is None or last.status != result.status):
             self._say(f"warning: frame {self.frames}: lost: {result.message}")
-        if last is not None and last.segment != result.segment and not result.warnings:
+        if result.ambiguous_motion and not (last is not None and last.ambiguous_motion):
+            self._say(f"warning: frame {self.frames}: {result.message}")
+        elif last is not None and last.segment != result.segment and not result.warnings:
             self._say(f"warning: frame {self.frames}: {result.message}")
         self.frames += 1
 

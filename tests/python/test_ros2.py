@@ -1,5 +1,6 @@
 """Topics of ROS 2 on the wire, with Cyclone DDS on both sides and with Fast DDS on the other."""
 
+import itertools
 import json
 import os
 import shutil
@@ -19,15 +20,18 @@ pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.ros2 c
 
 import quadedge  # noqa: E402
 from quadedge.bag import write_tum  # noqa: E402
+from quadedge.result_files import rotations  # noqa: E402
 from quadedge.ros2.domain import dds_type_name  # noqa: E402
 from quadedge.ros2.mount import StaticFrames, mount_of  # noqa: E402
 from quadedge.ros2.pairs import LEFT, RIGHT, PairQueue  # noqa: E402
-from quadedge.ros_messages import (BODY_FROM_OPTICAL, UNKNOWN, message_store, of_base, quaternion,  # noqa: E402
-                                   stamp_ns, transforms_message, twist_between)
+from quadedge.estimates import Estimates, of_base, twist_between  # noqa: E402
+from quadedge.ros_messages import (BODY_FROM_OPTICAL, UNKNOWN, message_store, quaternion, stamp_ns,  # noqa: E402
+                                   transforms_message)
 from robot import OUT, Robot, image_message  # noqa: E402
 from ros_definitions import FOLDER, fields, idl, with_parts  # noqa: E402
 
 SECOND = 1_000_000_000
+FULL = "a folder with results"
 KINDS = [*OUT.values(), "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo",
          "std_msgs/msg/Empty"]
 needs_definitions = pytest.mark.skipif(not (FOLDER / "sensor_msgs").is_dir(),
@@ -93,17 +97,15 @@ def test_everything_that_is_published(robot, room, frames, tmp_path):
     robot.play(frames, SECOND)
     robot.until(lambda: len(robot.heard["/quadedge/edges"]) >= 6 and len(robot.heard["/diagnostics"]) > 2, "the rest")
     mount = mount_of("0.1,0,0.2,0,0,0")
-    results = tracked(robot.stated_rig, frames, list(robot.poses()))
-    before = None
+    results, estimates = tracked(robot.stated_rig, frames, list(robot.poses())), Estimates(mount)
     for message, result in zip(robot.poses().values(), results, strict=True):
         pose, covariance = of_base(result.world_from_left, result.covariance, mount)
         assert (message.header.frame_id, message.child_frame_id) == ("odom", "base_link")
         assert pose_of(message) == [*pose[:3, 3], *quaternion(pose[:3, :3])]
         numpy.testing.assert_array_equal(message.pose.covariance.reshape(6, 6), covariance)
-        twist = twist_between(before, result, mount)
+        twist = estimates.add(result).twist
         linear = message.twist.twist.linear
         assert [linear.x, linear.y, linear.z] == (list(twist[0][:3]) if twist else [0, 0, 0])
-        before = result
     assert numpy.array_equal(message.twist.covariance.reshape(6, 6), twist[1])
     transforms = [(one.header.frame_id, one.child_frame_id) for message in robot.heard["/tf"]
                   for one in message.transforms]
@@ -130,12 +132,85 @@ def test_frames_of_tf_static_and_other_names(robot, frames, tmp_path):
     odometry = robot.domain.subscribe("/odom", "nav_msgs/msg/Odometry", reliable=True)
     robot.start(tmp_path, "--remap", "/quadedge/odometry:=/odom", "--no-tf")
     robot.said("left /stereo/left/image_raw")
-    for number, frame in enumerate(frames):
-        robot.send(SECOND * (number + 1), frame.left, frame.right)
+    stamps = itertools.count(SECOND, SECOND)
+
+    def published() -> list:
+        robot.send(next(stamps), frames[0].left, frames[0].right)
         robot.listen(0.5)
+        return odometry.take()
+
+    robot.until(published, "odometry")
     robot.said("the camera's mount is that of /tf_static: optical in base_link")
-    robot.until(odometry.take, "odometry")
     assert not robot.heard["/tf"] and not robot.poses()
+
+
+# Motions that are doubtful.
+
+
+def play_pairs(robot, pairs, first_stamp: int) -> list[int]:
+    """Sends pairs at 20 Hz of their stamps and waits until each is counted. Returns the stamps."""
+    stamps = [first_stamp + number * 50_000_000 for number in range(len(pairs))]
+    for number, (stamp, pair) in enumerate(zip(stamps, pairs)):
+        def is_counted() -> bool:
+            robot.send(stamp, *pair)
+            robot.listen(0.5)
+            values = robot.diagnostics() if robot.heard["/diagnostics"] else {}
+            return int(values.get("pairs tracked", 0)) + int(values.get("pairs lost", 0)) > number
+
+        robot.until(is_counted, f"pair {number}")
+    return stamps
+
+
+@pytest.mark.parametrize("withheld", [False, True])
+def test_pairs_with_an_ambiguous_motion(withheld, boarded, tmp_path):
+    room, pairs = boarded
+    robot = Robot(room.rig)
+    try:
+        robot.start(tmp_path, "--cloud", *["--withhold-ambiguous"] * withheld)
+        robot.said("left /stereo/left/image_raw")
+        stamps = play_pairs(robot, pairs, SECOND)
+        with quadedge.Odometry(robot.stated_rig, preset="fast") as odometry:
+            results = [odometry.track(stamp, *pair) for stamp, pair in zip(stamps, pairs)]
+        flagged = {result.stamp_ns for result in results if result.ambiguous_motion}
+        assert len(flagged) >= 2 and all(result.is_tracked for result in results)
+        messages = robot.poses()
+        assert set(messages) == set(stamps) - (flagged if withheld else set())
+        for stamp, message in messages.items():
+            is_unknown = [numpy.array_equal(part.covariance.reshape(6, 6), UNKNOWN)
+                          for part in (message.pose, message.twist)]
+            assert is_unknown == [True, True] if stamp in flagged else not is_unknown[0]
+        assert [stamp_ns(one) for message in robot.heard["/tf"] for one in message.transforms] == list(messages)
+        said = [message.status[0] for message in robot.heard["/diagnostics"]]
+        warned = [status for status in said if status.message.startswith("ambiguous motion: ")]
+        assert warned and {status.level for status in warned} == {1}
+        assert robot.diagnostics()["pairs tracked, ambiguous"] == str(len(flagged))
+        assert "warning: frame" in robot.words and "ambiguous motion: " in robot.words
+    finally:
+        robot.close()
+
+
+def test_a_camera_that_is_frozen(robot, frames, tmp_path):
+    robot.start(tmp_path)
+    robot.said("left /stereo/left/image_raw")
+    stamps = play_pairs(robot, [(one.left, one.right) for one in (*frames[:2], *[frames[1]] * 4)], SECOND)
+    for part in (robot.poses()[stamps[-1]].pose, robot.poses()[stamps[-1]].twist):
+        assert numpy.array_equal(part.covariance.reshape(6, 6), UNKNOWN)
+    assert not numpy.array_equal(robot.poses()[stamps[1]].pose.covariance.reshape(6, 6), UNKNOWN)
+    robot.said("warning: the image of /stereo/left/image_raw repeats the one before")
+    assert any(message.status[0].level == 1 and "repeats the one before" in message.status[0].message
+               for message in robot.heard["/diagnostics"])
+
+
+def test_pairs_that_are_lost_are_not_counted_as_tracked(robot, frames, tmp_path):
+    robot.start(tmp_path)
+    robot.said("left /stereo/left/image_raw")
+    black = numpy.zeros_like(frames[0].left)
+    play_pairs(robot, [(frames[0].left, frames[0].right), (black, black)], SECOND)
+    robot.until(lambda: robot.diagnostics()["pairs lost"] == "1", "a lost pair")
+    values = robot.diagnostics()
+    assert values["pairs tracked"] == "1" and values["status"].startswith("lost_") and values["level"] == 2
+    robot.play(frames[:2], 2 * SECOND)
+    robot.until(lambda: robot.diagnostics()["level"] == 0, "an end of the warning", 30)  # it does not last to the end
 
 
 # Falling behind, and cameras that change.
@@ -184,6 +259,86 @@ def test_stamps_that_go_back_start_again_where_it_was(robot, frames, tmp_path):
     assert len(read_rows(tmp_path / "out_2" / "frames.csv")) == 1
 
 
+def test_a_restart_is_in_diagnostics_and_moves_no_map(robot, frames, tmp_path):
+    robot.start(tmp_path, "--loops")
+    robot.said("left /stereo/left/image_raw")
+    robot.play(frames, 100 * SECOND)
+    robot.play(frames[5:], SECOND)
+    robot.until(lambda: robot.diagnostics()["restarts"] == "1", "diagnostics")
+    values = robot.diagnostics()
+    assert "went back by 99.250 s" in values["last restart"] and values["level"] == 1
+    assert values["place in odom"].startswith("not measured since 1.000 s: the stamps")
+    poses = {}
+    for message in robot.heard["/tf"]:
+        to_base, to_odom = [pose_of_transform(one) for one in message.transforms]
+        poses[stamp_ns(message.transforms[0])] = to_odom @ to_base
+    assert numpy.linalg.norm(poses[SECOND][:3, 3]) > 0.01
+    numpy.testing.assert_allclose(poses[SECOND], poses[100 * SECOND + 250_000_000], atol=1e-9)
+
+
+def pose_of_transform(message) -> numpy.ndarray:
+    shift, turn = message.transform.translation, message.transform.rotation
+    pose = numpy.eye(4)
+    pose[:3, :3] = rotations(numpy.array([[turn.x, turn.y, turn.z, turn.w]]))[0]
+    pose[:3, 3] = shift.x, shift.y, shift.z
+    return pose
+
+
+def test_stamps_that_go_back_a_little(robot, frames, tmp_path):
+    robot.start(tmp_path)
+    robot.said("left /stereo/left/image_raw")
+    stamp = robot.play(frames, 10 * SECOND)
+    for number in range(6):
+        robot.send(stamp - 300_000_000 + number * 50_000_000, frames[5].left, frames[5].right)
+        robot.listen(0.3)
+    robot.said("the stamps of /stereo/left/image_raw went back by 0.250 s")
+
+
+def test_a_mount_that_comes_late(robot, frames, tmp_path):
+    robot.start(tmp_path)
+    robot.said("left /stereo/left/image_raw")
+    stamp = robot.play(frames[:3], SECOND)
+    robot.said("/tf_static does not connect base_link with the frame 'optical'")
+    static = robot.domain.advertise("/tf_static", "tf2_msgs/msg/TFMessage", latched=True)
+    mount = mount_of("0.13,0,0,0,0,1.5707963267948966")  # it looks to the left
+    static.publish(transforms_message(1, [("base_link", "optical", mount)]))
+    robot.said("/tf_static connects base_link with optical only now")
+    robot.play(frames[3:], stamp)
+    messages = list(robot.poses().values())
+    results = tracked(robot.stated_rig, frames, list(robot.poses()))
+    assert pose_of(messages[2]) == expected_pose(results[2])
+    at = {name: of_base(results[i].world_from_left, None, mount)[0] for i, name in ((2, "then"), (5, "now"))}
+    before, _ = of_base(results[2].world_from_left, None, BODY_FROM_OPTICAL)
+    expected = before @ numpy.linalg.inv(at["then"]) @ at["now"]
+    numpy.testing.assert_allclose(pose_of(messages[5])[:3], expected[:3, 3], atol=1e-9)
+    assert numpy.array_equal(messages[5].pose.covariance.reshape(6, 6), UNKNOWN)
+    del static
+
+
+@pytest.mark.parametrize("apart_ns, words", [(20_000_000, "stamps are 20.000 ms apart, more than the --tolerance of 5 ms"),
+                                             (None, "their stamps are 0")])
+def test_images_that_form_no_pairs(apart_ns, words, robot, frames, tmp_path):
+    robot.start(tmp_path)
+    robot.said("left /stereo/left/image_raw")
+    stamp = robot.play(frames[:2], SECOND)
+
+    def is_said() -> bool:
+        nonlocal stamp
+        stamp += 100_000_000
+        for side in (0, 1):
+            given = 0 if apart_ns is None else stamp + side * apart_ns
+            robot.send(given, frames[0].left, frames[0].right, sides=(side,))
+        robot.listen(0.1)
+        return f"images of /stereo/left/image_raw and /stereo/right/image_raw come, but form no pairs: {words}" \
+            in robot.words.replace("their " + words, words)
+
+    robot.until(is_said, words)
+    robot.until(lambda: "form no pairs" in robot.diagnostics()["message"], "diagnostics")
+    assert robot.diagnostics()["level"] == 2
+    robot.play(frames[:1], stamp + SECOND)
+    robot.said("form pairs\n")
+
+
 def test_camera_info_that_changes_starts_again(robot, frames, tmp_path):
     robot.start(tmp_path)
     robot.said("left /stereo/left/image_raw")
@@ -223,6 +378,14 @@ def test_two_publishers_on_one_topic(robot, frames, tmp_path):
     del second
 
 
+def test_two_programs_that_publish_the_same_odometry(robot, frames, tmp_path):
+    other = robot.domain.advertise("/quadedge/odometry", "nav_msgs/msg/Odometry")
+    robot.start(tmp_path)
+    robot.said("warning: another program publishes /quadedge/odometry, too")
+    robot.until(lambda: robot.heard["/diagnostics"] and "another program" in robot.diagnostics()["message"], "a warning")
+    del other
+
+
 def test_an_empty_domain_and_one_without_cameras(tmp_path):
     robot = Robot(listens=False)
     try:
@@ -243,14 +406,23 @@ def test_an_empty_domain_and_one_without_cameras(tmp_path):
     ([], "6", "domain 6: the network cannot be used; expected an interface that is up"),
     (["--remap", "odom"], "5", "--remap: found 'odom', expected two topics"),
     (["--base-from-camera", "1,2"], "5", "--base-from-camera: found '1,2', expected six numbers"),
+    (["--device", "quantum"], "5", "quantum"),
+    (["--config", "no.toml"], "5", "no.toml"),
+    (["--left", "/a", "--right", "/a"], "5", "found /a twice"),
+    (["--odom-frame", "base_link"], "5", "found base_link, base_link, map, expected three names"),
+    (["--tolerance", "nan"], "5", "found nan, expected a finite number"),
+    (["--output", FULL], "5", "the folder holds results (config.toml)"),
     ([], "five", "ROS_DOMAIN_ID: found 'five', expected a number from 0 to 232"),
     ([], "233", "domain: found 233, expected a number from 0 to 232"),
 ])  # fmt: skip
-def test_wrong_options(options, domain, words):
+def test_wrong_options(options, domain, words, tmp_path):
+    (tmp_path / "config.toml").touch()
+    options = [tmp_path if one == FULL else one for one in options]
     no_network = "<General><Interfaces><NetworkInterface name='none9'/></Interfaces></General>"
     done = subprocess.run([sys.executable, "-m", "quadedge.ros2", *options], capture_output=True, text=True, timeout=60,
                           env={**os.environ, "ROS_DOMAIN_ID": domain, "CYCLONEDDS_URI": no_network})
-    assert done.returncode == 2 and words in done.stderr
+    assert done.returncode == {"quantum": 4}.get(words, 2) and words in done.stderr, done.stderr
+    assert "Traceback" not in done.stderr
 
 
 # The wire.
@@ -305,15 +477,14 @@ def test_with_fast_dds_on_the_other_side(fast_dds, robot, room, frames, tmp_path
     odometry = {int(line[1]): line[2:] for line in lines if line[0] == "odometry"}
     assert len(odometry) >= 10, f"{done.stderr} {alone.words}"
     pairs = [frame for stamp, frame in zip(stamps, played) if stamp in odometry]
-    results, before = tracked(robot.stated_rig, pairs, list(odometry)), None
+    results, estimates = tracked(robot.stated_rig, pairs, list(odometry)), Estimates(BODY_FROM_OPTICAL)
     for words, result in zip(odometry.values(), results, strict=True):
         assert words[:2] == ["odom", "base_link"]
         numbers = [float.fromhex(word) for word in words[2:]]
         _, covariance = of_base(result.world_from_left, result.covariance, BODY_FROM_OPTICAL)
-        twist = twist_between(before, result, BODY_FROM_OPTICAL)
+        twist = estimates.add(result).twist
         assert numbers[:7] == expected_pose(result) and numbers[7:43] == list(covariance.reshape(36))
         assert numbers[43] == (twist[0][0] if twist else 0)
-        before = result
     assert [int(line[1]) for line in lines if line[0] == "tf"] == list(odometry)
     assert all(line[3] == "12" and int(line[4]) == 12 * int(line[2]) and line[5] == "z"
                for line in lines if line[0] == "edges")
@@ -379,8 +550,10 @@ def test_the_base_away_from_the_camera():
 
 
 def result_at(seconds: float, pose: numpy.ndarray, **more):
-    details = SimpleNamespace(covariance_in_reference=numpy.diag([1.0, 1, 1, 2, 2, 2]) * 1e-4)
+    details = SimpleNamespace(covariance_in_reference=numpy.diag([1.0, 1, 1, 2, 2, 2]) * 1e-4,
+                              base_frame=more.pop("base_frame", 0))
     return SimpleNamespace(**{"stamp_ns": round(seconds * 1e9), "is_tracked": True, "segment": 0, "new_key_rig": False,
+                              "ambiguous_motion": False, "covariance": numpy.eye(6) * 1e-4,
                               "reference_frame": 0, "world_from_left": pose, "current_from_reference": numpy.eye(4),
                               "diagnostics": details, **more})
 
@@ -402,6 +575,42 @@ def test_the_twist_is_that_of_a_circle():
     for other in (None, result_at(1.0, at(0.3), segment=1), result_at(1.0, at(0.3), reference_frame=7),
                   result_at(1.0, at(0.3), is_tracked=False)):
         assert twist_between(other, now, BODY_FROM_OPTICAL) is None
+
+
+def test_the_twist_after_a_gap_states_what_an_acceleration_leaves():
+    """Forward with 1 m/s, then braking by 1 m/s^2: the mean of 0.6 s is 0.3 m/s above the velocity at their end."""
+    def at(seconds: float):
+        pose, t = numpy.eye(4), max(seconds - 2, 0)
+        pose[2, 3] = seconds - t**2 / 2
+        return result_at(seconds, pose)
+
+    estimates = Estimates(BODY_FROM_OPTICAL)
+    for number in range(41):
+        twist, covariance = estimates.add(at(number / 20)).twist or (None, None)
+    assert twist[0] == pytest.approx(1) and covariance[0, 0] == pytest.approx(0.08, rel=2e-3)
+    twist, covariance = estimates.add(at(2.6)).twist
+    deviation = numpy.sqrt(covariance[0, 0])
+    assert twist[0] - 0.4 == pytest.approx(0.3) and 0.1 < deviation < 0.6
+
+
+def test_what_is_measured_from_an_ambiguous_frame_is_not_known():
+    def add(**more):
+        seconds = next(times)
+        found = estimates.add(result_at(seconds, numpy.eye(4), **more))
+        return found and (found.covariance is not None, found.twist is not None)
+
+    estimates, times = Estimates(BODY_FROM_OPTICAL), itertools.count(1)
+    assert add(new_key_rig=True) == (True, False)  # frame 0
+    assert add() == (True, True)
+    assert add(ambiguous_motion=True) == (False, False)
+    assert add() == (True, True)  # measured from frame 0
+    assert add(ambiguous_motion=True, new_key_rig=True) == (False, False)  # frame 4
+    assert add(reference_frame=4, base_frame=4) == (False, True)
+    assert add(is_tracked=False) is None
+    assert add(reference_frame=4, base_frame=5, new_key_rig=True) == (False, False)  # frame 7
+    assert add(reference_frame=7, base_frame=7) == (False, True)
+    assert add() == (True, False)  # measured from frame 0 again
+    assert add(segment=1) == (False, False)
 
 
 def test_static_frames_are_followed_through_a_common_one():

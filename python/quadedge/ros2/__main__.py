@@ -4,7 +4,6 @@ import argparse
 import sys
 
 from ..bag.topics import add_topic_options
-from ..errors import UsageError
 from ..session import add_session_options, say_on_stderr, stopped_by_signals
 from ..shell import exit_code
 
@@ -32,6 +31,8 @@ def _parser() -> argparse.ArgumentParser:
     for name, frame in (("base", "base_link"), ("odom", "odom"), ("map", "map")):
         parser.add_argument(f"--{name}-frame", default=frame, metavar="FRAME", help="default: %(default)s")
     parser.add_argument("--no-tf", action="store_true", help="publish no /tf, where a filter does")
+    parser.add_argument("--withhold-ambiguous", action="store_true",
+                        help="publish nothing of pairs with an ambiguous motion; by default with variances of 1e6")
     parser.add_argument("--cloud", action="store_true", help="publish the edges of every tracked pair as points")
     add_session_options(parser)
     return parser
@@ -39,19 +40,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(options: argparse.Namespace) -> None:
     from .domain import Domain
-    from .mount import mount_of
-    from .node import Node, Waiting, given_rig
+    from .node import Node
+    from .options import check_options
+    from .waiting import awaited_topics
 
-    if wrong := [remap for remap in options.remap
-                 if remap.count(":=") != 1 or not all(part.startswith("/") for part in remap.split(":="))]:
-        raise UsageError(f"--remap: found '{wrong[0]}', expected two topics, as /quadedge/odometry:=/odom")
-    if options.calibration:
-        given_rig(options.calibration)
-    if options.base_from_camera:
-        mount_of(options.base_from_camera)
+    check_options(options)
     say, domain = say_on_stderr("quadedge.ros2"), Domain()
     with stopped_by_signals() as stopped:
-        found = Waiting(domain, options, say).topics(stopped)
+        found = awaited_topics(domain, options, say, stopped)
         if found:
             topics, kinds = found
             say(f"left {topics.left}, right {topics.right}")

@@ -24,7 +24,7 @@ try:
 except ImportError as error:
     raise ImportError("quadedge.ros2 needs cyclonedds; `pip install cyclonedds rosbags` installs it") from error
 
-_BASES = {"bool": bool, "byte": idl_types.uint8, "char": idl_types.uint8, "float32": idl_types.float32,
+_BASES = {"bool": bool, "byte": idl_types.byte, "char": idl_types.uint8, "float32": idl_types.float32,
           "float64": idl_types.float64, "string": str,
           **{f"{sign}int{bits}": getattr(idl_types, f"{sign}int{bits}") for sign in ("", "u")
              for bits in (8, 16, 32, 64)}}  # fmt: skip
