@@ -90,27 +90,39 @@ class Estimates:
     def __init__(self, base_from_camera: numpy.ndarray):
         self.base_from_camera = base_from_camera
         self._last, self._twist, self._accelerations = None, None, _ACCELERATION**2
-        self._known: list[bool] = []  # of every frame, whether its pose is
+        self._keys: dict[int, bool] = {}  # by the number of a key rig's frame, whether its pose is known
+        self._new_key: bool | None = None  # the same of the newest one, until a frame names its number
+        self._is_known = True  # the same of the last frame with a pose
 
     def add(self, result, doubt: bool = False) -> Estimate | None:
         """The base in the next frame; None if it is lost. doubt: whether images or stamps make the motion doubtful."""
         last, self._last = self._last, result
-        is_clear = result.is_tracked and not result.ambiguous_motion and not doubt
-        measured_from = {result.reference_frame, result.diagnostics.base_frame} - {-1, len(self._known)}
-        self._known.append(is_clear and result.segment == 0 and all(self._known[frame] for frame in measured_from))
         if not result.is_tracked:
             self._twist = None
             return None
+        is_first = not self._keys  # its own key rig
+        is_clear = not result.ambiguous_motion and not doubt
+        self._is_known = self._is_measured_from_known(result) and is_clear and result.segment == 0
+        if result.new_key_rig and not is_first:
+            self._new_key = self._is_known
         pose, covariance = of_base(result.world_from_left, result.covariance, self.base_from_camera)
         twist = twist_between(last, result, self.base_from_camera) if is_clear else None
         if twist is not None:
             twist = self._at_stamp(*twist, (result.stamp_ns - last.stamp_ns) / 1e9)
         else:
             self._twist = None
-        return Estimate(pose, covariance if self._known[-1] else None, twist)
+        return Estimate(pose, covariance if self._is_known else None, twist)
+
+    def _is_measured_from_known(self, result) -> bool:
+        """Whether the pose of the frame that a pose was measured against is known: the key rig's, or the last one."""
+        key, base = result.reference_frame, result.diagnostics.base_frame
+        if key not in self._keys:  # a key rig that no frame has said to be one was the last frame before a loss
+            self._keys[key] = self._is_known if self._new_key is None else self._new_key
+            self._new_key = None
+        return self._keys[key] and (base in (key, -1) or self._is_known)
 
     def _at_stamp(self, mean: numpy.ndarray, covariance: numpy.ndarray, seconds: float) -> tuple:
-        """A mean twist as that at the end of its interval: with what an acceleration may have changed since its middle."""
+        """A mean twist as that at the end of its interval: with what accelerations may have changed since the middle."""
         if self._twist is not None:
             before, seconds_before = self._twist
             seen = (2 * (mean - before) / (seconds + seconds_before)) ** 2

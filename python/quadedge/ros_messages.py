@@ -58,14 +58,25 @@ def odometry_message(stamp: int, frame: str, child_frame: str, pose: numpy.ndarr
     vector, (velocity, velocity_covariance) = types["geometry_msgs/msg/Vector3"], twist or (numpy.zeros(6), UNKNOWN)
     return types["nav_msgs/msg/Odometry"](
         header(stamp, frame), child_frame,
-        types["geometry_msgs/msg/PoseWithCovariance"](
-            types["geometry_msgs/msg/Pose"](
-                types["geometry_msgs/msg/Point"](*map(float, pose[:3, 3])),
-                types["geometry_msgs/msg/Quaternion"](*map(float, quaternion(pose[:3, :3])))),
-            numpy.ascontiguousarray(UNKNOWN if covariance is None else covariance, float).reshape(36)),
+        _pose(pose, UNKNOWN if covariance is None else covariance),
         types["geometry_msgs/msg/TwistWithCovariance"](
             types["geometry_msgs/msg/Twist"](vector(*map(float, velocity[:3])), vector(*map(float, velocity[3:]))),
             numpy.ascontiguousarray(velocity_covariance, float).reshape(36)))
+
+
+def pose_message(stamp: int, frame: str, pose: numpy.ndarray, covariance: numpy.ndarray):
+    """A geometry_msgs/PoseWithCovarianceStamped of a pose (4, 4) and its covariance (6, 6)."""
+    types = message_store().types
+    return types["geometry_msgs/msg/PoseWithCovarianceStamped"](header(stamp, frame), _pose(pose, covariance))
+
+
+def _pose(pose: numpy.ndarray, covariance: numpy.ndarray):
+    types = message_store().types
+    return types["geometry_msgs/msg/PoseWithCovariance"](
+        types["geometry_msgs/msg/Pose"](
+            types["geometry_msgs/msg/Point"](*map(float, pose[:3, 3])),
+            types["geometry_msgs/msg/Quaternion"](*map(float, quaternion(pose[:3, :3])))),
+        numpy.ascontiguousarray(covariance, float).reshape(36))
 
 
 def transforms_message(stamp: int, transforms: list[tuple[str, str, numpy.ndarray]]):

@@ -62,6 +62,7 @@ class Session:
     def __init__(self, rig, name: str, options: argparse.Namespace, say, output: str | None = None):
         from . import Odometry
 
+        self.rig = rig
         self.odometry = Odometry(rig, options.device, options.preset, options.config, loops=options.loops)
         output, self._files = output or options.output, None
         if output:

@@ -21,18 +21,25 @@ pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.ros2 c
 import quadedge  # noqa: E402
 from quadedge.bag import write_tum  # noqa: E402
 from quadedge.result_files import rotations  # noqa: E402
-from quadedge.ros2.domain import dds_type_name  # noqa: E402
-from quadedge.ros2.mount import StaticFrames, mount_of  # noqa: E402
+from cyclonedds.core import Policy, Qos  # noqa: E402
+from cyclonedds.idl import types as idl_types  # noqa: E402
+from cyclonedds.pub import DataWriter  # noqa: E402
+from cyclonedds.sub import DataReader  # noqa: E402
+from cyclonedds.topic import Topic  # noqa: E402
+from quadedge.ros2.domain import BASES, dds_type_name, taken  # noqa: E402
+from quadedge.ros2.mount import StaticFrames, levelled, mount_of  # noqa: E402
 from quadedge.ros2.pairs import LEFT, RIGHT, PairQueue  # noqa: E402
+from quadedge.ros2.place import Place  # noqa: E402
+from quadedge.ros2.service import trigger_type  # noqa: E402
 from quadedge.estimates import Estimates, of_base, twist_between  # noqa: E402
-from quadedge.ros_messages import (BODY_FROM_OPTICAL, UNKNOWN, message_store, quaternion, stamp_ns,  # noqa: E402
-                                   transforms_message)
+from quadedge.ros_messages import (BODY_FROM_OPTICAL, UNKNOWN, diagnostics_message, message_store,  # noqa: E402
+                                   quaternion, stamp_ns, transforms_message)
 from robot import OUT, Robot, image_message  # noqa: E402
 from ros_definitions import FOLDER, fields, idl, with_parts  # noqa: E402
 
 SECOND = 1_000_000_000
 FULL = "a folder with results"
-KINDS = [*OUT.values(), "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo",
+KINDS = [*OUT.values(), "geometry_msgs/msg/PoseWithCovarianceStamped", "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo",
          "std_msgs/msg/Empty"]
 needs_definitions = pytest.mark.skipif(not (FOLDER / "sensor_msgs").is_dir(),
                                        reason="ros-sensor-msgs and others are not installed: no published definitions")
@@ -51,6 +58,7 @@ def tracked(rig, frames, stamps, **options):
 
 
 def pose_of(message):
+    """Of an Odometry or a PoseWithCovarianceStamped."""
     position, turn = message.pose.pose.position, message.pose.pose.orientation
     return [position.x, position.y, position.z, turn.x, turn.y, turn.z, turn.w]
 
@@ -213,6 +221,97 @@ def test_pairs_that_are_lost_are_not_counted_as_tracked(robot, frames, tmp_path)
     robot.until(lambda: robot.diagnostics()["level"] == 0, "an end of the warning", 30)  # it does not last to the end
 
 
+# Maps, services and other clocks.
+
+
+class Client:
+    """Calls a service of std_srvs/srv/Trigger as rmw_cyclonedds_cpp does: a header says whose request it is."""
+
+    def __init__(self, robot, name: str):
+        participant, self._robot, self._number = robot.domain.participant, robot, 0
+        qualities = Qos(Policy.Reliability.Reliable(max_blocking_time=0), Policy.History.KeepLast(10),
+                        Policy.DataRepresentation(use_cdrv0_representation=True))
+        self._requests = DataWriter(participant, Topic(participant, f"rq{name}Request", trigger_type("Request")),
+                                    qualities)
+        self._replies = DataReader(participant, Topic(participant, f"rr{name}Reply", trigger_type("Response")),
+                                   qualities)
+
+    def call(self) -> tuple[bool, str]:
+        self._number += 1
+        asked = struct.pack("<Qq", 0x0123456789ABCDEF, self._number)
+        self._robot.until(lambda: self._requests.get_matched_subscriptions() and
+                          self._replies.get_matched_publications(), "the service")
+        self._requests.write(trigger_type("Request")(b"\0\1\0\0" + asked + b"\0"))
+        replies: list = []
+        self._robot.until(lambda: replies.extend(taken(self._replies)) or replies, "a reply")
+        data = replies[0].data[4:]
+        success, length = struct.unpack_from("<?xxxI", data, 16)
+        assert data[:16] == asked and len(data) == 24 + length
+        return success, data[24:].rstrip(b"\0").decode()
+
+
+def test_services_save_a_map_and_another_run_finds_its_place_in_it(room, frames, tmp_path):
+    map_file, robot = tmp_path / "places.map", Robot(room.rig)
+    try:
+        robot.start(tmp_path, "--loops", "--save-map", map_file)
+        robot.said("left /stereo/left/image_raw")
+        save = Client(robot, "/quadedge/save_map")
+        assert save.call() == (False, "found no tracked pair, expected images first")
+        robot.play(frames, SECOND)
+        assert save.call() == (True, f"the map is in {map_file}") and map_file.is_file()
+        assert Client(robot, "/quadedge/load_map").call()[0] is False
+        assert Client(robot, "/quadedge/reset").call() == (True, "the odometry starts again at the origin")
+        stamp = robot.play(frames[2:3], 10 * SECOND) - 50_000_000
+        assert pose_of(robot.poses()[stamp])[:3] == [0, 0, 0]
+    finally:
+        robot.close()
+    expected = tracked(room.rig, frames, range(1, 7))
+    robot = Robot(room.rig)
+    try:
+        robot.start(tmp_path, "--map", map_file)
+        robot.said("left /stereo/left/image_raw")
+        located = robot.domain.subscribe("/quadedge/map_pose", "geometry_msgs/msg/PoseWithCovarianceStamped",
+                                         reliable=True, depth=100)
+        stamps, found, sent = itertools.count(SECOND, 50_000_000), [], {}
+
+        def is_located() -> bool:  # forward and back, from the fourth frame on
+            stamp = next(stamps)
+            sent[stamp] = (3, 4, 5, 4)[len(sent) % 4]
+            robot.send(stamp, frames[sent[stamp]].left, frames[sent[stamp]].right)
+            robot.listen(0.2)
+            found.extend(located.take())
+            return len(found) >= 2 and any(len(message.transforms) == 2 for message in robot.heard["/tf"])
+
+        robot.until(is_located, "a place in the map", 120)
+        for message in found:
+            assert message.header.frame_id == "map" and message.pose.covariance[0] < 1e-2
+            pose, _ = of_base(expected[sent[stamp_ns(message)]].world_from_left, None, BODY_FROM_OPTICAL)
+            numpy.testing.assert_allclose(pose_of(message)[:3], pose[:3, 3], atol=0.01)
+        both = next(message.transforms for message in robot.heard["/tf"] if len(message.transforms) == 2)
+        assert [(one.header.frame_id, one.child_frame_id) for one in both] == [("odom", "base_link"), ("map", "odom")]
+        to_base, to_odom = map(pose_of_transform, both)
+        pose, _ = of_base(expected[sent[stamp_ns(both[0])]].world_from_left, None, BODY_FROM_OPTICAL)
+        numpy.testing.assert_allclose((to_odom @ to_base)[:3, 3], pose[:3, 3], atol=0.02)
+        assert Client(robot, "/quadedge/load_map").call()[0] is True
+        robot.until(lambda: int(robot.diagnostics()["pairs located"]) >= 2, "diagnostics")
+    finally:
+        robot.close()
+
+
+def test_the_time_of_a_simulation(robot, frames, tmp_path):
+    clock = robot.domain.advertise("/clock", "rosgraph_msgs/msg/Clock")
+    robot.start(tmp_path, "--use-sim-time")
+    robot.said("left /stereo/left/image_raw")
+    types = message_store().types
+
+    def is_stamped() -> bool:
+        clock.publish(types["rosgraph_msgs/msg/Clock"](types["builtin_interfaces/msg/Time"](77, 5)))
+        robot.listen(0.2)
+        return any(stamp_ns(message) == 77 * SECOND + 5 for message in robot.heard["/diagnostics"])
+
+    robot.until(is_stamped, "the time of the simulation")
+
+
 # Falling behind, and cameras that change.
 
 
@@ -315,8 +414,8 @@ def test_a_mount_that_comes_late(robot, frames, tmp_path):
     del static
 
 
-@pytest.mark.parametrize("apart_ns, words", [(20_000_000, "stamps are 20.000 ms apart, more than the --tolerance of 5 ms"),
-                                             (None, "their stamps are 0")])
+@pytest.mark.parametrize("apart_ns, words", [(20_000_000, "20.000 ms apart, more than the --tolerance of 5 ms"),
+                                             (None, "0")])
 def test_images_that_form_no_pairs(apart_ns, words, robot, frames, tmp_path):
     robot.start(tmp_path)
     robot.said("left /stereo/left/image_raw")
@@ -329,8 +428,8 @@ def test_images_that_form_no_pairs(apart_ns, words, robot, frames, tmp_path):
             given = 0 if apart_ns is None else stamp + side * apart_ns
             robot.send(given, frames[0].left, frames[0].right, sides=(side,))
         robot.listen(0.1)
-        return f"images of /stereo/left/image_raw and /stereo/right/image_raw come, but form no pairs: {words}" \
-            in robot.words.replace("their " + words, words)
+        both = "images of /stereo/left/image_raw and /stereo/right/image_raw come"
+        return f"{both}, but form no pairs: their stamps are {words}" in robot.words
 
     robot.until(is_said, words)
     robot.until(lambda: "form no pairs" in robot.diagnostics()["message"], "diagnostics")
@@ -382,7 +481,8 @@ def test_two_programs_that_publish_the_same_odometry(robot, frames, tmp_path):
     other = robot.domain.advertise("/quadedge/odometry", "nav_msgs/msg/Odometry")
     robot.start(tmp_path)
     robot.said("warning: another program publishes /quadedge/odometry, too")
-    robot.until(lambda: robot.heard["/diagnostics"] and "another program" in robot.diagnostics()["message"], "a warning")
+    robot.until(lambda: any("another program" in message.status[0].message for message in robot.heard["/diagnostics"]),
+                "a warning")
     del other
 
 
@@ -411,6 +511,9 @@ def test_an_empty_domain_and_one_without_cameras(tmp_path):
     (["--left", "/a", "--right", "/a"], "5", "found /a twice"),
     (["--odom-frame", "base_link"], "5", "found base_link, base_link, map, expected three names"),
     (["--tolerance", "nan"], "5", "found nan, expected a finite number"),
+    (["--gravity", "0,0,0"], "5", "--gravity: found '0,0,0', expected three numbers"),
+    (["--map", "no.map"], "5", "no.map: found no such file"),
+    (["--save-map", "a.map"], "5", "--save-map: found no --loops"),
     (["--output", FULL], "5", "the folder holds results (config.toml)"),
     ([], "five", "ROS_DOMAIN_ID: found 'five', expected a number from 0 to 232"),
     ([], "233", "domain: found 233, expected a number from 0 to 232"),
@@ -421,7 +524,8 @@ def test_wrong_options(options, domain, words, tmp_path):
     no_network = "<General><Interfaces><NetworkInterface name='none9'/></Interfaces></General>"
     done = subprocess.run([sys.executable, "-m", "quadedge.ros2", *options], capture_output=True, text=True, timeout=60,
                           env={**os.environ, "ROS_DOMAIN_ID": domain, "CYCLONEDDS_URI": no_network})
-    assert done.returncode == {"quantum": 4}.get(words, 2) and words in done.stderr, done.stderr
+    expected = {"quantum": 4, "no.map: found no such file": 3}.get(words, 2)
+    assert done.returncode == expected and words in done.stderr, done.stderr
     assert "Traceback" not in done.stderr
 
 
@@ -441,6 +545,64 @@ def test_messages_are_those_that_are_published():
             assert nodes.get(array, "ARRAY") == node.name or (array == "" and node.name == "NAME")
         assert read == fields(kind), kind
     assert dds_type_name("sensor_msgs/msg/Image") == "sensor_msgs::msg::dds_::Image_"
+
+
+def test_diagnostics_match_a_reader_that_declares_the_types_of_rosidl():
+    """In IDL a byte of ROS is an octet and a char is a uint8; Cyclone DDS compares the types of both ends."""
+    from dataclasses import dataclass
+
+    from cyclonedds.domain import DomainParticipant
+    from cyclonedds.idl import IdlStruct, types
+
+    @dataclass
+    class Time(IdlStruct, typename="builtin_interfaces.msg.dds_.Time_"):
+        sec: types.int32
+        nanosec: types.uint32
+
+    @dataclass
+    class Header(IdlStruct, typename="std_msgs.msg.dds_.Header_"):
+        stamp: Time
+        frame_id: str
+
+    @dataclass
+    class KeyValue(IdlStruct, typename="diagnostic_msgs.msg.dds_.KeyValue_"):
+        key: str
+        value: str
+
+    @dataclass
+    class Status(IdlStruct, typename="diagnostic_msgs.msg.dds_.DiagnosticStatus_"):
+        level: types.byte
+        name: str
+        message: str
+        hardware_id: str
+        values: types.sequence[KeyValue]
+
+    @dataclass
+    class Diagnostics(IdlStruct, typename="diagnostic_msgs.msg.dds_.DiagnosticArray_"):
+        header: Header
+        status: types.sequence[Status]
+
+    robot = Robot(listens=False)
+    publisher = robot.domain.advertise("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+    other = DomainParticipant(robot.number)
+    reader = DataReader(other, Topic(other, "rt/diagnostics", Diagnostics))
+    end = time.monotonic() + 30
+    while not reader.get_matched_publications():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    publisher.publish(diagnostics_message(SECOND, "name", 2, "text", {"key": 1}))
+    while not (messages := taken(reader)):
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    status = messages[0].status[0]
+    assert (status.level, status.message, status.values[0].value) == (2, "text", "1")
+
+
+def test_bases_are_those_of_rosidl():
+    names = {"bool": bool, "byte": "byte", "char": "uint8", "string": str,
+             **{name: name for name in ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64",
+                                        "float32", "float64")}}  # fmt: skip
+    assert BASES == {name: getattr(idl_types, kind) if isinstance(kind, str) else kind for name, kind in names.items()}
 
 
 @pytest.fixture(scope="session")
@@ -549,11 +711,25 @@ def test_the_base_away_from_the_camera():
     numpy.testing.assert_allclose(mount_of("0,0,0,0,0,1.5707963267948966")[:3, :3] @ [0, 0, 1], [0, 1, 0], atol=1e-12)
 
 
+def test_gravity_levels_odom():
+    for gravity in ("0,0,-9.8", "3,-2,-9", "9.8,0,0", "0,0,1"):
+        pose, fall = levelled(gravity), numpy.array([float(part) for part in gravity.split(",")])
+        numpy.testing.assert_allclose(pose[:3, :3] @ pose[:3, :3].T, numpy.eye(3), atol=1e-12)
+        numpy.testing.assert_allclose(pose[:3, :3] @ fall / numpy.linalg.norm(fall), [0, 0, -1], atol=1e-12)
+    place = Place(levelled("9.8,0,-9.8"))  # the base looks down by 45 degrees
+    pose, half = numpy.eye(4), numpy.sqrt(0.5)
+    place.add(result_at(1.0, pose), False)
+    pose[2, 3] = 1  # a metre along the view
+    placed = place.add(result_at(1.1, pose), False)
+    numpy.testing.assert_allclose(placed.pose[:3, 3], [half, 0, -half], atol=1e-12)
+    numpy.testing.assert_allclose(placed.covariance, numpy.eye(6) * 1e-4, atol=1e-12)
+
+
 def result_at(seconds: float, pose: numpy.ndarray, **more):
     details = SimpleNamespace(covariance_in_reference=numpy.diag([1.0, 1, 1, 2, 2, 2]) * 1e-4,
                               base_frame=more.pop("base_frame", 0))
     return SimpleNamespace(**{"stamp_ns": round(seconds * 1e9), "is_tracked": True, "segment": 0, "new_key_rig": False,
-                              "ambiguous_motion": False, "covariance": numpy.eye(6) * 1e-4,
+                              "map_from_odometry": None, "ambiguous_motion": False, "covariance": numpy.eye(6) * 1e-4,
                               "reference_frame": 0, "world_from_left": pose, "current_from_reference": numpy.eye(4),
                               "diagnostics": details, **more})
 

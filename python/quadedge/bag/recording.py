@@ -180,8 +180,8 @@ class Recording:
         for topic, one, other in zip((self.topics.left, self.topics.right), found, expected or found):
             if one != other:
                 words = [f"{width} x {height} pixels of {kind}" for (height, width), kind in (one, other)]
-                raise DataError(f"{self.name}: {topic} at {frame.stamp_ns} ns: found {words[0]}, expected {words[1]} as "
-                                "in the first image")
+                raise DataError(f"{self.name}: {topic} at {frame.stamp_ns} ns: found {words[0]}, expected "
+                                f"{words[1]}, as in the first frame")
         return found
 
     def _frame(self, left, right, stamp_ns: int, starts_segment: bool) -> BagFrame:

@@ -6,21 +6,24 @@ from collections.abc import Callable
 
 import numpy
 
-from .. import DataError
+from .. import DataError, Error
 from ..bag.calibration import given_rig, rig_of
 from ..bag.images import grey_image
 from ..bag.topics import CAMERA_INFO, StereoTopics
-from ..ros_messages import BODY_FROM_OPTICAL, cloud_message, odometry_message, stamp_ns, transforms_message
+from ..ros_messages import cloud_message, odometry_message, pose_message, stamp_ns, transforms_message
 from ..session import Session
 from .domain import Domain
-from .mount import StaticFrames, mount_of
+from .localisation import Localisation
+from .mount import StaticFrames, levelled, mount_of
 from .pairs import LEFT, RIGHT, PairQueue
 from .place import Place, Placed
+from .service import Trigger
 from .state import State
 from .watch import SILENCE_S, Watch
 
 SIDES = ("left", "right")
 _ODOMETRY, _EDGES, _RESET = "/quadedge/odometry", "/quadedge/edges", "/quadedge/reset"
+_SAVE_MAP, _LOAD_MAP, _MAP_POSE = "/quadedge/save_map", "/quadedge/load_map", "/quadedge/map_pose"
 
 
 class Node:
@@ -45,7 +48,14 @@ class Node:
         self._diagnostics = domain.advertise(self._name("/diagnostics"), "diagnostic_msgs/msg/DiagnosticArray")
         self._edges = (domain.advertise(self._name(_EDGES), "sensor_msgs/msg/PointCloud2", depth=1)
                        if options.cloud else None)
-        self._place, self._camera_frame = Place(), ""
+        self._localisation, self._map_from_odom = Localisation(options, say) if options.map else None, None
+        self._map_pose = (domain.advertise(self._name(_MAP_POSE), "geometry_msgs/msg/PoseWithCovarianceStamped")
+                          if options.map else None)
+        self._services = [Trigger(domain, self._name(name), answer) for name, answer in (
+            (_RESET, self._answer_reset), (_SAVE_MAP, self._answer_save), (_LOAD_MAP, self._answer_load))]
+        self._place, self._camera_frame = Place(levelled(options.gravity) if options.gravity else numpy.eye(4)), ""
+        self._clock = domain.subscribe("/clock", "rosgraph_msgs/msg/Clock") if options.use_sim_time else None
+        self._clock_ns = 0
         self._session: Session | None = None
         self._sessions = 0
         self._before = [None, None]  # images of the pair before
@@ -72,10 +82,14 @@ class Node:
                     self._publish_state()
         finally:
             self._end_session()
+            if self._localisation:
+                self._localisation.close()
 
     # What comes in.
 
     def _receive(self) -> None:
+        for message in self._clock.take() if self._clock else ():
+            self._clock_ns = message.clock.sec * 1_000_000_000 + message.clock.nanosec
         for message in self._static.take():
             self._frames.add(message)
             self._find_mount()
@@ -90,6 +104,29 @@ class Node:
                                       "clock that was set, or a recording that starts again)")
         if self._reset.take():
             self._start_again("reset", keep_pose=False)
+        for service in self._services:
+            service.work()
+
+    def _answer_reset(self) -> tuple[bool, str]:
+        self._start_again("reset", keep_pose=False)
+        return True, "the odometry starts again at the origin"
+
+    def _answer_save(self) -> tuple[bool, str]:
+        file = self._options.save_map
+        if not file:
+            return False, "found no --save-map FILE, expected it with --loops when the program starts"
+        if self._session is None:
+            return False, "found no tracked pair, expected images first"
+        try:
+            self._session.odometry.save_map(file)
+        except Error as error:
+            return False, str(error)
+        return True, f"the map is in {file}"
+
+    def _answer_load(self) -> tuple[bool, str]:
+        if not self._localisation:
+            return False, "found no --map FILE, expected it when the program starts"
+        return self._localisation.load()
 
     def _image_topic(self, side: int) -> str:
         return self._topics.right if side == RIGHT else self._topics.left
@@ -117,7 +154,7 @@ class Node:
         found = self._frames.pose(options.base_frame, frame)
         if found is None:
             return
-        if self._place.mount(found):
+        if self._place.set_mount(found):
             self._say(f"/tf_static connects {options.base_frame} with {frame} only now: the base goes on from where it "
                       "is, with an unknown covariance")
         self._say_once(f"the camera's mount is that of /tf_static: {frame} in {options.base_frame}")
@@ -131,6 +168,10 @@ class Node:
         self._end_session()
         if keep_pose:
             self._place.restart(why)
+        else:
+            self._map_from_odom = None
+            if self._localisation:
+                self._localisation.forget()
         self._state.restart(why)
         self._say(f"{why}: the odometry starts again, " + ("at the last pose, with an unknown covariance" if keep_pose
                                                            else "at the origin"))
@@ -153,10 +194,10 @@ class Node:
         if not self._camera_frame:
             self._camera_frame = frame
             if options.base_from_camera:
-                self._place.mount(mount_of(options.base_from_camera))
+                self._place.set_mount(mount_of(options.base_from_camera))
             elif self._frames.pose(options.base_frame, frame) is None:
-                self._say(f"/tf_static does not connect {options.base_frame} with the frame '{frame}' of the images: the "
-                          "camera counts as the base, looking forward (--base-from-camera states another mount)")
+                self._say(f"/tf_static does not connect {options.base_frame} with the frame '{frame}' of the images: "
+                          "the camera counts as the base, looking forward (--base-from-camera states another mount)")
             self._find_mount()
         self._sessions += 1
         output = f"{options.output}_{self._sessions}" if options.output and self._sessions > 1 else None
@@ -186,11 +227,23 @@ class Node:
             return self._refuse(error)
         doubt = self._doubt(result, images)
         placed = self._place.add(result, bool(doubt))
+        if self._localisation:
+            self._localise(result, images, placed)
         if placed and not (result.ambiguous_motion and self._options.withhold_ambiguous):
             self._publish(result, placed, left.header.frame_id)
         self._count(result, placed, doubt)
         self._state.take(result, doubt, (time.monotonic() - arrived) * 1e3)
         self._session.keep(result)
+
+    def _localise(self, result, images: list, placed: Placed | None) -> None:
+        """Publishes what was found in the map, and gives this pair for a search."""
+        for found in self._localisation.take():
+            self._map_from_odom = found.map_from_odom
+            self._map_pose.publish(pose_message(found.stamp_ns, self._options.map_frame, found.map_from_base,
+                                                found.covariance))
+        if placed:
+            placed.map_from_odom = self._map_from_odom
+            self._localisation.offer(self._session.rig, result, images, placed.pose, self._place.mount)
 
     def _doubt(self, result, images: list) -> str:
         """Why the motion of a pair is doubtful, although it is tracked; mostly empty."""
@@ -229,5 +282,7 @@ class Node:
     def _publish_state(self) -> None:
         """Looks for what is silent or doubled, and publishes the state of the last second."""
         problems, faults = self._watch.problems(), self._watch.faults(self._name(_ODOMETRY))
-        self._diagnostics.publish(self._state.message(problems, faults, self._queue.counts.by_name()))
+        values = self._queue.counts.by_name() | (self._localisation.values() if self._localisation else {})
+        now_ns = self._clock_ns if self._clock else time.time_ns()
+        self._diagnostics.publish(self._state.message(now_ns, problems, faults, values))
         self._second = time.monotonic()

@@ -1,11 +1,12 @@
 """The options of ``python -m quadedge.ros2``, judged before cameras come."""
 
 import argparse
+from pathlib import Path
 
 from ..bag.calibration import given_rig
-from ..errors import UsageError
+from ..errors import DataError, UsageError
 from ..session import check_session_options
-from .mount import mount_of
+from .mount import levelled, mount_of
 
 
 def _remaps(remaps: list[str]) -> dict[str, str]:
@@ -26,6 +27,14 @@ def check_options(options: argparse.Namespace) -> None:
         raise UsageError(f"--base-frame, --odom-frame, --map-frame: found {', '.join(frames)}, expected three names")
     if options.base_from_camera:
         mount_of(options.base_from_camera)
+    if options.gravity:
+        levelled(options.gravity)
     if options.calibration:
         given_rig(options.calibration)
+    if options.map and options.loops:
+        raise UsageError("--map, --loops: found both, expected one: either says where odom is in the map")
+    if options.save_map and not options.loops:
+        raise UsageError("--save-map: found no --loops, expected it: maps are kept with it")
+    if options.map and not Path(options.map).is_file():
+        raise DataError(f"{options.map}: found no such file, expected one of --save-map or `quadedge run --save-map`")
     check_session_options(options)

@@ -21,9 +21,9 @@ class Placed:
 class Place:
     """The base in odom. start: the pose (4, 4) of the base in odom in the first pair and after a reset."""
 
-    def __init__(self, start: numpy.ndarray | None = None):
-        self._start = numpy.eye(4) if start is None else start
-        self._mount = BODY_FROM_OPTICAL
+    def __init__(self, start: numpy.ndarray):
+        self._start = start
+        self.mount = BODY_FROM_OPTICAL  #: pose (4, 4) of the camera's optical frame in the base's
         self.reset()
 
     def reset(self) -> None:
@@ -38,16 +38,16 @@ class Place:
     def _begin(self, origin: numpy.ndarray, unknown: str) -> None:
         self._origin, self._pose, self.unknown = origin, origin, unknown
         self._map_before = self._map_from_odom
-        self._estimates, self._last = Estimates(self._mount), None
+        self._estimates, self._last = Estimates(self.mount), None
 
-    def mount(self, base_from_camera: numpy.ndarray) -> bool:
-        """Takes the pose (4, 4) of the camera in the base's frame. True if the base goes on with another than before."""
-        if numpy.array_equal(base_from_camera, self._mount):
+    def set_mount(self, base_from_camera: numpy.ndarray) -> bool:
+        """Takes the pose (4, 4) of the camera in the base's frame. True if the base goes on with another one."""
+        if numpy.array_equal(base_from_camera, self.mount):
             return False
-        self._mount = self._estimates.base_from_camera = base_from_camera
+        self.mount = self._estimates.base_from_camera = base_from_camera
         if self._last is None:
             return False
-        moved, _ = of_base(self._last, None, self._mount)
+        moved, _ = of_base(self._last, None, self.mount)
         self._origin = self._pose @ numpy.linalg.inv(moved)
         self.unknown = "the camera's mount came late"
         return True
@@ -62,7 +62,7 @@ class Place:
                                                                                       self._origin[:3, :3])
         moved = None
         if result.map_from_odometry is not None:
-            in_base_axes, _ = of_base(result.map_from_odometry, None, self._mount)
+            in_base_axes, _ = of_base(result.map_from_odometry, None, self.mount)
             moved = self._map_before @ self._origin @ in_base_axes @ numpy.linalg.inv(self._origin)
             self._map_from_odom = moved
         return Placed(self._pose, covariance, estimate.twist, moved)

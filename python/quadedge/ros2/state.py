@@ -54,8 +54,8 @@ class State:
         elif self._unknown_since is None:
             self._unknown_since = stamp_ns, unknown
 
-    def message(self, silent: list[str], faults: list[str], values: dict[str, object]):
-        """The message of the last second. silent: cameras that deliver nothing; faults: other faults that last."""
+    def message(self, stamp_ns: int, silent: list[str], faults: list[str], values: dict[str, object]):
+        """The message of the last second. silent: why no pairs come; faults: other faults that last."""
         now, times, self._latencies_ms = time.monotonic(), self._latencies_ms, []
         self._recent = {text: since for text, since in self._recent.items() if now - since < _KEPT_S}
         errors = silent or [text for text in (self._refused, self._reason if self._is_lost else "") if text]
@@ -70,5 +70,5 @@ class State:
                 "latency of the pair [ms]": f"{numpy.median(times):.1f}" if times else "",
                 "largest latency [ms]": f"{max(times):.1f}" if times else "", **values}
         self._refused = self._ambiguous = ""
-        return diagnostics_message(time.time_ns(), "quadedge: stereo odometry", level,
+        return diagnostics_message(stamp_ns, "quadedge: stereo odometry", level,
                                    "; ".join(errors or warnings) or status, rows)
