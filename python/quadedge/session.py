@@ -19,6 +19,8 @@ def add_session_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="OUT", help="results folder, with the files of `quadedge run`")
     parser.add_argument("--force", action="store_true", help="replace results in OUT")
     parser.add_argument("--device", default="auto", help="auto, cpu, gpu, reference, an index, or a part of a name")
+    parser.add_argument("--threads", type=int, metavar="N",
+                        help="threads to compute with at most, here and in OpenCL on CPUs; default: all")
     parser.add_argument("--preset", default="default", help="fast, default or dense")
     parser.add_argument("--config", metavar="FILE", help="a configuration file (TOML)")
     parser.add_argument("--loops", action="store_true", help="recognise places and close loops")
@@ -38,9 +40,11 @@ def stopped_by_signals() -> Iterator[list[int]]:
 
 
 def check_session_options(options: argparse.Namespace) -> None:
-    """Raises UsageError, DataError or DeviceError for options that a Session would refuse."""
-    from . import Device, configuration
+    """Limits the threads. Raises UsageError, DataError or DeviceError for options that a Session would refuse."""
+    from . import Device, configuration, limit_threads
 
+    if options.threads is not None:
+        limit_threads(options.threads)
     configuration(options.preset, options.config)
     Device(options.device)
     if not options.output:
