@@ -694,6 +694,21 @@ def test_a_clock_that_goes_back_is_noticed_once():
     assert [stamp_ns(message) for message in queue.newest()] == [SECOND, SECOND]
 
 
+def test_a_clock_that_goes_back_a_little_is_noticed_by_three_late_images():
+    queue, times = PairQueue(5_000_000), [1000 + 50 * i for i in range(6)]
+    given(queue, *[(side, ms) for ms in times for side in (LEFT, RIGHT)])
+    back = [queue.add(side, message_at(ms * 1_000_000)) for ms in (950, 1000, 1050) for side in (LEFT, RIGHT)]
+    assert back == [0, 0, 0, 0, 300_000_000, 0]
+    assert given(queue, (RIGHT, 1100), (LEFT, 1100)) == [(1050, 1050), (1100, 1100)]
+
+
+def test_one_late_image_makes_the_next_motion_doubtful():
+    queue = PairQueue(5_000_000)
+    assert given(queue, (LEFT, 1000), (RIGHT, 1000)) and not queue.clock_is_doubtful
+    assert given(queue, (LEFT, 980), (LEFT, 1030), (RIGHT, 1030)) == [(1030, 1030)] and queue.clock_is_doubtful
+    assert given(queue, (LEFT, 1030), (LEFT, 1080), (RIGHT, 1080)) and not queue.clock_is_doubtful  # repeated, not late
+
+
 def test_the_base_away_from_the_camera():
     """The camera is 2 m ahead of the base; it turns left by 90 degrees about the base."""
     mount = mount_of("2,0,0,0,0,0")
