@@ -278,7 +278,7 @@ def test_results_and_rigs_can_be_pickled(room, frames, odometry, tmp_path):
     with quadedge.Odometry(rig) as odometry:
         too_bright = deep[0][1].copy()
         too_bright[199, 319] = 4096
-        with pytest.raises(quadedge.DataError, match="right image has a pixel of 4096, the rig expects values up to 4095"):
+        with pytest.raises(quadedge.DataError, match="right image has a pixel of 4096, the rig expects .* up to 4095"):
             odometry.track(0, deep[0][0], too_bright)
     poses = []
     for one in (rig, again):  # the undistortion tables belong to a rig, too

@@ -75,7 +75,8 @@ def test_a_decimal_comma_changes_no_file(german, tmp_path):
         assert (tmp_path / "german" / name).read_bytes() == (tmp_path / "usual" / name).read_bytes(), name
     assert "1000.5" in (tmp_path / "german" / "error.txt").read_text()
     assert columns(tmp_path / "german" / "frames.csv") == columns(tmp_path / "usual" / "frames.csv")
-    done = run("from quadedge.report.__main__ import main; import sys; sys.exit(main(sys.argv[1:]))", tmp_path / "german")
+    report = "from quadedge.report.__main__ import main; import sys; sys.exit(main(sys.argv[1:]))"
+    done = run(report, tmp_path / "german")
     assert done.returncode == 0, done.stderr
 
 

@@ -232,7 +232,7 @@ class Node:
         if placed and not (result.ambiguous_motion and self._options.withhold_ambiguous):
             self._publish(result, placed, left.header.frame_id)
         self._count(result, placed, doubt)
-        self._state.take(result, doubt, (time.monotonic() - arrived) * 1e3)
+        self._state.take(result, self._session.rig, doubt, (time.monotonic() - arrived) * 1e3)
         self._session.keep(result)
 
     def _localise(self, result, images: list, placed: Placed | None) -> None:
