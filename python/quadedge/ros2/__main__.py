@@ -32,8 +32,8 @@ def _parser() -> argparse.ArgumentParser:
                         help="where the left camera is mounted [m, rad]; by default what /tf_static says of the frame "
                              "of its images")
     parser.add_argument("--gravity", metavar="X,Y,Z",
-                        help="where things fall in the axes of the base in the first pair, as 0.1,0,-9.8: levels odom, as "
-                             "REP 105 asks; by default odom has the axes of the base in the first pair")
+                        help="where things fall in the axes of the base in the first pair, as 0.1,0,-9.8: levels "
+                             "odom, as REP 105 asks; by default odom has the axes of the base in the first pair")
     parser.add_argument("--use-sim-time", action="store_true", help="stamp diagnostics with the time of /clock")
     for name, frame in (("base", "base_link"), ("odom", "odom"), ("map", "map")):
         parser.add_argument(f"--{name}-frame", default=frame, metavar="FRAME", help="default: %(default)s")
