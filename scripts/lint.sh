@@ -31,6 +31,7 @@ fi
 
 # shellcheck disable=SC2086  # a list of words
 "$python" tests/lint_structure.py . ${checks:-} || status=1
+"$python" tests/lint_locale.py . || status=1
 
 if [ -n "$all" ]; then
   tests/lint_kernels.sh . build/tests/list_programs || status=1

@@ -81,10 +81,11 @@ TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[
   const auto rows = read_lines(shared_run().out("poses.csv"));
   REQUIRE(rows.size() == 5);
   const auto names = quadedge::report::csv_fields(rows[0]);
-  REQUIRE(names.size() == 5 + 7 + 7 + 21 + 21);
+  REQUIRE(names.size() == 5 + 7 + 7 + 21 + 21 + 1);
   CHECK(names[19] == "covariance_x_x");
   CHECK(names[40] == "reference_covariance_x_x");
   CHECK(names[60] == "reference_covariance_rz_rz");
+  CHECK(names[61] == "base_frame");
   const auto tum = read_lines(shared_run().out("trajectory.txt"));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto values = quadedge::report::csv_fields(rows[i]);

@@ -134,3 +134,20 @@ TEST_CASE("image list: TIFF and BMP are named, with a converter", "[data]") {
   CHECK_THROWS_WITH(read_grey_image(folder / "b/1.png"), Contains("a BMP image") && Contains("mogrify"));
   CHECK_THROWS_WITH(read_grey_image(folder / "t/1.tif"), Contains("a TIFF image"));
 }
+
+TEST_CASE("image list: numbers of names that jump are told", "[data]") {
+  const auto names = [](int first, int count) {
+    std::vector<std::string> files;
+    for (int i = first; i < first + count; ++i)
+      files.push_back("left/IMG_" + std::to_string(10'000 + i).substr(1) + ".png");
+    return files;
+  };
+  std::vector<std::string> all = names(1, 20);
+  CHECK(number_jump(all).empty());
+  const auto before = names(9'980, 20);  // recorded first; the camera goes on with IMG_0001
+  all.insert(all.end(), before.begin(), before.end());
+  CHECK_THAT(number_jump(all), Contains("jump from IMG_0020.png to IMG_9980.png, usually by 1"));
+  CHECK_THAT(number_jump({"4294.png", "37590.png", "4294900000.png", "4294933296.png", "4294966592.png"}),
+             Contains("from 37590.png to 4294900000.png, usually by 33296"));
+  CHECK(number_jump({"one.png", "two.png", "three.png"}).empty());
+}

@@ -21,7 +21,7 @@ with quadedge.Odometry(images) as odometry:
     for frame in images:
         result = odometry.track(frame.stamp_ns, frame.left, frame.right)
         position = numpy.round(result.world_from_left[:3, 3], 3) if result.is_tracked else []
-        print(frame.stamp_ns, result.status, *position, result.message)
+        print(frame.stamp_ns, "ambiguous" if result.ambiguous_motion else result.status, *position, result.message)
         if result.is_tracked:
             tracked.append(result)
 

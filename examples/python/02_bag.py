@@ -15,5 +15,6 @@ print(recording.topics.left, recording.topics.right, recording.pairing)
 
 odometry = quadedge.Odometry(recording.rig)
 results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in recording]
-print(sum(result.is_tracked for result in results), "of", len(results), "tracked")
+print(sum(result.is_tracked for result in results), "of", len(results), "tracked,",
+      sum(result.ambiguous_motion for result in results), "of them ambiguous: they may follow what moves")
 print(quadedge.bag.write_mcap(sys.argv[2], results))

@@ -9,4 +9,5 @@ camera = quadedge.live.open_camera(kind, **dict(zip(("source", "calibration"), m
 with quadedge.Odometry(camera.rig, preset="fast") as odometry:
     for stamp_ns, left, right in camera:
         result = odometry.track(stamp_ns, left, right)
-        print(f"{result.status:20} {result.pose_or_prediction[:3, 3].round(3)} m  {result.message}")
+        status = "ambiguous" if result.ambiguous_motion else result.status
+        print(f"{status:20} {result.pose_or_prediction[:3, 3].round(3)} m  {result.message}")

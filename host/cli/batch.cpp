@@ -1,7 +1,6 @@
 #include "cli/batch.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
@@ -12,6 +11,7 @@
 
 #include "cli/console.hpp"
 #include "cli/processes.hpp"
+#include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/content_hash.hpp"
@@ -199,9 +199,7 @@ class BatchRunner {
       frames += done;
       separator = ", ";
     }
-    char rate[48];
-    std::snprintf(rate, sizeof rate, "  %.1f frames/s", frames / seconds);
-    if (frames > 0) text += rate;
+    if (frames > 0) text += printed("  %.1f frames/s", frames / seconds);
     // Pixels tell more about the time that is left than frames: sequences differ in their size.
     if (pixels > 0) text += ", " + duration_text(seconds * std::max(0.0, pixels_ - pixels) / pixels) + " left";
     status_.show(text);
@@ -244,6 +242,8 @@ class BatchRunner {
       arguments.push_back(word);
     if (!method_.kernel_folder().empty()) arguments.insert(arguments.end(), {"--kernels", method_.kernel_folder()});
     if (method_.trusts()) arguments.push_back("--trust");
+    if (method_.threads() != 0)
+      arguments.insert(arguments.end(), {"--threads", std::to_string(method_.threads())});
     if (options_.profile) arguments.push_back("--profile");
     if (options_.loops) arguments.push_back("--loops");
     return arguments;
@@ -278,10 +278,8 @@ class BatchRunner {
     const auto row = report::read_summary_row(folder, record.name, options_.min_tracked);
     std::string text = std::to_string(row.tracked) + " of " + data::counted(row.frames, "frame") + " tracked";
     if (row.accuracy) {
-      char errors[96];
-      std::snprintf(errors, sizeof errors, ", APE %.3f deg, %.4f m", row.accuracy->origin_aligned.ape_rotation_deg.mean,
-                    row.accuracy->origin_aligned.ape_translation_m.mean);
-      text += errors;
+      text += printed(", APE %.3f deg, %.4f m", row.accuracy->origin_aligned.ape_rotation_deg.mean,
+                      row.accuracy->origin_aligned.ape_translation_m.mean);
     }
     return text;
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/disparity_range.hpp"
+#include "common/printed.hpp"
 #include "rig/rig_correction.hpp"
 #include "rig/rig_monitor.hpp"
 
@@ -17,12 +18,10 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
       dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(dataset.rig));
   const RigEvidence& evidence = report.evidence;
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
-  char text[160];
   if (evidence.is_searched() && std::isfinite(evidence.searched_residual)) {
-    std::snprintf(text, sizeof text,
-                  "epipolar residual %.2f px, %.0f %% of corners found, %.0f %% of these on their line",
-                  evidence.searched_residual, 100 * evidence.found_ratio, 100 * evidence.on_line_ratio);
-    check.facts.push_back(frame + text);
+    check.facts.push_back(
+        frame + printed("epipolar residual %.2f px, %.0f %% of corners found, %.0f %% of these on their line",
+                        evidence.searched_residual, 100 * evidence.found_ratio, 100 * evidence.on_line_ratio));
   } else {
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
@@ -49,10 +48,8 @@ std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair) {
       recorded.searched_residual > kDoubtful && rectified.searched_residual < kBetter * recorded.searched_residual;
   if (!is_off && !(recorded.found_ratio < kBetter * rectified.found_ratio)) return {};
   const auto figures = [](const RigEvidence& evidence) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.0f %% of the corners found, %.2f px off their lines",
-                  100 * evidence.found_ratio, evidence.searched_residual);
-    return std::string(text);
+    return printed("%.0f %% of the corners found, %.2f px off their lines", 100 * evidence.found_ratio,
+                   evidence.searched_residual);
   };
   return "the images fit the calibration's projection matrices P (" + figures(rectified) + ") better than K and D (" +
          figures(recorded) + "): are they rectified? --rectified takes P";

@@ -10,6 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "common/printed.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -61,10 +62,9 @@ std::string milliseconds(double value) { return dashed("%.1f ms", value); }
 std::string rate_and_rest(int done, int total, const std::string& unit, std::chrono::steady_clock::duration elapsed) {
   const double seconds = std::chrono::duration<double>(elapsed).count();
   if (done <= 0 || seconds <= 0) return {};
-  char text[96];
   const double rate = done / seconds;
-  std::snprintf(text, sizeof text, "%.*f%s%s/s", rate < 10 ? 1 : 0, rate, unit.empty() ? "" : " ", unit.c_str());
-  return done < total ? std::string(text) + ", " + duration_text((total - done) / rate) + " left" : text;
+  const std::string text = printed("%.*f%s%s/s", rate < 10 ? 1 : 0, rate, unit.empty() ? "" : " ", unit.c_str());
+  return done < total ? text + ", " + duration_text((total - done) / rate) + " left" : text;
 }
 
 /// Each segment by itself, in one row.
@@ -164,23 +164,13 @@ void Progress::update(const std::string& what, int done, int total, const std::s
   status_.show(line, last);
 }
 
-std::string dashed(const char* format, double value) {
-  if (!std::isfinite(value)) return "-";
-  char text[400];  // the largest double has 309 digits
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+std::string dashed(const char* format, double value) { return std::isfinite(value) ? printed(format, value) : "-"; }
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
-  char text[48];
-  if (whole < 60)
-    std::snprintf(text, sizeof text, "%ld s", whole);
-  else if (whole < 3600)
-    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
-  else
-    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
-  return text;
+  if (whole < 60) return printed("%ld s", whole);
+  if (whole < 3600) return printed("%ld min %02ld s", whole / 60, whole % 60);
+  return printed("%ld h %02ld min", whole / 3600, whole / 60 % 60);
 }
 
 std::string command_line() {

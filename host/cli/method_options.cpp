@@ -9,6 +9,7 @@
 #include "opencl/kernel_sources.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/threads.hpp"
 #include "report/config_toml.hpp"
 #include "report/json_values.hpp"
 #include "report/source_commit.hpp"
@@ -97,6 +98,7 @@ void MethodOptions::declare(Options& options) {
   options.text("--device", device_, "auto, cpu, gpu, reference, a number from `quadedge devices`, or part of a name",
                "DEVICE");
   options.environment("QUADEDGE_DEVICE");
+  options.number("--threads", threads_, "threads to compute with at most, here and in OpenCL on CPUs; 0: all");
   options.flag("--trust", trusts_, "use a device even if it fails the self-test");
   options.config_file();
   options.repeated("--variant", variants_, "kernel variant of a stage (`quadedge variants` lists them); repeatable",
@@ -146,6 +148,7 @@ Device MethodOptions::open_device(const std::string& choice, const DeviceOptions
 }
 
 Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
+  if (threads_ != 0) limit_threads(threads_);
   DeviceOptions options;
   options.kernel_folder = kernels_;
   options.profiling = profiling;

@@ -33,13 +33,13 @@ void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::str
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:
-  /// --device, --trust, --config, --variant, --kernels, --max-disparity, --no-auto-mask, and --KEY for every constant.
+  /// --device, --threads, --trust, --config, --variant, --kernels, --max-disparity, --no-auto-mask, and --KEY for every constant.
   void declare(Options& options);
   /// To be called before declare(): rendered sequences have a rig without errors, unless options state one.
   void assume_exact_rig();
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
-  /// Opens the device and runs its self-test, unless this program has a verdict on it with this driver. With `auto` a
+  /// Limits the threads of this process, opens the device and runs its self-test, unless this program has a verdict on it with this driver. With `auto` a
   /// device that fails is skipped with a warning as long as there is another. \param test receives the verdict
   /// \throws DeviceError for a device that computes wrongly, unless --trust is given.
   Device open_device(bool profiling = false, SelfTestResult* test = nullptr) const;
@@ -47,6 +47,8 @@ class MethodOptions {
   const std::string& device_choice() const { return device_; }
   /// Whether --trust is given.
   bool trusts() const { return trusts_; }
+  /// The value of --threads; 0: all.
+  int threads() const { return threads_; }
   /// The value of --kernels; empty: the built-in kernels.
   const std::string& kernel_folder() const { return kernels_; }
 
@@ -57,6 +59,7 @@ class MethodOptions {
 
   Config config_;
   std::string device_ = "auto";
+  int threads_ = 0;
   bool trusts_ = false, keeps_static_ = false;
   std::string kernels_;
   std::vector<std::string> variants_;

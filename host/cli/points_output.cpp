@@ -1,8 +1,8 @@
 #include "cli/points_output.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "odometry/disparity_offset.hpp"
@@ -18,8 +18,7 @@ namespace {
 /// SIDE_FRAME.png, as write_colmap() calls it: the recorded image as the pinhole camera would have seen it.
 void write_image(const std::string& folder, const char* side, int frame, const Image& recorded,
                  const UndistortionTable& table) {
-  char name[32];
-  std::snprintf(name, sizeof name, "/%s_%06d.png", side, frame);
+  const std::string name = printed("/%s_%06d.png", side, frame);
   const Image image = table.empty() ? recorded : reference::undistort(recorded.view(), table);
   report::write_image(folder + name, image.view());
 }

@@ -8,6 +8,7 @@
 #include "cli/points_output.hpp"
 #include "cli/rig_file.hpp"
 #include "cli/rig_observation.hpp"
+#include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -45,8 +46,7 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   // Edges refer to the pinhole image, not to the recorded one with distortion.
   const auto& table = rig.left_undistortion;
   const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
-  char number[16];
-  std::snprintf(number, sizeof number, "%06d", frame.number);
+  const std::string number = printed("%06d", frame.number);
   if (example)
     report::draw_pair(options.output + "/pictures/pair_" + number + ".jpg", frame.left.view(), frame.right.view());
   if (small)
@@ -66,9 +66,7 @@ std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& dev
   known.start(*odometry);
   run.config = odometry->config();
   run.kernel_build_ms = odometry->kernel_build_ms();
-  char text[64];
-  std::snprintf(text, sizeof text, "programs built in %.1f s", run.kernel_build_ms / 1000);
-  if (builds) status.show(text, true);
+  if (builds) status.show(printed("programs built in %.1f s", run.kernel_build_ms / 1000), true);
   return odometry;
 }
 
@@ -159,8 +157,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       if (loops) loops->add(record.result);
       lost += is_tracked(record.result.status) ? 0 : 1;
       run.frames.push_back(std::move(record));
-      char text[64];
-      std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
+      const std::string text = printed("%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
       progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
       if (interruption.signal() != 0) break;
     }

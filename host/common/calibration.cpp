@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "common/lens_mapping.hpp"
+#include "common/printed.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
@@ -19,11 +19,7 @@ constexpr double kShortestFocal = 0.01, kLongestFocal = 100, kFarthestCentre = 1
 constexpr double kLargestPixelRatio = 10;                                           // fx / fy
 constexpr double kLargestSize = 65536;                                              // px, of any image
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+std::string number(double value) { return printed("%.9g", value); }
 
 }  // namespace
 
@@ -115,7 +111,7 @@ void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& t
 
 StereoRig make_rig(const StereoCalibration& calibration, double fov) {
   if (!(fov >= 0 && fov < 180))
-    throw UsageError("--fov " + std::to_string(fov) + ": expected degrees above 0 and below 180");
+    throw UsageError("--fov " + printed("%f", fov) + ": expected degrees above 0 and below 180");
   const auto see = [&](const Lens& lens, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
     if (lens.camera.width <= 0 || lens.camera.height <= 0)
       throw DataError(calibration.files + ": the size of the recorded images is missing, expected columns and rows");

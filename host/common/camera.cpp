@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/calibration.hpp"
+#include "common/printed.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -70,15 +71,15 @@ void check_rig(const StereoRig& rig, const char* source) {
   constexpr int kLargestScaleRatio = 16;  // a camera of a higher resolution is reduced by this factor
   const double ratio = rig.left.fx / rig.right.fx;
   if (ratio > kLargestScaleRatio || ratio < 1.0 / kLargestScaleRatio) {
-    throw DataError(where + ": found focal lengths fx of " + std::to_string(rig.left.fx) + " (left) and " +
-                    std::to_string(rig.right.fx) + " px (right), expected a ratio of at most " +
+    throw DataError(where + ": found focal lengths fx of " + printed("%f", rig.left.fx) + " (left) and " +
+                    printed("%f", rig.right.fx) + " px (right), expected a ratio of at most " +
                     std::to_string(kLargestScaleRatio));
   }
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();
   const double deviation = rotation_error(rotation);
   if (deviation > kRotationTolerance || !is_affine(rig.right_from_left)) {
     throw DataError(where + ": found a rotation right_from_left that deviates from an orthonormal one by " +
-                    std::to_string(deviation) + " (determinant " + std::to_string(rotation.determinant()) +
+                    printed("%f", deviation) + " (determinant " + printed("%f", rotation.determinant()) +
                     "), expected a right-handed orthonormal matrix");
   }
   if (!std::isfinite(rig.baseline()) || rig.baseline() <= 0) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "common/epipolar_geometry.hpp"
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -27,11 +27,9 @@ double disparity_limit(const StereoRig& rig) {
 void check_disparity_range(const StereoRig& rig, const std::string& source) {
   constexpr double kLargest = 10'000;  // px; constants.inc allows no more for stereo.max_disparity
   if (rig.disparity_range() <= kLargest) return;
-  std::ostringstream found;
-  found << source << ": found a focal length of " << rig.left.fx << " px and a baseline of " << rig.baseline()
-        << " m, so that near objects have disparities of " << rig.disparity_range()
-        << " px, expected pixels and metres that give at most 10000 px";
-  throw DataError(found.str());
+  throw DataError(source + printed(": found a focal length of %g px and a baseline of %g m, so that near objects have "
+                                   "disparities of %g px, expected pixels and metres that give at most 10000 px",
+                                   rig.left.fx, rig.baseline(), rig.disparity_range()));
 }
 
 namespace {

@@ -1,6 +1,6 @@
 #include "quadedge/error.hpp"
 
-#include <cstdio>
+#include "common/printed.hpp"
 
 namespace quadedge {
 
@@ -14,9 +14,7 @@ std::string visible(const std::string& text) {
       shown += text[i];
       continue;
     }
-    char code[8];
-    std::snprintf(code, sizeof code, "\\x%02x", is_c1 ? next : byte);
-    shown += code;
+    shown += printed("\\x%02x", is_c1 ? next : byte);
     i += is_c1 ? 1 : 0;
   }
   return shown;

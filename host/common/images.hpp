@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,11 +50,28 @@ class RecordedImages {
     check_pixels(image, name);
     if (image.max_value != max_value_)
       throw DataError(name + " has pixel values up to " + std::to_string(image.max_value) +
-                      ", the rig expects values up to " + std::to_string(max_value_));
+                      ", the rig expects values up to " + std::to_string(max_value_) +
+                      ": state the camera's as max_value of the rig (4095 for 12 bits)");
     if (size.width > 0 && (image.width != size.width || image.height != size.height))
       throw DataError(name + " has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
                       " pixels, the calibration expects " + std::to_string(size.width) + "x" +
                       std::to_string(size.height));
+    if (const int brightest = brightest_of(image); brightest > max_value_)
+      throw DataError(name + " has a pixel of " + std::to_string(brightest) + ", the rig expects values up to " +
+                      std::to_string(max_value_) + " (max_value)");
+  }
+  /// Largest value of 16-bit pixels that can exceed max_value; 0 for others.
+  static int brightest_of(const ImageView& image) {
+    std::uint16_t largest = 0;
+    if (image.max_value <= kMaxValue8 || image.max_value == std::numeric_limits<std::uint16_t>::max()) return largest;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        std::uint16_t word = 0;
+        std::memcpy(&word, image.pixels + y * image.stride + 2 * x, sizeof word);
+        largest = std::max(largest, word);
+      }
+    }
+    return largest;
   }
 
   Size left_, right_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "common/printed.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -171,7 +172,7 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     dataset.rig = rectified_rig(left.width > kWideColumns ? kFocalWide : kFocalNarrow, (left.width - 1) / 2.0,
                                 (left.height - 1) / 2.0, (left.width - 1) / 2.0, kTwoViewBaseline);
     set_sizes_from_first_frame(dataset);
-    dataset.notes.push_back("no calib.txt: nominal calibration (f " + std::to_string(dataset.rig.left.fx) +
+    dataset.notes.push_back("no calib.txt: nominal calibration (f " + printed("%f", dataset.rig.left.fx) +
                             " px, baseline 0.06 m); matches are valid, depths and poses are nominal");
   });
   dataset.rig.max_disparity = max_disparity;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 
@@ -165,12 +166,33 @@ std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns) {
 std::string rate_complaint(const std::vector<std::int64_t>& stamps_ns) {
   const std::int64_t period = usual_period(stamps_ns);
   if (period <= 0 || (period >= kShortestPeriod && period <= kLongestPeriod)) return {};
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "the timestamps have a rate of %.4g Hz, expected 0.2 to 1000 Hz: another unit? --fps N or --times FILE "
-                "replaces them",
-                1e9 / static_cast<double>(period));
-  return text;
+  return printed(
+      "the timestamps have a rate of %.4g Hz, expected 0.2 to 1000 Hz: another unit? --fps N or --times FILE replaces "
+      "them",
+      1e9 / static_cast<double>(period));
+}
+
+std::string number_jump(const std::vector<std::string>& files) {
+  std::vector<std::int64_t> numbers;
+  for (const std::string& file : files) {
+    const std::string stem = fs::path(file).stem().string();
+    const std::size_t end = stem.find_last_of("0123456789") + 1;
+    std::size_t begin = end;
+    while (begin > 0 && std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0) --begin;
+    constexpr std::size_t kMostDigits = 18;
+    if (begin == end || end - begin > kMostDigits) return {};
+    numbers.push_back(std::stoll(stem.substr(begin, end - begin)));
+  }
+  const std::int64_t usual = usual_period(numbers);
+  std::size_t widest = 1;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    if (numbers[i] - numbers[i - 1] > numbers[widest] - numbers[widest - 1]) widest = i;
+  if (usual <= 0 || numbers.size() < 3 || numbers[widest] - numbers[widest - 1] <= 2 * usual) return {};
+  const auto name = [&](std::size_t i) { return fs::path(files[i]).filename().string(); };
+  return "the numbers of the images jump from " + name(widest - 1) + " to " + name(widest) + ", usually by " +
+         std::to_string(usual) +
+         ": were images lost, or did the counter begin again? Then the later images come first: give names that go on, "
+         "or --times FILE";
 }
 
 namespace {

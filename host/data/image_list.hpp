@@ -46,6 +46,10 @@ std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns);
 /// A warning for a rate outside 0.2 to 1000 Hz, which suggests another unit; empty otherwise.
 std::string rate_complaint(const std::vector<std::int64_t>& stamps_ns);
 
+/// A warning for images in order of which one number is further from the last than twice the usual step; empty
+/// otherwise, and for names without numbers.
+std::string number_jump(const std::vector<std::string>& files);
+
 /// Rows of EuRoC's data.csv: timestamp and image name. \throws DataError for a duplicate timestamp and for a name that
 /// refers to another folder
 std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "common/calibration.hpp"
+#include "common/printed.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -182,8 +183,8 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::strin
   const double deviation = rotation_error(matrix);
   if (deviation > kTolerance) {
     fail(file,
-         "a 3 x 3 part that deviates from an orthonormal matrix by " + std::to_string(deviation) + " (determinant " +
-             std::to_string(matrix.determinant()) + ")",
+         "a 3 x 3 part that deviates from an orthonormal matrix by " + printed("%f", deviation) + " (determinant " +
+             printed("%f", matrix.determinant()) + ")",
          "a rotation");
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);

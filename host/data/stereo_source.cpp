@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <unistd.h>
 
+#include "common/printed.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/find_sequences.hpp"
 #include "data/image_list.hpp"
@@ -67,9 +67,7 @@ std::string rate_warning(double fps, const CameraImages& images) {
   const std::int64_t period = usual_period(images.stamps_ns);
   const double rate = period > 0 ? kNanoseconds / static_cast<double>(period) : 0;
   if (!(fps > 0 && rate > 0) || std::abs(fps - rate) <= kSameRate * rate) return {};
-  char text[96];
-  std::snprintf(text, sizeof text, "--fps %g contradicts the timestamps, whose rate is %.4g Hz; ", fps, rate);
-  return text + ("those of " + images.stamps_from) + " are used, unless --times FILE replaces them";
+  return printed("--fps %g contradicts the timestamps, whose rate is %.4g Hz; ", fps, rate) + ("those of " + images.stamps_from) + " are used, unless --times FILE replaces them";
 }
 
 /// The timestamps of the pairs: those of --times, otherwise of the images, otherwise of --fps.
@@ -88,6 +86,7 @@ std::vector<std::int64_t> stamps_of_images(const StereoSource& source, const Cam
     if (!warning.empty()) warnings.push_back(warning);
     return stamped.stamps_ns;
   }
+  if (const std::string jump = number_jump(left.files); !jump.empty()) warnings.push_back(jump);
   std::vector<std::int64_t> stamps;
   for (std::size_t i = 0; source.fps > 0 && i < pairs; ++i) stamps.push_back(stamp_at(static_cast<int>(i), source.fps));
   if (stamps.empty()) {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <sstream>
 
+#include "common/printed.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::data {
@@ -189,11 +190,7 @@ std::string format_seconds(std::int64_t nanoseconds) {
   return (negative ? "-" : "") + std::to_string(magnitude / kPerSecond) + "." + decimals;
 }
 
-std::string format_fixed(double value, int decimals) {
-  char buffer[400];  // the largest double has 309 digits
-  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
-  return buffer;
-}
+std::string format_fixed(double value, int decimals) { return printed("%.*f", decimals, value); }
 
 std::string format_exact(double value) {
   char buffer[40];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <set>
 #include <sstream>
 
@@ -50,6 +51,7 @@ std::string bounded_text(const std::string& file) {
 /// Sets value and description from a node that is not a table.
 void set_value(TomlEntry& entry, const toml::node& node) {
   std::ostringstream found;
+  found.imbue(std::locale::classic());
   if (node.is_value()) found << toml::node_view(node);
   entry.found = node.is_array() ? "an array" : found.str();
   if (const auto* truth = node.as_boolean()) entry.value = truth->get();
@@ -186,6 +188,7 @@ std::string toml_text(std::uint64_t value) { return std::to_string(value); }
 std::string toml_text(bool value) { return value ? "true" : "false"; }
 std::string toml_text(const std::string& value) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << toml::toml_formatter(toml::value<std::string>(value), toml::format_flags::none);
   return text.str();
 }

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "common/calibration.hpp"
+#include "common/printed.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
@@ -185,7 +186,7 @@ Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& 
     for (int i = 0; i < 12; ++i) pose.world_from_left.matrix()(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
     const double deviation = rotation_error(pose.world_from_left.linear());
     if (deviation > kRotationInFiles) {
-      data::fail(path, line.number, "a 3 x 3 part that is not a rotation (deviation " + std::to_string(deviation) + ")",
+      data::fail(path, line.number, "a 3 x 3 part that is not a rotation (deviation " + printed("%f", deviation) + ")",
                  kKittiColumns);
     }
     trajectory.push_back(pose);

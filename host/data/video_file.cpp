@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -176,8 +177,10 @@ Video describe_video(const std::string& file) {
   if (!(video.fps > 0)) video.fps = rate_of(stream, "r_frame_rate");
   video.promised = std::atoi(stream.value("nb_frames", "").c_str());
   const bool is_guess = probe.messages.find("Estimating duration from bitrate") != std::string::npos;
-  if (video.promised == 0 && !is_guess)
-    video.promised = static_cast<int>(std::lround(std::atof(container.value("duration", "").c_str()) * video.fps));
+  const std::string duration = container.value("duration", "");
+  double seconds = 0;
+  std::from_chars(duration.data(), duration.data() + duration.size(), seconds);
+  if (video.promised == 0 && !is_guess) video.promised = static_cast<int>(std::lround(seconds * video.fps));
   const std::string format = stream.value("pix_fmt", "");
   for (const nlohmann::json& known : about["pixel_formats"])
     if (known["name"] == format) choose_grey(known, stream.value("color_range", ""), video);

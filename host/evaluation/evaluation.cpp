@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -120,10 +121,7 @@ std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
 
 /// "25.3 mm" or "1.27 m".
 std::string length_text(double metres) {
-  char text[32];
-  const bool small = metres < 0.1;
-  std::snprintf(text, sizeof text, small ? "%.3g mm" : "%.3g m", small ? 1000 * metres : metres);
-  return text;
+  return metres < 0.1 ? printed("%.3g mm", 1000 * metres) : printed("%.3g m", metres);
 }
 
 /// Explains why the rotation of the alignment is undetermined; empty if it is determined. The second of the three root

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <future>
 #include <map>
 #include <utility>
 
+#include "common/printed.hpp"
 #include "frontend/prediction.hpp"
 #include "opencl/buffer.hpp"
 #include "opencl/context.hpp"
@@ -232,12 +232,10 @@ std::string difference(const StageRows& found, const StageRows& expected, double
   };
   if (few(wrong, found.rows.size()) && few(lacking, expected.rows.size())) return {};
   const Row& row = first_missing != nullptr ? *first_missing : *first_wrong;
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "%zu results, the reference has %zu; %zu are wrong and %zu are missing, the first of which "
-                "is (%d %d %d %d %d)",
-                found.rows.size(), expected.rows.size(), wrong, lacking, row[0], row[1], row[2], row[3], row[4]);
-  return text;
+  return printed(
+      "%zu results, the reference has %zu; %zu are wrong and %zu are missing, the first of which "
+      "is (%d %d %d %d %d)",
+      found.rows.size(), expected.rows.size(), wrong, lacking, row[0], row[1], row[2], row[3], row[4]);
 }
 
 namespace {
@@ -254,15 +252,12 @@ class Difference {
     const std::size_t both = std::min(a.size(), b.size());
     std::size_t i = 0;
     while (i < both && a[i] == b[i]) ++i;
-    char text[160];
     if (i == both) {
-      std::snprintf(text, sizeof text, "%s, %s: %zu instead of %zu values of %s", stage_, row_, a.size(), b.size(),
-                    value);
+      found_ = printed("%s, %s: %zu instead of %zu values of %s", stage_, row_, a.size(), b.size(), value);
     } else {
-      std::snprintf(text, sizeof text, "%s, %s %zu: %s is %.9g instead of %.9g", stage_, row_, i, value,
-                    static_cast<double>(a[i]), static_cast<double>(b[i]));
+      found_ = printed("%s, %s %zu: %s is %.9g instead of %.9g", stage_, row_, i, value, static_cast<double>(a[i]),
+                       static_cast<double>(b[i]));
     }
-    found_ = text;
     return *this;
   }
 

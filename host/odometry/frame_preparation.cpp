@@ -1,9 +1,9 @@
 #include "odometry/frame_preparation.hpp"
 
-#include <cstdio>
 #include <utility>
 
 #include "common/disparity_range.hpp"
+#include "common/printed.hpp"
 
 namespace quadedge::odometry {
 
@@ -44,9 +44,7 @@ void FramePreparation::adopt(const rig::RigReport& report, const std::optional<E
   }
   if (change == 0) return;
   rig_monitor_.forget_motions();
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
+  const std::string text = printed(
       "points lie %.1f px beside the lines of the frames before: has a camera turned? the rows are learned anew",
       change);
   warn({WarningKind::changed_rig, text});

@@ -1,12 +1,12 @@
 /// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
 #include <cmath>
-#include <cstdio>
 #include <tbb/task_group.h>
 #include <utility>
 
 #include "common/disparity_range.hpp"
 #include "common/images.hpp"
 #include "common/parallel.hpp"
+#include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
@@ -57,12 +57,11 @@ std::unique_ptr<odometry::MotionFinder> make_search(const Config& config, fronte
 
 Warning right_camera_warning(const RightCameraError& error, const PinholeCamera& right) {
   const RightCameraError lens = {0, 0, error.radial_3, error.radial_5};
-  char text[320];
-  std::snprintf(text, sizeof text,
-                "the right camera is not as calibrated: rows and motions show it turned by %+.3f degrees of yaw and "
-                "%+.3f of pitch, and columns at its right corners moved by %+.1f px by the lens; corrected from here "
-                "on, but a new calibration is better",
-                error.yaw / kDegree, error.pitch / kDegree, lens.column(right, right.width - 1, right.height - 1));
+  const std::string text = printed(
+      "the right camera is not as calibrated: rows and motions show it turned by %+.3f degrees of yaw and "
+      "%+.3f of pitch, and columns at its right corners moved by %+.1f px by the lens; corrected from here "
+      "on, but a new calibration is better",
+      error.yaw / kDegree, error.pitch / kDegree, lens.column(right, right.width - 1, right.height - 1));
   return {WarningKind::corrected_right_camera, text};
 }
 
@@ -373,12 +372,11 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
   if (const double jump = offset_.jump(current_->frame); jump != 0) {
-    char text[64];
-    std::snprintf(text, sizeof text, "the right image is displaced by %+.1f px", jump);
+    const std::string text = printed("the right image is displaced by %+.1f px", jump);
     add_message(text, result);
-    preparation_.warn({WarningKind::displaced_images,
-                       std::string(text) + " along the epipolar lines and followed, also in later frames: do the "
-                                           "cameras swing, or are the images cut or stabilised one by one?"});
+    preparation_.warn(
+        {WarningKind::displaced_images, text + " along the epipolar lines and followed, also in later frames: do the "
+                                               "cameras swing, or are the images cut or stabilised one by one?"});
   }
   if (step.verdict.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.verdict.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;

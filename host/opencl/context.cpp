@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fstream>
+#include <locale>
 #include <sstream>
 
 #include "opencl/kernel_sources.hpp"
@@ -69,6 +70,7 @@ std::string Context::kernel_text(const std::string& file) const {
   if (!stream)
     throw DataError(path + ": kernel file cannot be read; --kernels expects a folder that holds every kernel file");
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << "#line 1 \"" << file << "\"\n" << stream.rdbuf();
   return text.str();
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/calibration.hpp"
+#include "common/printed.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "places/place_store.hpp"
 #include "quadedge/error.hpp"
@@ -160,8 +161,7 @@ class Check {
   static constexpr double kUnitTolerance = 1e-5, kLeastVariance = 1e-18, kMostVariance = 1e4;  // [px^2]
 
   void require(bool holds, const std::string& what, double found, const std::string& expected) const {
-    if (!holds)
-      throw DataError(source_ + ": found " + what + " of " + std::to_string(found) + ", expected " + expected);
+    if (!holds) throw DataError(source_ + ": found " + what + " of " + printed("%f", found) + ", expected " + expected);
   }
   void check_pose(const Eigen::Isometry3d& pose) const {
     const double deviation = rotation_error(pose.linear());
@@ -193,7 +193,7 @@ class Check {
   void check_column(const std::vector<float>& values, double low, double high) const {
     for (const float value : values)
       require(static_cast<double>(value) >= low && static_cast<double>(value) <= high, "an edge with a value", value,
-              std::to_string(low) + " to " + std::to_string(high));
+              printed("%f to %f", low, high));
   }
 
   std::string source_;

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 
+#include "common/printed.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "quadedge/point_cloud.hpp"
@@ -66,11 +66,7 @@ std::string image_row(int id, const Eigen::Isometry3d& camera_from_world, int ca
   return row + " " + std::to_string(camera) + " " + name + "\n";
 }
 
-std::string image_name(const char* side, int frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%s_%06d.png", side, frame);
-  return name;
-}
+std::string image_name(const char* side, int frame) { return printed("%s_%06d.png", side, frame); }
 
 int left_image(std::size_t view) { return 2 * static_cast<int>(view) + 1; }
 
@@ -83,14 +79,12 @@ struct Place {
 std::string images_text(const StereoRig& rig, const std::vector<CloudView>& views,
                         const std::vector<std::vector<Place>>& places) {
   std::string text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then POINTS2D[] as X Y POINT3D_ID\n";
-  char part[80];
   for (std::size_t v = 0; v < views.size(); ++v) {
     const Eigen::Isometry3d left_from_world = views[v].world_from_left.inverse();
     text += image_row(left_image(v), left_from_world, 1, image_name("left", views[v].frame));
     for (const Place& place : places[v]) {
-      std::snprintf(part, sizeof part, "%.4f %.4f %zu ", static_cast<double>(place.x) + kCorner,
-                    static_cast<double>(place.y) + kCorner, place.point + 1);
-      text += part;
+      text += printed("%.4f %.4f %zu ", static_cast<double>(place.x) + kCorner, static_cast<double>(place.y) + kCorner,
+                      place.point + 1);
     }
     text += "\n" +
             image_row(left_image(v) + 1, rig.right_from_left * left_from_world, 2, image_name("right", views[v].frame));

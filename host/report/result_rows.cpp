@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -22,11 +23,8 @@ namespace {
 constexpr int kDecimals = 6;  // of edges
 
 /// Empty for NaN.
-std::string printed(const char* format, double value) {
-  if (!std::isfinite(value)) return {};
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+std::string rounded(const char* format, double value) {
+  return std::isfinite(value) ? printed(format, value) : std::string();
 }
 
 std::string exact(const std::optional<double>& value) {
@@ -121,15 +119,15 @@ CsvRow frames_row(int number, const FrameResult& result) {
   row.add("segment", result.segment);
   row.add("key_rig", result.reference_frame);
   row.add("new_key_rig", result.new_key_rig ? 1 : 0);
-  row.add("edge_threshold", printed("%.4g", result.diagnostics.edge_threshold));
-  row.add("disparity_range", printed("%.4g", result.diagnostics.disparity_range));
+  row.add("edge_threshold", rounded("%.4g", result.diagnostics.edge_threshold));
+  row.add("disparity_range", rounded("%.4g", result.diagnostics.disparity_range));
   for (const auto& [name, count] : named_counts(result.counts)) row.add(name, count);
-  row.add("matched_ratio", printed("%.4g", result.diagnostics.rig_evidence.matched_ratio));
-  row.add("epipolar_residual", printed("%.4g", result.diagnostics.rig_evidence.epipolar_residual));
-  row.add("moving_ratio", printed("%.4g", result.diagnostics.moving_ratio));
+  row.add("matched_ratio", rounded("%.4g", result.diagnostics.rig_evidence.matched_ratio));
+  row.add("epipolar_residual", rounded("%.4g", result.diagnostics.rig_evidence.epipolar_residual));
+  row.add("moving_ratio", rounded("%.4g", result.diagnostics.moving_ratio));
   row.add("ambiguous_motion", result.ambiguous_motion ? 1 : 0);
-  row.add("latency_ms", printed("%.3f", result.timing.latency_ms));
-  for (const char* stage : kHostStages) row.add(std::string(stage) + "_ms", printed("%.3f", stage_ms(result, stage)));
+  row.add("latency_ms", rounded("%.3f", result.timing.latency_ms));
+  for (const char* stage : kHostStages) row.add(std::string(stage) + "_ms", rounded("%.3f", stage_ms(result, stage)));
   row.add("warning", joined(result.warnings));
   row.add("message", result.message);
   return row;
@@ -148,6 +146,7 @@ CsvRow poses_row(int number, const FrameResult& result) {
   add_pose(row, "reference_", in_reference);
   add_covariance(row, "covariance_", result.covariance);
   add_covariance(row, "reference_covariance_", result.diagnostics.covariance_in_reference);
+  row.add("base_frame", result.diagnostics.base_frame);
   return row;
 }
 

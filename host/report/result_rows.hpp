@@ -21,8 +21,8 @@ CsvRow frames_row(int number, const FrameResult& result);
 /// poses.csv: frame, stamp_s, status, segment, reference_frame; the left camera's pose in the world (x, y, z [m], qx,
 /// qy, qz, qw) and in the frame of the reference's left camera (reference_x ... reference_qw); then the upper triangles
 /// of both covariances, row by row (covariance_x_x, covariance_x_y ... covariance_rz_rz and reference_covariance_...),
-/// in the order x, y, z, rotation about x, y, z of the frame that the pose is in; see PoseCovariance. A lost frame has
-/// the predicted pose in the world and nothing else.
+/// in the order x, y, z, rotation about x, y, z of the frame that the pose is in; see PoseCovariance; and base_frame,
+/// as in FrameDiagnostics. A lost frame has the predicted pose in the world and nothing else.
 CsvRow poses_row(int number, const FrameResult& result);
 
 /// The files of a run that get a row with every frame: trajectory.txt, trajectory_kitti.txt, frames.csv and poses.csv.

@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdio>
 
 #include "common/calibration.hpp"
 #include "common/epipolar_geometry.hpp"
+#include "common/printed.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
@@ -41,16 +41,13 @@ StereoCalibration RigCorrection::applied(StereoCalibration calibration) const {
 }
 
 std::string RigCorrection::text() const {
-  char text[400];
   const auto mark = [&](int part) { return is_certain(part) ? "" : " (not certain)"; };
-  std::snprintf(
-      text, sizeof text,
+  return printed(
       "by its rows, the right camera is pitched by %+.3f +- %.3f degrees%s and rolled by %+.3f +- %.3f "
       "degrees%s against the calibration, its focal length across the lines is off by %+.3f +- %.3f %%%s; yaw and all "
       "else along the lines cannot be told",
       parts[pitch] / kDegree, sigmas[pitch] / kDegree, mark(pitch), parts[roll] / kDegree, sigmas[roll] / kDegree,
       mark(roll), 100 * parts[focal], 100 * sigmas[focal], mark(focal));
-  return text;
 }
 
 RigCorrection correction_of(const StereoRig& rig, const RowModel& rows) {

@@ -1,16 +1,13 @@
 #include "rig/rig_finding.hpp"
 
 #include <cmath>
-#include <cstdio>
+
+#include "common/printed.hpp"
 
 namespace quadedge::rig {
 namespace {
 
-std::string number(double value, int decimals) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
+std::string number(double value, int decimals) { return printed("%.*f", decimals, value); }
 
 std::string percent(double ratio) { return number(100 * ratio, 0) + " %"; }
 

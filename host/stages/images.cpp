@@ -1,10 +1,10 @@
 #include "stages/images.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::stages {
@@ -12,13 +12,7 @@ namespace {
 
 constexpr std::size_t kPadGroup = 32;  // work-items per group of the padding kernel
 
-std::string float_literal(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(9);
-  text << std::showpoint << value << "f";
-  return text.str();
-}
+std::string float_literal(double value) { return printed("%#.9gf", value); }
 
 /// Weights of the pairs at k and -k: those of G, then of G'.
 std::vector<cl_float> pair_taps(double sigma) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "common/calibration.hpp"
+#include "common/printed.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "synthetic/hash.hpp"
@@ -21,9 +21,7 @@ constexpr std::int64_t kFramePeriod = 50'000'000;  // [ns]
 
 void require(bool allowed, const char* name, double value, const char* range) {
   if (allowed) return;
-  std::ostringstream message;
-  message << "synthetic sequence: " << name << " = " << value << ", allowed: " << range;
-  throw UsageError(message.str());
+  throw UsageError(printed("synthetic sequence: %s = %g, allowed: %s", name, value, range));
 }
 
 void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
@@ -115,11 +113,10 @@ double exposure_of(const SyntheticOptions& options, const synthetic::CameraPath&
   if (options.blur == 0.0) return 0.0;
   const double motion = path.mean_image_motion(camera);
   if (options.blur > motion) {
-    std::ostringstream message;
-    message << "synthetic sequence: blur = " << options.blur << ", allowed: 0 to " << std::floor(100.0 * motion) / 100.0
-            << " px, the image motion per frame on path " << options.path << " in " << options.width << " x "
-            << options.height << " px, because the exposure time cannot exceed a frame period";
-    throw UsageError(message.str());
+    throw UsageError(printed(
+        "synthetic sequence: blur = %g, allowed: 0 to %g px, the image motion per frame on path %s in %d x %d px, "
+        "because the exposure time cannot exceed a frame period",
+        options.blur, std::floor(100.0 * motion) / 100.0, options.path.c_str(), options.width, options.height));
   }
   return options.blur / motion;
 }
@@ -165,10 +162,9 @@ SyntheticSequence::SyntheticSequence(const SyntheticOptions& options) {
   check(options);
   implementation_ = std::make_unique<Implementation>(options);
   if (const int longest = implementation_->path.longest(); options.frames > longest) {
-    std::ostringstream range;
-    range << "1 to " << longest << " on path " << options.path << " in the scene " << options.scene
-          << ", whose lane is " << implementation_->scene.lane.length << " m long";
-    require(false, "frames", options.frames, range.str().c_str());
+    const std::string range = printed("1 to %d on path %s in the scene %s, whose lane is %g m long", longest,
+                                      options.path.c_str(), options.scene.c_str(), implementation_->scene.lane.length);
+    require(false, "frames", options.frames, range.c_str());
   }
 }
 

@@ -48,7 +48,7 @@ class DeviceArgument {
   /// Runs `work(Device&)` without the GIL and without any other work on the device.
   template <class Work>
   auto run(const Work& work) {
-    const nb::gil_scoped_release released;
+    const ReleasedGil released;
     const std::lock_guard<std::mutex> alone(shared_->in_use);
     return work(shared_->device);
   }

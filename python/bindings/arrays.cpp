@@ -38,7 +38,8 @@ Eigen::Isometry3d transform_from(const nb::object& object, const std::string& na
       matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
     throw DataError(name +
                     ": found a matrix that is not a rigid transform (its rotation deviates from orthonormality by " +
-                    std::to_string(deviation) + "), expected a rotation and a translation above the row 0 0 0 1");
+                    nb::cast<std::string>(nb::str(nb::float_(deviation))) +
+                    "), expected a rotation and a translation above the row 0 0 0 1");
   }
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.linear() = rotation;

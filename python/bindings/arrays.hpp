@@ -118,7 +118,7 @@ nb::object pixels_of(const Make& make) {
   auto* image = new Image;
   const nb::capsule owner(image, [](void* pointer) noexcept { delete static_cast<Image*>(pointer); });
   {
-    const nb::gil_scoped_release released;
+    const ReleasedGil released;
     *image = make();
   }
   return pixels_of(*image, owner);

@@ -3,13 +3,15 @@
 
 #include <nanobind/nanobind.h>
 
+#include "released_gil.hpp"
+
 namespace quadedge::python {
 
 namespace nb = nanobind;
 using namespace nb::literals;
 
 /// For functions that neither take nor return Python objects.
-constexpr auto kReleasesGil = nb::call_guard<nb::gil_scoped_release>();
+constexpr auto kReleasesGil = nb::call_guard<ReleasedGil>();
 
 void bind_devices(nb::module_& module);
 void bind_configuration(nb::module_& module);

@@ -37,7 +37,7 @@ void bind_frames(nb::module_& module) {
       .def("__next__", [](FramePrefetcher& self) {
         std::optional<Frame> frame;
         {
-          const nb::gil_scoped_release released;
+          const ReleasedGil released;
           frame = self.next();
         }
         if (!frame) throw nb::stop_iteration();
@@ -55,7 +55,7 @@ Dataset open_layout(const std::filesystem::path& path, const std::string& sequen
   options.calibration = files_of(calibration);
   options.fov = fov;
   options.mask = files_of(mask);
-  const nb::gil_scoped_release released;
+  const ReleasedGil released;
   return open_dataset(path.string(), options);
 }
 
@@ -74,7 +74,7 @@ Dataset open_source(nb::handle left, nb::handle right, nb::handle video, const s
   source.times = files_of(times);
   source.first_frame = first_frame;
   source.last_frame = last_frame;
-  const nb::gil_scoped_release released;
+  const ReleasedGil released;
   return open_stereo_source(source);
 }
 

@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "arguments.hpp"
+#include "quadedge/threads.hpp"
 
 namespace quadedge::python {
 
@@ -19,7 +20,7 @@ std::string device_choice(nb::handle device) {
 DeviceArgument::DeviceArgument(nb::handle device) {
   if (nb::try_cast(device, shared_) && shared_ != nullptr) return;
   const std::string choice = device_choice(device);
-  const nb::gil_scoped_release released;
+  const ReleasedGil released;
   own_.reset(new SharedDevice{Device(choice), {}});
   shared_ = own_.get();
 }
@@ -46,7 +47,7 @@ void bind_devices(nb::module_& module) {
           "__init__",
           [](SharedDevice* self, nb::handle device) {
             const std::string choice = device_choice(device);
-            const nb::gil_scoped_release released;
+            const ReleasedGil released;
             new (self) SharedDevice{Device(choice), {}};
           },
           nb::arg("choice").none() = "auto", nb::sig("def __init__(self, choice: str | int = 'auto') -> None"),
@@ -55,6 +56,9 @@ void bind_devices(nb::module_& module) {
           "Raises DeviceError, which lists the devices, when none matches; TypeError for anything but str and int.")
       .def_prop_ro("info", [](const SharedDevice& self) { return self.device.info(); });
 
+  module.def("limit_threads", &limit_threads, "count"_a,
+             "At most ``count`` threads for the library's loops and for OpenCL on CPUs (PoCL, Intel's runtime). To be called\n"
+             "before the first device is opened. Results do not depend on it. Raises UsageError for a number below 1.");
   module.def("devices", &list_devices,
              "All OpenCL devices in a fixed order; empty without a driver or without libOpenCL.so.1.\n\n"
              "Raises DeviceError in a process that was forked after OpenCL had been used.");

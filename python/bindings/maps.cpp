@@ -25,7 +25,7 @@ class LoadedMap {
   Localisation localise(nb::handle left, nb::handle right, std::int64_t stamp_ns) {
     const ImageArgument left_image(left, "the left image", max_value_of(rig_));
     const ImageArgument right_image(right, "the right image", max_value_of(rig_));
-    const nb::gil_scoped_release released;
+    const ReleasedGil released;
     const std::lock_guard<std::mutex> alone(in_use_);
     return localiser_->locate({stamp_ns, left_image.view(), right_image.view()});
   }
@@ -38,12 +38,12 @@ class LoadedMap {
       : map_(std::move(map)), rig_(rig.is_none() ? map_.rig() : rig_of(rig)) {
     if (rig.is_none() && map_.is_undistorted())
       throw UsageError("the images of the map had lens distortion: expected rig=, the cameras of the frames to locate");
-    const nb::gil_scoped_release released;
+    const ReleasedGil released;
     device_ = std::make_unique<Device>(device);
     localiser_ = std::make_unique<Localiser>(map_, rig_, *device_, config, follow);
   }
   static SavedMap read(const std::filesystem::path& path) {
-    const nb::gil_scoped_release released;
+    const ReleasedGil released;
     return read_map(path.string());
   }
 

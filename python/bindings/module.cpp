@@ -42,6 +42,7 @@ NB_MODULE(_quadedge, module) {
   using namespace quadedge::python;
   module.doc() = "The compiled part of quadedge. Use the names in the package quadedge instead.";
   translate_errors();
+  wait_for_work_at_exit();
   bind_devices(module);
   bind_configuration(module);
   bind_cameras(module);

@@ -312,7 +312,7 @@ void bind_details(nb::module_& module) {
 MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::handle right) {
   const ImageArgument left_image(left, "the left image", self.max_value());
   const ImageArgument right_image(right, "the right image", self.max_value());
-  const nb::gil_scoped_release released;
+  const ReleasedGil released;
   return self.track({stamp_ns, left_image.view(), right_image.view()});
 }
 
@@ -370,7 +370,7 @@ void bind_odometry(nb::module_& module) {
             const StereoRig cameras = rig_of(rig);
             const std::string choice = device_choice(device);
             const Config constants = make_config(preset, config);
-            const nb::gil_scoped_release released;
+            const ReleasedGil released;
             new (self) Odometry(cameras, choice, constants, loops);
           },
           "rig"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default", "config"_a = nb::none(),

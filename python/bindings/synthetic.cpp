@@ -18,7 +18,7 @@ int checked(const RenderedSequence& self, int frame) {
 
 FramePrefetcher::Frame render(const RenderedSequence& self, int frame) {
   frame = checked(self, frame);
-  const nb::gil_scoped_release released;
+  const ReleasedGil released;
   return self.pair(frame);
 }
 
@@ -28,7 +28,7 @@ nb::object depth(const RenderedSequence& self, int frame, const std::string& sid
   auto* view = new RenderedView;
   const nb::capsule owner(view, [](void* pointer) noexcept { delete static_cast<RenderedView*>(pointer); });
   {
-    const nb::gil_scoped_release released;
+    const ReleasedGil released;
     *view = self.render(frame, side == "left" ? Side::left : Side::right);
   }
   return nb::cast(ArrayView<float>(

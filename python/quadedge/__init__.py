@@ -33,7 +33,8 @@ _COMPILED = (
     "FrameWarning", "Localisation", "Map", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "ResultFiles", "Rig",
     "RigEvidence", "Search", "StereoEdges", "StereoFilter", "Synthetic", "Tap", "TemporalFilter", "Trajectory",
     "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image", "detect_edges", "devices",
-    "evaluate_trajectory", "match", "open_dataset", "open_stereo_source", "presets", "read_grey_image", "synthetic",
+    "evaluate_trajectory", "limit_threads", "match", "open_dataset", "open_stereo_source", "presets", "read_grey_image",
+    "synthetic",
 )  # fmt: skip
 
 __all__ = [*_ERRORS, *_COMPILED, "__version__", "evaluate_matching"]

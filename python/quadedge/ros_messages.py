@@ -45,63 +45,6 @@ def quaternion(rotation: numpy.ndarray) -> numpy.ndarray:
     return -q if q[3] < 0 else q
 
 
-def _cross(v: numpy.ndarray) -> numpy.ndarray:
-    """The matrix of the cross product with v."""
-    return numpy.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-
-
-def _moved(covariance: numpy.ndarray, rotation: numpy.ndarray, lever: numpy.ndarray) -> numpy.ndarray:
-    """A covariance (6, 6) of translation and rotation for a point at ``lever`` [m], along rotated axes."""
-    jacobian = numpy.zeros((6, 6))
-    jacobian[:3, :3] = jacobian[3:, 3:] = rotation
-    jacobian[:3, 3:] = -rotation @ _cross(lever)
-    return jacobian @ covariance @ jacobian.T
-
-
-def of_base(pose: numpy.ndarray, covariance: numpy.ndarray | None, base_from_camera: numpy.ndarray) -> tuple:
-    """The pose (4, 4) of the base in the frame of its first pose, and its covariance (6, 6), from the camera's."""
-    camera_from_base = numpy.linalg.inv(base_from_camera)
-    moved = base_from_camera @ pose @ camera_from_base
-    if covariance is None:
-        return moved, None
-    return moved, _moved(covariance, base_from_camera[:3, :3], pose[:3, :3] @ camera_from_base[:3, 3])
-
-
-def _velocity(motion: numpy.ndarray, seconds: float) -> numpy.ndarray:
-    """The constant twist (6), linear then angular, that makes a motion (4, 4) in this time."""
-    x, y, z, w = quaternion(motion[:3, :3])
-    axis = numpy.array([x, y, z])
-    sine = numpy.linalg.norm(axis)
-    angle = 2 * numpy.arctan2(sine, w)
-    turn = _cross(axis * (angle / sine if sine > 1e-12 else 2.0))
-    second = (1 / 12 if angle < 1e-4 else (1 - angle / 2 / numpy.tan(angle / 2)) / angle**2)
-    linear = (numpy.eye(3) - turn / 2 + second * turn @ turn) @ motion[:3, 3]
-    return numpy.concatenate([linear, [turn[2, 1], turn[0, 2], turn[1, 0]]]) / seconds
-
-
-def twist_between(before, now, base_from_camera: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray] | None:
-    """The twist (6) of the base between two results, in its own axes, and its covariance (6, 6).
-
-    None where no measurement connects them. Errors that both poses share count twice, so that the covariance is rather
-    too large.
-    """
-    reference = now.diagnostics.covariance_in_reference
-    if before is None or not before.is_tracked or before.segment != now.segment or reference is None:
-        return None
-    if not before.new_key_rig:
-        if before.reference_frame != now.reference_frame or before.diagnostics.covariance_in_reference is None:
-            return None
-        reference = reference + before.diagnostics.covariance_in_reference
-    seconds = (now.stamp_ns - before.stamp_ns) / 1e9
-    if seconds <= 0:
-        return None
-    camera_from_base = numpy.linalg.inv(base_from_camera)
-    motion = base_from_camera @ numpy.linalg.inv(before.world_from_left) @ now.world_from_left @ camera_from_base
-    in_camera = _moved(reference, now.current_from_reference[:3, :3], numpy.zeros(3))
-    covariance = _moved(in_camera, base_from_camera[:3, :3], camera_from_base[:3, 3])
-    return _velocity(motion, seconds), covariance / seconds**2
-
-
 def header(stamp: int, frame: str):
     """A std_msgs/Header. stamp: [ns]."""
     types = message_store().types
@@ -115,14 +58,25 @@ def odometry_message(stamp: int, frame: str, child_frame: str, pose: numpy.ndarr
     vector, (velocity, velocity_covariance) = types["geometry_msgs/msg/Vector3"], twist or (numpy.zeros(6), UNKNOWN)
     return types["nav_msgs/msg/Odometry"](
         header(stamp, frame), child_frame,
-        types["geometry_msgs/msg/PoseWithCovariance"](
-            types["geometry_msgs/msg/Pose"](
-                types["geometry_msgs/msg/Point"](*map(float, pose[:3, 3])),
-                types["geometry_msgs/msg/Quaternion"](*map(float, quaternion(pose[:3, :3])))),
-            numpy.ascontiguousarray(UNKNOWN if covariance is None else covariance, float).reshape(36)),
+        _pose(pose, UNKNOWN if covariance is None else covariance),
         types["geometry_msgs/msg/TwistWithCovariance"](
             types["geometry_msgs/msg/Twist"](vector(*map(float, velocity[:3])), vector(*map(float, velocity[3:]))),
             numpy.ascontiguousarray(velocity_covariance, float).reshape(36)))
+
+
+def pose_message(stamp: int, frame: str, pose: numpy.ndarray, covariance: numpy.ndarray):
+    """A geometry_msgs/PoseWithCovarianceStamped of a pose (4, 4) and its covariance (6, 6)."""
+    types = message_store().types
+    return types["geometry_msgs/msg/PoseWithCovarianceStamped"](header(stamp, frame), _pose(pose, covariance))
+
+
+def _pose(pose: numpy.ndarray, covariance: numpy.ndarray):
+    types = message_store().types
+    return types["geometry_msgs/msg/PoseWithCovariance"](
+        types["geometry_msgs/msg/Pose"](
+            types["geometry_msgs/msg/Point"](*map(float, pose[:3, 3])),
+            types["geometry_msgs/msg/Quaternion"](*map(float, quaternion(pose[:3, :3])))),
+        numpy.ascontiguousarray(covariance, float).reshape(36))
 
 
 def transforms_message(stamp: int, transforms: list[tuple[str, str, numpy.ndarray]]):

@@ -15,16 +15,28 @@ _UPPER_TRIANGLE = [(i, j) for i in range(6) for j in range(i, 6)]
 
 
 @dataclass
+class RunDiagnostics:
+    """Those attributes of FrameDiagnostics that a twist is made of."""
+
+    base_frame: int
+    covariance_in_reference: numpy.ndarray | None  #: (6, 6) [m, rad]
+
+
+@dataclass
 class RunFrame:
     """One frame in frames.csv and poses.csv; the attributes that FrameResult has, too, have the same meaning."""
 
     stamp_ns: int
     status: str
     segment: int
+    reference_frame: int
     new_key_rig: bool
+    ambiguous_motion: bool
     world_from_left: numpy.ndarray | None  #: (4, 4) [m]
     predicted_world_from_left: numpy.ndarray | None  #: (4, 4) [m], of a lost frame
     covariance: numpy.ndarray | None  #: (6, 6) of world_from_left [m, rad], within the segment
+    current_from_reference: numpy.ndarray | None  #: (4, 4) [m]
+    diagnostics: RunDiagnostics
     counts: dict[str, float]
     times_ms: dict[str, float]
     message: str
@@ -43,15 +55,17 @@ def _rows(file: Path) -> list[dict[str, str]]:
     return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
 
-def _pose(row: dict[str, str]) -> numpy.ndarray:
-    pose = numpy.eye(4)
-    pose[:3, :3] = rotations(numpy.array([[float(row[name]) for name in ("qx", "qy", "qz", "qw")]]))[0]
-    pose[:3, 3] = [float(row[name]) for name in "xyz"]
+def _pose(row: dict[str, str], prefix: str = "") -> numpy.ndarray | None:
+    texts = [row[prefix + name] for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
+    if not all(texts):
+        return None
+    pose, values = numpy.eye(4), numpy.array([float(text) for text in texts])
+    pose[:3, :3], pose[:3, 3] = rotations(values[None, 3:])[0], values[:3]
     return pose
 
 
-def _covariance(row: dict[str, str]) -> numpy.ndarray | None:
-    texts = {(i, j): row[f"covariance_{_AXES[i]}_{_AXES[j]}"] for i, j in _UPPER_TRIANGLE}
+def _covariance(row: dict[str, str], prefix: str = "") -> numpy.ndarray | None:
+    texts = {(i, j): row[f"{prefix}covariance_{_AXES[i]}_{_AXES[j]}"] for i, j in _UPPER_TRIANGLE}
     if not all(texts.values()):
         return None
     covariance = numpy.empty((6, 6))
@@ -79,11 +93,14 @@ def read_frames(folder: str | PathLike) -> list[RunFrame]:
     rows = []
     for frame, pose in zip(frames, poses):
         try:
+            key_from_current = _pose(pose, "reference_")
             rows.append(RunFrame(
-                _stamp_ns(frame["stamp_s"]), frame["status"], int(frame.get("segment", 0)), frame["new_key_rig"] == "1",
+                _stamp_ns(frame["stamp_s"]), frame["status"], int(frame.get("segment", 0)),
+                int(pose.get("reference_frame", -1)), frame["new_key_rig"] == "1", frame.get("ambiguous_motion") == "1",
                 *((None, _pose(pose)) if frame["status"].startswith("lost") else (_pose(pose), None)),
-                _covariance(pose), {name: float(frame[name]) for name in _COUNTS}, _times(frame),
-                frame["warning"] or frame["message"]))
+                _covariance(pose), None if key_from_current is None else numpy.linalg.inv(key_from_current),
+                RunDiagnostics(int(pose.get("base_frame", -1)), _covariance(pose, "reference_")),
+                {name: float(frame[name]) for name in _COUNTS}, _times(frame), frame["warning"] or frame["message"]))
         except (KeyError, ValueError) as error:
             raise DataError(f"{folder}: row {len(rows)} of frames.csv or poses.csv is damaged ({error}), expected "
                             "those of `quadedge run`") from error

@@ -9,12 +9,18 @@ from pathlib import Path
 
 import numpy
 
+from .errors import UsageError
+
+_RESULTS = ("frames.csv", "poses.csv", "trajectory.txt", "report.json", "config.toml")
+
 
 def add_session_options(parser: argparse.ArgumentParser) -> None:
     """Adds the options that a Session takes."""
     parser.add_argument("-o", "--output", metavar="OUT", help="results folder, with the files of `quadedge run`")
     parser.add_argument("--force", action="store_true", help="replace results in OUT")
     parser.add_argument("--device", default="auto", help="auto, cpu, gpu, reference, an index, or a part of a name")
+    parser.add_argument("--threads", type=int, metavar="N",
+                        help="threads to compute with at most, here and in OpenCL on CPUs; default: all")
     parser.add_argument("--preset", default="default", help="fast, default or dense")
     parser.add_argument("--config", metavar="FILE", help="a configuration file (TOML)")
     parser.add_argument("--loops", action="store_true", help="recognise places and close loops")
@@ -33,6 +39,24 @@ def stopped_by_signals() -> Iterator[list[int]]:
             signal.signal(number, handler)
 
 
+def check_session_options(options: argparse.Namespace) -> None:
+    """Limits the threads. Raises UsageError, DataError or DeviceError for options that a Session would refuse."""
+    from . import Device, configuration, limit_threads
+
+    if options.threads is not None:
+        limit_threads(options.threads)
+    configuration(options.preset, options.config)
+    Device(options.device)
+    if not options.output:
+        return
+    if Path(options.output).is_file():
+        raise UsageError(f"{options.output}: found a file, expected a folder for results")
+    found = [name for name in _RESULTS if (Path(options.output) / name).exists()]
+    if found and not options.force:
+        raise UsageError(f"{options.output}: the folder holds results ({found[0]}); choose another folder with -o, or "
+                         "replace them with --force")
+
+
 class Session:
     """An Odometry and its results. say: called with a sentence for the user.
 
@@ -42,6 +66,7 @@ class Session:
     def __init__(self, rig, name: str, options: argparse.Namespace, say, output: str | None = None):
         from . import Odometry
 
+        self.rig = rig
         self.odometry = Odometry(rig, options.device, options.preset, options.config, loops=options.loops)
         output, self._files = output or options.output, None
         if output:
@@ -66,7 +91,9 @@ class Session:
             self._say(f"warning: frame {self.frames}: {warning.text}")
         if not result.is_tracked and (last is None or last.status != result.status):
             self._say(f"warning: frame {self.frames}: lost: {result.message}")
-        if last is not None and last.segment != result.segment and not result.warnings:
+        if result.ambiguous_motion and not (last is not None and last.ambiguous_motion):
+            self._say(f"warning: frame {self.frames}: {result.message}")
+        elif last is not None and last.segment != result.segment and not result.warnings:
             self._say(f"warning: frame {self.frames}: {result.message}")
         self.frames += 1
 

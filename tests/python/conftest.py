@@ -41,6 +41,26 @@ def frames(room):
 
 
 @pytest.fixture(scope="session")
+def boarded():
+    """A rendered room, and twelve of its frames as (left, right): in the fourth to the ninth a board that moves covers
+    more than half of the view, like a bus.
+    """
+    import numpy
+    import quadedge
+
+    room, pairs = quadedge.synthetic(frames=12, width=320, height=200), []
+    squares = numpy.random.default_rng(3).integers(30, 226, (30, 60)).astype(numpy.uint8)
+    board, columns = numpy.kron(squares, numpy.ones((12, 12), numpy.uint8)), numpy.arange(40, 232)
+    for number, frame in enumerate(room):
+        images = [frame.left.copy(), frame.right.copy()]
+        for image, disparity in zip(images, (0, 24)):
+            if 3 <= number <= 8:
+                image[:, columns] = board[:200, columns + 60 + disparity + 3 * number]
+        pairs.append(tuple(images))
+    return room, pairs
+
+
+@pytest.fixture(scope="session")
 def room_folder(command, tmp_path_factory) -> Path:
     """The same room as a recording on disk."""
     folder = tmp_path_factory.mktemp("room") / "room"

@@ -15,6 +15,8 @@ rosbags = pytest.importorskip("rosbags", reason="rosbags is not installed: quade
 
 import quadedge.bag  # noqa: E402
 from bags import KINDS, BagWriter  # noqa: E402
+from quadedge.estimates import Estimates  # noqa: E402
+from quadedge.run_frames import read_frames  # noqa: E402
 
 
 def poses(source, frames):
@@ -252,14 +254,75 @@ def test_invalid_recordings_are_refused(room, frames, tmp_path):
         open_bag(bag.path, left="/a/left/image_raw")
 
 
-def test_odometry_is_written_with_covariance(room, tmp_path):
+def made_up_result(stamp: int, **values):
+    nothing = SimpleNamespace(base_frame=0, covariance_in_reference=None)
+    return SimpleNamespace(stamp_ns=stamp, is_tracked=True, segment=0, reference_frame=0, ambiguous_motion=False,
+                           new_key_rig=False, diagnostics=nothing, **values)
+
+
+def messages_of(folder) -> list:
     from rosbags.highlevel import AnyReader
 
+    with AnyReader([folder]) as reader:
+        return [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+
+
+@pytest.mark.parametrize("size", [(100, 320), (200, 318)])
+def test_images_of_another_size_are_named(room, frames, size, tmp_path):
+    with BagWriter(tmp_path / "room", "mcap") as bag:
+        write_infos(bag, room.rig)
+        for stamp, frame in enumerate(frames[:3], 1):
+            right = frame.right if stamp < 3 else frame.right[:size[0], :size[1]]
+            bag.image("/stereo/left/image_raw", stamp, frame.left)
+            bag.image("/stereo/right/image_raw", stamp, right)
+    words = (f"/stereo/right/image_raw at 3 ns: found {size[1]} x {size[0]} pixels of uint8, expected 320 x 200 pixels "
+             "of uint8, as in the first frame")
+    with pytest.raises(quadedge.DataError, match=words):
+        list(quadedge.bag.open_bag(bag.path))
+
+
+def test_stamps_of_zero_are_told(room, frames, tmp_path):
+    with BagWriter(tmp_path / "room", "mcap") as bag:
+        write_infos(bag, room.rig)
+        for frame in frames:
+            bag.image("/stereo/left/image_raw", 0, frame.left)
+            bag.image("/stereo/right/image_raw", 0, frame.right)
+    assert quadedge.bag.open_bag(bag.path).has_recorded_stamps
+    call = [sys.executable, "-m", "quadedge.bag", bag.path]
+    done = subprocess.run(call, capture_output=True, text=True)
+    assert done.returncode == 0 and "warning: the stamps of all images are 0: the times of recording" in done.stderr
+    done = subprocess.run([*call, "--tolerance", "nan"], capture_output=True, text=True)
+    assert done.returncode == 2 and "found nan, expected a finite number" in done.stderr
+
+
+def test_odometry_of_ambiguous_frames_is_unknown_or_withheld(boarded, command, tmp_path):
+    room, pairs = boarded
+    with quadedge.Odometry(room, preset="fast") as odometry:
+        files = quadedge.ResultFiles(tmp_path / "run", odometry, "room")
+        results = [odometry.track(100 * number, *pair) for number, pair in enumerate(pairs)]
+        for result in results:
+            files.add(result)
+        files.finish()
+    flagged = [number for number, result in enumerate(results) if result.ambiguous_motion]
+    assert len(flagged) >= 2
+    for name, tracked in (("results", results), ("files", read_frames(tmp_path / "run"))):
+        quadedge.bag.write_mcap(tmp_path / name, tracked)
+        for number, message_ in enumerate(messages_of(tmp_path / name)):
+            unknown = [part.covariance[0] == 1e6 for part in (message_.pose, message_.twist)]
+            assert unknown == [True, True] if number in flagged else number > flagged[0] or not unknown[0]
+        quadedge.bag.write_mcap(tmp_path / f"{name} withheld", tracked, withhold_ambiguous=True)
+        assert len(messages_of(tmp_path / f"{name} withheld")) == len(pairs) - len(flagged)
+    for one, other in zip(messages_of(tmp_path / "results"), messages_of(tmp_path / "files"), strict=True):
+        for part in ("pose", "twist"):
+            numpy.testing.assert_allclose(getattr(one, part).covariance, getattr(other, part).covariance, rtol=1e-9)
+        assert one.twist.twist.linear.x == pytest.approx(other.twist.twist.linear.x, rel=1e-6, abs=1e-9)
+
+
+def test_odometry_is_written_with_covariance(room, tmp_path):
     results = poses(room, room)
     file = quadedge.bag.write_mcap(tmp_path / "odometry", results, optical_axes=True)
     assert file.suffix == ".mcap"
-    with AnyReader([tmp_path / "odometry"]) as reader:
-        read = [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+    read, estimates = messages_of(tmp_path / "odometry"), Estimates(numpy.eye(4))
     assert len(read) == len(results)
     assert read[0].header.frame_id == "odom" and read[0].child_frame_id == "left_camera"
     for message_, result in zip(read, results):
@@ -267,7 +330,10 @@ def test_odometry_is_written_with_covariance(room, tmp_path):
         position, turn = message_.pose.pose.position, message_.pose.pose.orientation
         numpy.testing.assert_array_equal([position.x, position.y, position.z], result.world_from_left[:3, 3])
         numpy.testing.assert_array_equal(message_.pose.covariance.reshape(6, 6), result.covariance)
-        assert message_.twist.covariance[0] == 1e6
+        twist = estimates.add(result).twist
+        linear = message_.twist.twist.linear
+        assert [linear.x, linear.y, linear.z] == (list(twist[0][:3]) if twist else [0, 0, 0])
+        assert message_.twist.covariance[0] == (twist[1][0, 0] if twist else 1e6)
         x, y, z, w = turn.x, turn.y, turn.z, turn.w
         numpy.testing.assert_allclose([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
                                       result.world_from_left[:3, 0], atol=1e-12)
@@ -282,7 +348,7 @@ def test_odometry_has_the_axes_of_rep_103(tmp_path):
     pose = numpy.array([[0, 0, -1, -1], [0, 1, 0, -2], [1, 0, 0, 3], [0, 0, 0, 1]], float)  # optical axes
     covariance = numpy.diag([1.0, 2, 3, 4, 5, 6])  # right, down, forward; about them
     covariance[0, 2] = covariance[2, 0] = 0.5  # to the right goes with forward
-    result = SimpleNamespace(stamp_ns=5, is_tracked=True, segment=0, world_from_left=pose, covariance=covariance)
+    result = made_up_result(5, world_from_left=pose, covariance=covariance)
     later = SimpleNamespace(**{**vars(result), "stamp_ns": 6, "segment": 1})
     quadedge.bag.write_mcap(tmp_path / "odometry", [result, later])
     with AnyReader([tmp_path / "odometry"]) as reader:
@@ -300,7 +366,7 @@ def test_odometry_has_the_axes_of_rep_103(tmp_path):
 
 @pytest.mark.parametrize("stamp", [-5, 2**31 * 10**9, 2**63 - 1])
 def test_odometry_with_stamps_that_ros_cannot_hold_is_refused_and_leaves_no_folder(tmp_path, stamp):
-    result = SimpleNamespace(stamp_ns=stamp, is_tracked=True, segment=0, world_from_left=numpy.eye(4), covariance=None)
+    result = made_up_result(stamp, world_from_left=numpy.eye(4), covariance=None)
     with pytest.raises(quadedge.DataError, match=f"found the stamp {stamp} ns, expected 0 to"):
         quadedge.bag.write_mcap(tmp_path / "a" / "b" / "odometry", [result])
     assert list(tmp_path.iterdir()) == []

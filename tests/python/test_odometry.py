@@ -275,6 +275,11 @@ def test_results_and_rigs_can_be_pickled(room, frames, odometry, tmp_path):
     again = pickle.loads(pickle.dumps(rig))
     assert values_of(again) == values_of(rig) and again.max_value == 4095
     deep = [(frame.left.astype(numpy.uint16) * 16, frame.right.astype(numpy.uint16) * 16) for frame in frames[:2]]
+    with quadedge.Odometry(rig) as odometry:
+        too_bright = deep[0][1].copy()
+        too_bright[199, 319] = 4096
+        with pytest.raises(quadedge.DataError, match="right image has a pixel of 4096, the rig expects .* up to 4095"):
+            odometry.track(0, deep[0][0], too_bright)
     poses = []
     for one in (rig, again):  # the undistortion tables belong to a rig, too
         with quadedge.Odometry(one) as odometry:
@@ -344,7 +349,8 @@ LEFT, RIGHT = numpy.zeros((200, 320), numpy.uint8), numpy.zeros((200, 320), nump
     (LEFT[:, ::-1], quadedge.DataError, "the left image has a stride of -1 bytes from pixel to pixel"),
     (numpy.broadcast_to(LEFT[0], LEFT.shape), quadedge.DataError,
      "the left image has a stride of 0 bytes, expected at least the 320 of a row"),
-    (LEFT.astype(numpy.uint16), quadedge.DataError, "pixel values up to 65535, the rig expects values up to 255"),
+    (LEFT.astype(numpy.uint16), quadedge.DataError, "pixel values up to 65535, the rig expects values up to 255: "
+     "state the camera's as max_value of the rig"),
 ])  # fmt: skip
 def test_invalid_images_are_refused(untouched, left, error, words):
     with pytest.raises(error, match=words):

@@ -44,6 +44,18 @@ def results(command, room_folder, tmp_path_factory):
     return folder
 
 
+def test_results_of_a_program_that_tracks_live(room, frames, tmp_path):
+    with quadedge.Odometry(room, preset="fast") as odometry:
+        files = quadedge.ResultFiles(tmp_path / "live", odometry, "domain 5: /cam/left")
+        for frame in frames:
+            files.add(odometry.track(frame.stamp_ns, frame.left, frame.right))
+        files.finish()
+    done = view(tmp_path / "live", "--save", tmp_path / "live.rrd")
+    assert done.returncode == 0 and "frames     6" in done.stdout, done.stderr
+    assert "images and edges are not shown: the images came from a camera or another program" in done.stderr
+    rerun_command("rrd", "verify", tmp_path / "live.rrd")
+
+
 def test_results_from_the_shell(results, tmp_path):
     file = tmp_path / "room.rrd"
     call = [sys.executable, "-m", "quadedge.view", results, "--save", file]

@@ -5,9 +5,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 #include <set>
-#include <sstream>
 
 #include "common/calibration.hpp"
+#include "common/printed.hpp"
 #include "data/file_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -77,9 +77,7 @@ YAML::Node node_of(const cv::FileNode& from) {
 }
 
 std::string metres(const Eigen::Vector3d& position) {
-  std::ostringstream text;
-  text << "(" << position.x() << ", " << position.y() << ", " << position.z() << ") m";
-  return text.str();
+  return printed("(%g, %g, %g) m", position.x(), position.y(), position.z());
 }
 
 std::string first_entries(const CalibrationText& text) {

@@ -2,8 +2,7 @@
 /// points from the previous camera to this one, or T_cam_imu (from the IMU to the camera), or T_imu_cam, which OpenVINS
 /// writes instead. The first two cameras are used, left first.
 
-#include <sstream>
-
+#include "common/printed.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 
@@ -23,9 +22,9 @@ void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& ov
   const Eigen::Isometry3d rest = chain.inverse() * over_imu;
   const double metres = rest.translation().norm(), radians = Eigen::AngleAxisd(rest.linear()).angle();
   if (metres <= kTolerance && radians <= kTolerance) return;
-  std::ostringstream found;
-  found << "a transform that differs from the one via the IMU by " << metres << " m and " << radians << " rad";
-  right.complain("T_cn_cnm1", found.str(), "T_cam_imu of cam1 times the inverse of cam0's: is the order right?");
+  const std::string found =
+      printed("a transform that differs from the one via the IMU by %g m and %g rad", metres, radians);
+  right.complain("T_cn_cnm1", found, "T_cam_imu of cam1 times the inverse of cam0's: is the order right?");
 }
 
 }  // namespace

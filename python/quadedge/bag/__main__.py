@@ -38,6 +38,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--optical-axes", action="store_true",
                         help="write odometry of the left camera with optical axes (x right, y down, z forward) instead "
                              "of base_link with those of REP 103 (x forward, y left, z up)")
+    parser.add_argument("--withhold-ambiguous", action="store_true",
+                        help="write no odometry of frames with an ambiguous motion; by default with variances of 1e6")
     parser.add_argument("--device", help="auto, cpu, gpu, reference, an index, or a part of a name")
     parser.add_argument("--preset", help="fast, default, dense or paper")
     parser.add_argument("--config", metavar="FILE", help="a configuration file (TOML)")
@@ -92,6 +94,9 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
                          restarts=options.restarts, rectified=options.rectified)
     print(f"recording  {recording.name}\nleft       {recording.topics.left}\nright      {recording.topics.right}\n"
           f"frames     {recording.pairing}", flush=True)
+    if recording.has_recorded_stamps:
+        print("quadedge.bag: warning: the stamps of all images are 0: the times of recording replace them, which vary "
+              "with the load of the recorder", file=sys.stderr)
     if options.output is None:
         next(iter(recording))  # images and camera_info that a run would refuse are refused here, too
         if recording.has_calibration:
@@ -101,7 +106,7 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
     code = _run_program(recording, options, more)
     if code in (0, _TOO_FEW_TRACKED):
         file = write_mcap(Path(options.output) / "odometry", read_frames(options.output),
-                          optical_axes=options.optical_axes)
+                          optical_axes=options.optical_axes, withhold_ambiguous=options.withhold_ambiguous)
         print(f"odometry   {file}")
     return code
 

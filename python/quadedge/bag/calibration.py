@@ -44,6 +44,11 @@ def write_calibration(folder: Path, infos: tuple, rectified: bool) -> tuple[Path
     return files
 
 
+def given_rig(calibration: str, max_value: int = 255) -> Rig:
+    """The rig of --calibration FILE[,FILE]. max_value: of a saturated pixel. Raises DataError."""
+    return Rig.from_file(tuple(calibration.split(",")) if "," in calibration else calibration, max_value=max_value)
+
+
 def rig_of(infos: tuple, names: list[str], rectified: bool, max_value: int) -> Rig:
     """The rig described by two CameraInfo messages. max_value: of a saturated pixel.
 

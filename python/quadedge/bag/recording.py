@@ -31,6 +31,7 @@ class Recording:
     """A stereo recording, opened by open_bag(). Iterating yields a BagFrame per pair of images, in order of time.
 
     name: its paths. topics: the topics of both cameras. pairing: which images form pairs, and which were dropped.
+    has_recorded_stamps: True if all stamps of the headers are zero, so that the times of recording replace them.
     """
 
     def __init__(self, paths: Sequence[Path], topics: StereoTopics, calibration, tolerance_ns: int,
@@ -39,7 +40,7 @@ class Recording:
         self._paths = paths
         self._may_go_back = sort_stamps or restarts
         self._calibration = calibration
-        self._recorded_stamps = False
+        self.has_recorded_stamps: bool = False
         with self._reader() as reader:
             kinds = {connection.topic: connection.msgtype for connection in reader.connections}
             self.topics: StereoTopics = find_topics(kinds, self.name, topics)
@@ -93,8 +94,8 @@ class Recording:
         for topic, recorded_ns, message in self._messages(reader, (self.topics.left, self.topics.right)):
             stamps[topic].append(stamp_ns(message))
             recorded[topic].append(recorded_ns)
-        self._recorded_stamps = not any(stamps[self.topics.left]) and not any(stamps[self.topics.right])
-        chosen = recorded if self._recorded_stamps else stamps
+        self.has_recorded_stamps = not any(stamps[self.topics.left]) and not any(stamps[self.topics.right])
+        chosen = recorded if self.has_recorded_stamps else stamps
         if not self._may_go_back:
             for topic, list_ns in chosen.items():
                 self._refuse_falling(topic, list_ns)
@@ -156,7 +157,7 @@ class Recording:
         wanted = {(self.topics.left, left) for left, _ in pairs} | {(self.topics.right, right) for _, right in pairs}
         waiting: dict[tuple[str, int], object] = {}
         place = {self.topics.left: -1, self.topics.right: -1}
-        turn = 0
+        turn, shapes = 0, None
         with self._reader() as reader:
             for topic, _, message in self._messages(reader, (self.topics.left, self.topics.right)):
                 place[topic] += 1
@@ -167,9 +168,21 @@ class Recording:
                     left, right = (self.topics.left, pairs[turn][0]), (self.topics.right, pairs[turn][1])
                     if left not in waiting or right not in waiting:
                         break
-                    yield self._frame(waiting.pop(left), waiting.pop(right), self._left_ns[left[1]],
-                                      turn in self.pairing.restarts)
+                    frame = self._frame(waiting.pop(left), waiting.pop(right), self._left_ns[left[1]],
+                                        turn in self.pairing.restarts)
+                    shapes = self._same_shapes(frame, shapes)
+                    yield frame
                     turn += 1
+
+    def _same_shapes(self, frame: BagFrame, expected: list | None) -> list:
+        """Shapes and types of both images. Raises DataError for others than those of the first frame."""
+        found = [(image.shape, image.dtype) for image in (frame.left, frame.right)]
+        for topic, one, other in zip((self.topics.left, self.topics.right), found, expected or found):
+            if one != other:
+                words = [f"{width} x {height} pixels of {kind}" for (height, width), kind in (one, other)]
+                raise DataError(f"{self.name}: {topic} at {frame.stamp_ns} ns: found {words[0]}, expected "
+                                f"{words[1]}, as in the first frame")
+        return found
 
     def _frame(self, left, right, stamp_ns: int, starts_segment: bool) -> BagFrame:
         return BagFrame(stamp_ns, grey_image(left, f"{self.name}: {self.topics.left} at {stamp_ns} ns"),

@@ -1,10 +1,11 @@
 """Finds the topics of the two cameras in a recording."""
 
 import argparse
+import math
 import re
 from dataclasses import dataclass
 
-from .. import DataError
+from .. import DataError, UsageError
 
 TOLERANCE_NS = 5_000_000
 IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
@@ -15,6 +16,13 @@ _SIDES = (("left", "right"), ("cam0", "cam1"), ("cam_0", "cam_1"), ("camera0", "
           ("infra1", "infra2"), ("image_0", "image_1"), ("fisheye1", "fisheye2"), ("camera1", "camera2"),
           ("stereo_l", "stereo_r"), ("Infrared_1", "Infrared_2"), ("Fisheye_1", "Fisheye_2"))
 _NO_GREY = re.compile(r"depth|disparity|compressedDepth|theora|mask|label")
+
+
+def _milliseconds(text: str) -> float:
+    value = float(text)
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number from 0 on")
+    return value
 
 
 def add_topic_options(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +36,7 @@ def add_topic_options(parser: argparse.ArgumentParser) -> None:
                         help="the images are rectified: P of camera_info describes them, not K and D")
     parser.add_argument("--calibration", metavar="FILE[,FILE]",
                         help="calibration to use instead of camera_info; one file, or left and right")
-    parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
+    parser.add_argument("--tolerance", type=_milliseconds, default=TOLERANCE_NS / 1e6, metavar="MS",
                         help="largest difference between the stamps of a pair [ms]; default: %(default)g")
 
 
@@ -96,9 +104,12 @@ def find_topics(kinds: dict[str, str], name: str, given: StereoTopics = StereoTo
     """Finds the two cameras among the topics of a recording.
 
     kinds: message type by topic. name: of the recording, for error messages. given: the topics chosen by the user;
-    of the images both or neither. Raises DataError if there is no pair of cameras or more than one.
+    of the images both or neither. Raises DataError if there is no pair of cameras or more than one, UsageError for one
+    topic as both.
     """
     left, right = given.left, given.right
+    if left and left == right:
+        raise UsageError(f"{name}: found {left} as the topic of both cameras, expected two")
     if bool(left) != bool(right):
         raise DataError(f"{name}: found one image topic, expected both, left and right, or neither")
     if left:

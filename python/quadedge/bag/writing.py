@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy
 
 from .. import DataError, Trajectory
-from ..ros_messages import BODY_FROM_OPTICAL, message_store, odometry_message, of_base
-
+from ..estimates import Estimates
+from ..ros_messages import BODY_FROM_OPTICAL, message_store, odometry_message
 
 _STAMP_END = 2**31 * 1_000_000_000  # builtin_interfaces/Time has 31 bits for seconds from 0
 
@@ -30,7 +30,7 @@ def write_tum(path: str | PathLike, results: Iterable) -> None:
 
 
 def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odometry", frame: str = "odom",
-               child_frame: str | None = None, optical_axes: bool = False) -> Path:
+               child_frame: str | None = None, optical_axes: bool = False, withhold_ambiguous: bool = False) -> Path:
     """Writes a ROS 2 recording (a folder with metadata.yaml and an .mcap file) of ``nav_msgs/Odometry``.
 
     results: from Odometry.track(). There is one message per tracked frame, with the pose of ``child_frame`` in
@@ -39,9 +39,13 @@ def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odom
     (REP 105). With ``optical_axes`` both frames have the axes of the camera (x right, y down, z forward), and
     ``child_frame`` is "left_camera" unless given.
 
-    The twist is unknown, and so are the covariances of all segments after the first, whose place in ``frame`` is not
-    measured: their variances are 1e6. Returns the path of the .mcap file. Raises DataError if the folder exists or
-    cannot be written and for stamps that ROS's messages cannot hold, ImportError without rosbags.
+    The twist is the velocity of ``child_frame`` along its own axes [m/s, rad/s], from the motion since the frame
+    before. What is not known has variances of 1e6: pose and twist of frames with ``ambiguous_motion``, poses that were
+    measured from such a frame, those of all segments after the first, and twists after a loss. withhold_ambiguous:
+    writes no message of a frame with ``ambiguous_motion``.
+
+    Returns the path of the .mcap file. Raises DataError if the folder exists or cannot be written and for stamps that
+    ROS's messages cannot hold, ImportError without rosbags.
     """
     store = message_store()
     from rosbags.rosbag2 import StoragePlugin, Writer, WriterError
@@ -49,22 +53,23 @@ def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odom
     folder = Path(folder)
     if folder.exists():
         raise DataError(f"{folder}: the file or folder exists, expected a new folder")
-    tracked = _tracked(results)
-    for result in tracked:
+    results = list(results)
+    for result in _tracked(results):
         if not 0 <= result.stamp_ns < _STAMP_END:
             raise DataError(f"{folder}: found the stamp {result.stamp_ns} ns, expected 0 to {_STAMP_END - 1} ns, the "
                             "times of ROS")
     child_frame = child_frame or ("left_camera" if optical_axes else "base_link")
-    base_from_camera = numpy.eye(4) if optical_axes else BODY_FROM_OPTICAL
+    estimates = Estimates(numpy.eye(4) if optical_axes else BODY_FROM_OPTICAL)
     try:
         with Writer(folder, version=8, storage_plugin=StoragePlugin.MCAP) as writer:
             kind = "nav_msgs/msg/Odometry"
             connection = writer.add_connection(topic, kind, typestore=store)
-            for result in tracked:
-                # No measurement connects the pose in a later segment with the origin of the frame.
-                known = result.covariance if result.segment == 0 else None
-                message = odometry_message(result.stamp_ns, frame, child_frame,
-                                           *of_base(result.world_from_left, known, base_from_camera))
+            for result in results:
+                estimate = estimates.add(result)
+                if estimate is None or (withhold_ambiguous and result.ambiguous_motion):
+                    continue
+                message = odometry_message(result.stamp_ns, frame, child_frame, estimate.pose, estimate.covariance,
+                                           estimate.twist)
                 writer.write(connection, result.stamp_ns, store.serialize_cdr(message, kind))
     except (WriterError, OSError) as error:
         raise DataError(f"{folder}: the recording cannot be written ({error})") from error

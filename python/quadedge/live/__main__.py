@@ -4,7 +4,7 @@ import argparse
 import signal
 import sys
 
-from ..session import Session, add_session_options, say_on_stderr
+from ..session import Session, add_session_options, check_session_options, say_on_stderr
 from ..shell import exit_code
 from . import KINDS, open_camera
 
@@ -39,12 +39,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _line(result) -> str:
     x, y, z = result.pose_or_prediction[:3, 3]
-    return f"{result.status:20} {x:8.3f} {y:8.3f} {z:8.3f} m  {result.timing.latency_ms:6.1f} ms  {result.message}"
+    status = "ambiguous" if result.ambiguous_motion else result.status
+    return f"{status:20} {x:8.3f} {y:8.3f} {z:8.3f} m  {result.timing.latency_ms:6.1f} ms  {result.message}"
 
 
 def _run(options: argparse.Namespace) -> None:
     say, given = say_on_stderr("quadedge.live"), vars(options)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    check_session_options(options)
     camera = open_camera(options.kind, **{name: given[name] for name in _OPTIONS if given.get(name)})
     session = viewer = None
     try:

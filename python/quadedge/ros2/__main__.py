@@ -4,7 +4,6 @@ import argparse
 import sys
 
 from ..bag.topics import add_topic_options
-from ..errors import UsageError
 from ..session import add_session_options, say_on_stderr, stopped_by_signals
 from ..shell import exit_code
 
@@ -12,11 +11,14 @@ _HELP = """\
 Tracks the images of two topics of ROS 2 (sensor_msgs/Image or CompressedImage, and CameraInfo) and publishes:
 
   /quadedge/odometry  nav_msgs/Odometry of every tracked pair
-  /tf                 odom to base_link; with --loops map to odom
+  /tf                 odom to base_link; with --loops or --map map to odom
   /diagnostics        status, reason of a loss, latency and dropped pairs, once a second
   /quadedge/edges     with --cloud, sensor_msgs/PointCloud2
+  /quadedge/map_pose  with --map, geometry_msgs/PoseWithCovarianceStamped of every located pair
 
-A std_msgs/Empty on /quadedge/reset starts again at the origin. The domain is that of ROS_DOMAIN_ID. Ctrl-C ends it."""
+A std_msgs/Empty on /quadedge/reset starts again at the origin, as does the service of this name. The services
+/quadedge/save_map and /quadedge/load_map write and read maps; all are std_srvs/srv/Trigger. The domain is that of
+ROS_DOMAIN_ID. Ctrl-C ends it."""
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -29,9 +31,17 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--base-from-camera", metavar="X,Y,Z,ROLL,PITCH,YAW",
                         help="where the left camera is mounted [m, rad]; by default what /tf_static says of the frame "
                              "of its images")
+    parser.add_argument("--gravity", metavar="X,Y,Z",
+                        help="where things fall in the axes of the base in the first pair, as 0.1,0,-9.8: levels "
+                             "odom, as REP 105 asks; by default odom has the axes of the base in the first pair")
+    parser.add_argument("--use-sim-time", action="store_true", help="stamp diagnostics with the time of /clock")
     for name, frame in (("base", "base_link"), ("odom", "odom"), ("map", "map")):
         parser.add_argument(f"--{name}-frame", default=frame, metavar="FRAME", help="default: %(default)s")
     parser.add_argument("--no-tf", action="store_true", help="publish no /tf, where a filter does")
+    parser.add_argument("--withhold-ambiguous", action="store_true",
+                        help="publish nothing of pairs with an ambiguous motion; by default with variances of 1e6")
+    parser.add_argument("--map", metavar="FILE", help="locate pairs in a saved map, and publish map to odom")
+    parser.add_argument("--save-map", metavar="FILE", help="where the service /quadedge/save_map writes, with --loops")
     parser.add_argument("--cloud", action="store_true", help="publish the edges of every tracked pair as points")
     add_session_options(parser)
     return parser
@@ -39,19 +49,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(options: argparse.Namespace) -> None:
     from .domain import Domain
-    from .mount import mount_of
-    from .node import Node, Waiting, given_rig
+    from .node import Node
+    from .options import check_options
+    from .waiting import awaited_topics
 
-    if wrong := [remap for remap in options.remap
-                 if remap.count(":=") != 1 or not all(part.startswith("/") for part in remap.split(":="))]:
-        raise UsageError(f"--remap: found '{wrong[0]}', expected two topics, as /quadedge/odometry:=/odom")
-    if options.calibration:
-        given_rig(options.calibration)
-    if options.base_from_camera:
-        mount_of(options.base_from_camera)
+    check_options(options)
     say, domain = say_on_stderr("quadedge.ros2"), Domain()
     with stopped_by_signals() as stopped:
-        found = Waiting(domain, options, say).topics(stopped)
+        found = awaited_topics(domain, options, say, stopped)
         if found:
             topics, kinds = found
             say(f"left {topics.left}, right {topics.right}")

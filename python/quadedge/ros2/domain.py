@@ -24,7 +24,7 @@ try:
 except ImportError as error:
     raise ImportError("quadedge.ros2 needs cyclonedds; `pip install cyclonedds rosbags` installs it") from error
 
-_BASES = {"bool": bool, "byte": idl_types.uint8, "char": idl_types.uint8, "float32": idl_types.float32,
+BASES = {"bool": bool, "byte": idl_types.byte, "char": idl_types.uint8, "float32": idl_types.float32,
           "float64": idl_types.float64, "string": str,
           **{f"{sign}int{bits}": getattr(idl_types, f"{sign}int{bits}") for sign in ("", "u")
              for bits in (8, 16, 32, 64)}}  # fmt: skip
@@ -43,7 +43,7 @@ def _field_type(field: tuple):
     """The type of IDL of a field, as rosbags describes it: a base, a name, an array or a sequence."""
     node, content = field
     if node.name == "BASE":
-        return _BASES[content[0]]
+        return BASES[content[0]]
     if node.name == "NAME":
         return message_type(content)
     element = _field_type(content[0])
@@ -73,12 +73,21 @@ def _qualities(reliable: bool, latched: bool, depth: int) -> Qos:
                Policy.History.KeepLast(depth), Policy.DataRepresentation(use_cdrv0_representation=True))
 
 
+def taken(reader: DataReader) -> list:
+    """What a reader has got since the last call, in order."""
+    return [sample for sample in reader.take(_MOST) if not isinstance(sample, InvalidSample)]
+
+
+def _condition(reader: DataReader) -> ReadCondition:
+    return ReadCondition(reader, ViewState.Any | SampleState.NotRead | InstanceState.Any)
+
+
 class Subscription:
     """The messages of a topic."""
 
     def __init__(self, reader: DataReader):
         self._reader = reader
-        self.condition = ReadCondition(reader, ViewState.Any | SampleState.NotRead | InstanceState.Any)
+        self.condition = _condition(reader)
 
     @property
     def publishers(self) -> int:
@@ -87,7 +96,7 @@ class Subscription:
 
     def samples(self) -> list:
         """What has come since the last call, in order: objects with ``message`` and ``sample_info``."""
-        return [sample for sample in self._reader.take(_MOST) if not isinstance(sample, InvalidSample)]
+        return taken(self._reader)
 
     def take(self) -> list:
         """The messages that have come since the last call, in order."""
@@ -132,6 +141,7 @@ class Domain:
                              "a CYCLONEDDS_URI that Cyclone DDS accepts") from error
         self._publications = BuiltinDataReader(self._participant, BuiltinTopicDcpsPublication)
         self._waits = WaitSet(self._participant)
+        self._conditions: list[ReadCondition] = []
         self._topics: dict[str, Topic] = {}
 
     def _topic(self, name: str, kind: str) -> Topic:
@@ -154,6 +164,16 @@ class Domain:
         """Writes a topic, reliably."""
         writer = DataWriter(self._participant, self._topic(name, kind), _qualities(True, latched, depth))
         return Publisher(writer, kind)
+
+    @property
+    def participant(self) -> DomainParticipant:
+        """That of DDS, for readers and writers of topics that are none of ROS."""
+        return self._participant
+
+    def wake_for(self, reader: DataReader) -> None:
+        """Has wait() end for samples of a reader, too."""
+        self._conditions.append(_condition(reader))
+        self._waits.attach(self._conditions[-1])
 
     def wait(self, seconds: float) -> bool:
         """Waits for a message of a subscription. False if none has come in this time."""

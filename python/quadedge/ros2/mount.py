@@ -30,6 +30,24 @@ def mount_of(text: str) -> numpy.ndarray:
     return _pose(turn, (x, y, z)) @ BODY_FROM_OPTICAL
 
 
+def levelled(text: str) -> numpy.ndarray:
+    """The pose (4, 4) in a levelled frame, z up, of axes in which gravity points along "X,Y,Z": the shortest turn.
+
+    Raises UsageError for anything but three numbers that are not all zero.
+    """
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+        length = numpy.linalg.norm((x, y, z))
+        if not 0 < length < numpy.inf:
+            raise ValueError
+    except ValueError:
+        raise UsageError(f"--gravity: found '{text}', expected three numbers, X,Y,Z, not all of them 0") from None
+    up = -numpy.array([x, y, z]) / length
+    # The half-way quaternion between up and z; opposite ones are turned about x.
+    turn = (1.0, 0.0, 0.0, 0.0) if up[2] < -1 + 1e-9 else (up[1], -up[0], 0.0, 1 + up[2])
+    return _pose(turn, (0.0, 0.0, 0.0))
+
+
 class StaticFrames:
     """The frames of /tf_static."""
 

@@ -9,6 +9,11 @@ from ..run_frames import read_frames
 from .viewer import Viewer
 
 
+# Why the images of a run are not in files, by the format in report.json.
+_NOT_STORED = {"pipe": "the images came from a pipe", "synthetic": "the images were rendered",
+               "live": "the images came from a camera or another program"}  # fmt: skip
+
+
 class Run:
     """The results folder of ``quadedge run``.
 
@@ -28,7 +33,8 @@ class Run:
         return content["input"]
 
     def open_recording(self, data: str | PathLike | None = None):
-        """The Dataset that was tracked; None if it cannot be read again (a pipe, rendered images).
+        """The Dataset that was tracked; None if it cannot be read again (a pipe, a camera, rendered
+        images).
 
         data: the recording, if it has moved since the run. Raises DataError for a recording that cannot be read.
         """
@@ -39,12 +45,11 @@ class Run:
         for name in ("fps", "fov"):
             if name in options:
                 options[name] = float(options[name])
-        if data is None and kind in ("pipe", "synthetic"):
-            self.why_no_recording = {"pipe": "the images came from a pipe",
-                                     "synthetic": "the images were rendered"}[kind]  # fmt: skip
+        if data is None and kind in _NOT_STORED:
+            self.why_no_recording = _NOT_STORED[kind]
             return None
         if kind not in ("images", "video"):
-            format = "auto" if kind in ("pipe", "synthetic") else kind
+            format = "auto" if kind in _NOT_STORED else kind
             cameras = {name: options[name] for name in ("calibration", "fov", "mask") if name in options}
             return open_dataset(source["path"] if data is None else data, format=format, **cameras)
         if data is not None:
@@ -89,8 +94,8 @@ def show_results(folder: str | PathLike, viewer: Viewer, *, images: bool = True,
     """Shows a results folder of ``quadedge run`` and returns the number of frames.
 
     Path, key rigs, counts and times come from the files in the folder. With ``images`` the recording is tracked again
-    to show its edges and quads, unless it came from a pipe or was rendered. data: the recording, if it has moved since
-    the run. device: as in Odometry.
+    to show its edges and quads, unless it came from a pipe or a camera
+    or was rendered. data: the recording, if it has moved since the run. device: as in Odometry.
 
     Raises DataError for a folder without results and for a recording that cannot be read.
     """

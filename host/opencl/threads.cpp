@@ -1,0 +1,23 @@
+#include "quadedge/threads.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <tbb/global_control.h>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+
+void limit_threads(int count) {
+  if (count < 1) throw UsageError("threads: found " + std::to_string(count) + ", expected 1 or more");
+  static std::unique_ptr<tbb::global_control> limit;
+  limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                static_cast<std::size_t>(count));
+  const std::string text = std::to_string(count);
+  // PoCL up to version 3, PoCL from version 4 on, Intel's OpenCL for CPUs.
+  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT", "CL_CONFIG_CPU_TBB_NUM_WORKERS"})
+    setenv(name, text.c_str(), 1);
+}
+
+}  // namespace quadedge

@@ -1,0 +1,11 @@
+#pragma once
+/// \file threads.hpp  How many threads this process computes with.
+
+namespace quadedge {
+
+/// At most `count` threads for the library's loops and for OpenCL on CPUs (PoCL, Intel's runtime), by TBB's global
+/// control and by the environment variables that these runtimes read when they start: to be called before the first
+/// Device and before other threads start. Results do not depend on it. \throws UsageError for a number below 1
+void limit_threads(int count);
+
+}  // namespace quadedge
