@@ -27,7 +27,7 @@ class EdgeSample {
   void thin();
 
   std::vector<Point> points_;
-  std::size_t per_frame_ = 800;
+  std::size_t per_frame_ = 2500;
   int frames_ = 0;
 };
 

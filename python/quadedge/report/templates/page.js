@@ -39,7 +39,7 @@ for (const table of document.querySelectorAll(".scroll")) {
     const cross = (a, b) => [0, 1, 2].map((i) => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
     const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     const eye = unit([-0.5, -0.75, 0.45]), right = unit(cross([0, 0, 1], eye)), up = cross(eye, right);
-    const high = 0.9 * Math.tan(Math.PI / 8), wide = high * place.clientWidth / place.clientHeight;
+    const high = 1.05 * Math.tan(Math.PI / 8), wide = high * place.clientWidth / place.clientHeight;
     let distance = 0;
     for (let corner = 0; corner < 8; ++corner) {
       const at = [x, y, z].map((length, axis) => (corner >> axis & 1 ? 0.5 : -0.5) * length);
