@@ -33,17 +33,15 @@ TEST_CASE("run: writes every documented file", "[cli][device]") {
   const auto& run = shared_run();
   INFO(run.result.err);
   REQUIRE(run.result.code == 0);
-  for (const char* name :
-       {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "poses.csv", "report.json", "config.toml", "edges.csv",
-        "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
+  for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "poses.csv", "report.json",
+                           "config.toml", "edges.csv", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
     INFO(name);
     CHECK(fs::file_size(run.out(name)) > 0);
   }
   CHECK_FALSE(fs::exists(run.out("pictures/edges_000001.png")));
 }
 
-TEST_CASE("run: the summary has the path length, the mean error and the next command, in ten lines",
-          "[cli][device]") {
+TEST_CASE("run: the summary has the path length, the mean error and the next command, in ten lines", "[cli][device]") {
   const TemporaryFolder folder;
   const auto result = run_program({"run", small_sequence(), "-o", folder / "my results"});
   REQUIRE(result.code == 0);

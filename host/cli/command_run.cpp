@@ -47,8 +47,7 @@ class RunCommand : public Command {
   }
 
   int run() override {
-    if (run_.draw_every < 0)
-      throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 or more");
+    if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 or more");
     if (run_.thumbnails < 0)
       throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");

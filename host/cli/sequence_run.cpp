@@ -117,6 +117,12 @@ double device_peak_mb(const Device& device, const StereoOdometry& odometry) {
   return static_cast<double>(std::max(peak, odometry.device_bytes())) / (1024.0 * 1024.0);
 }
 
+void show_progress(const report::RunRecord& run, int lost, Progress& progress) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
+  progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+}
+
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                   const Interruption& interruption, PointsOutput& points, EdgeSample& sample, RigFile& known,
@@ -162,9 +168,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       if (loops) loops->add(record.result);
       lost += is_tracked(record.result.status) ? 0 : 1;
       run.frames.push_back(std::move(record));
-      char text[64];
-      std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
-      progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+      show_progress(run, lost, progress);
       if (interruption.signal() != 0) break;
     }
   } catch (const DataError&) {

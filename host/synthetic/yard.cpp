@@ -1,5 +1,5 @@
-/// \file yard.cpp  The scene "yard". Its frame: x right, y down, z along the walkway; the origin is the start of the path
-/// "ellipse", at the height of a handheld camera.
+/// \file yard.cpp  The scene "yard". Its frame: x right, y down, z along the walkway; the origin is the start of the
+/// path "ellipse", at the height of a handheld camera.
 #include <iterator>
 #include <utility>
 #include <vector>

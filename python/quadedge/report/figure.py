@@ -75,7 +75,8 @@ class Figure:
             if self.categories:
                 trace |= {"mode": "lines+markers", "marker": {"symbol": symbol, "size": 7}}
         if fill:
-            trace |= {"fill": "tozeroy" if fill == "zero" else "tonexty", "fillcolor": colour + ("30" if style == GREY else "55")}
+            opacity = "30" if style == GREY else "55"
+            trace |= {"fill": "tozeroy" if fill == "zero" else "tonexty", "fillcolor": colour + opacity}
         if times is not None:
             position = "(%{x}, %{y}, %{z})" if spatial else "(%{x}, %{y})"
             trace |= {"customdata": times, "hovertemplate": position + "<br>%{customdata} s"}

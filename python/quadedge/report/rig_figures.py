@@ -15,7 +15,8 @@ TITLES = {"rows": "Rows", "columns": "Columns"}
 
 def rig_table(rig: dict) -> Table:
     """The maps in a few numbers."""
-    table = Table("rig", "Residuals over the right image, rows (vertical) and columns (along the epipolar lines): medians of cells [px]",
+    table = Table("rig", "Residuals over the right image, vertical (rows) and along the epipolar lines (columns): "
+                  "medians of cells [px]",
                   ["", "", "cells", "RMS", "largest", "scatter of single points"], text_columns=2)
     for axis, title in TITLES.items():
         for state, text in STATES.items():
@@ -63,7 +64,8 @@ def right_camera_text(error: dict) -> str:
     """By what the columns are corrected, if rows and motions agree that the right camera is not as calibrated."""
     if not any(error.values()):
         return ""
-    return (f"Vertical residuals and motions agree that the right camera is turned by {error['yaw_deg']:+.3f} degrees of yaw and "
+    return (f"Vertical residuals and motions agree that the right camera is turned by {error['yaw_deg']:+.3f} degrees of "
+            "yaw and "
             f"{error['pitch_deg']:+.3f} of pitch against its calibration, and its lens moves points outwards by "
             f"{1e3 * error['radial_3']:+.1f} r^3 {1e3 * error['radial_5']:+.1f} r^5 thousandths of the focal length "
             "more (r: tangent of the angle from the axis); disparities are corrected by this. ")

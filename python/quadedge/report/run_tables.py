@@ -78,7 +78,7 @@ def segment_tables(accuracy: dict) -> list[Table]:
 def consistency_texts(accuracy: dict) -> list[str]:
     """What NEES is, and what that of the run says."""
     texts = ["NEES, the normalised estimation error squared per degree of freedom, compares each error with its "
-             "predicted covariance: 1 is consistent, below 1 the covariances are larger than the errors (conservative), "
+             "predicted covariance: 1 is consistent; below 1 the covariances are too large (conservative), "
              "above 1 they are too small."]
     steps = accuracy.get("consistency", [])
     value = steps[0]["normalised_error_squared"]["pose"] if steps else None
@@ -90,8 +90,8 @@ def consistency_texts(accuracy: dict) -> list[str]:
                "too small: a filter that uses them trusts the poses too much, so scale the covariances by about "
                f"{significant(value, 2)}")
     frames = steps[0]["frames"]
-    texts.append(f"Over motions of {frames} frame{'s' * (frames > 1)} it is {significant(value, 2)}: these covariances are "
-                 f"{verdict}.")
+    texts.append(f"Over motions of {frames} frame{'s' * (frames > 1)} it is {significant(value, 2)}: these covariances "
+                 f"are {verdict}.")
     ratio = steps[0]["promised_m"] / steps[0]["error_m"] if steps[0]["promised_m"] and steps[0]["error_m"] else 0
     if value <= 1 and ratio > 3:
         texts.append(f"The predicted deviation of the position is {significant(ratio, 2)} times the error, because it "

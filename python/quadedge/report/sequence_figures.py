@@ -74,7 +74,8 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
     unit = length_unit(np.concatenate([path.positions.ravel() for _, path, _, _ in paths]))
     name = unit.name
     labels = {"x": f"x to the right [{name}]", "y": f"-y upward [{name}]", "z": f"z forward [{name}]"}
-    space = Figure(f"{run.name}_trajectory", "Path and edges in space" if len(run.edges) else "Path in space", labels["x"], labels["z"], labels["y"], wide=True)
+    space = Figure(f"{run.name}_trajectory", "Path and edges in space" if len(run.edges) else "Path in space",
+                   labels["x"], labels["z"], labels["y"], wide=True)
     above = Figure(f"{run.name}_from_above", "Path from above", labels["x"], labels["z"], equal_units=True)
     side = Figure(f"{run.name}_from_the_side", "Path from the side", labels["z"], labels["y"], equal_units=True)
     rigs = _at(run.estimate.stamps, _key_rig_stamps(run))
@@ -167,7 +168,8 @@ def _add_predicted(figure: Figure, run: Run, key: str, unit: Unit, points: int, 
     beyond = largest > 0 and top > PREDICTED * largest
     if beyond:
         figure.y_range = (0, PREDICTED * largest)
-    figure.add("predicted standard deviation" + within + (f", up to {significant(top, 2)} {unit.name}" if beyond else ""),
+    up_to = f", up to {significant(top, 2)} {unit.name}" if beyond else ""
+    figure.add("predicted standard deviation" + within + up_to,
                *thinned(stamps - run.start, predicted, points), style=GREY, dash="dot", fill="zero")
 
 
