@@ -60,8 +60,8 @@ def matching_page(content: dict, detail: Detail) -> Page:
 
 def _lead(content: dict) -> str:
     return (f"A match is correct within {content['tolerance_px']:g} px of the true position. Recall: share of the "
-            "edges that still have a correct candidate; precision: correct candidates / all candidates. All terms are below, "
-            "in \"Terms\".")
+            "edges that still have a correct candidate; precision: correct candidates / all candidates. All terms are "
+            "below, in \"Terms\".")
 
 
 def _tiles(pooled: dict) -> list[Tile]:
