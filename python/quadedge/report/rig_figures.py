@@ -65,7 +65,8 @@ def right_camera_text(error: dict) -> str:
     if not any(error.values()):
         return ""
     return ("Vertical residuals and motions agree that the right camera is turned by "
-            f"{error['yaw_deg']:+.3f} degrees of yaw and {error['pitch_deg']:+.3f} of pitch against its calibration, and its lens moves points outwards by "
+            f"{error['yaw_deg']:+.3f} degrees of yaw and {error['pitch_deg']:+.3f} of pitch "
+            "against its calibration, and its lens moves points outwards by "
             f"{1e3 * error['radial_3']:+.1f} r^3 {1e3 * error['radial_5']:+.1f} r^5 thousandths of the focal length "
             "more (r: tangent of the angle from the axis); disparities are corrected by this. ")
 
