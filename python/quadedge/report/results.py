@@ -231,8 +231,10 @@ def read_predicted(file: Path, *, may_be_cut: bool) -> dict[str, tuple[np.ndarra
 
 def read_edges(file: Path) -> np.ndarray:
     """The points of edges.csv (n x 3) [m]. Raises DamagedResults."""
-    columns = read_columns(file)
-    return np.stack([numbers(columns.get(name, []), file) for name in ("x_m", "y_m", "z_m")], 1)
+    columns, names = read_columns(file), ("x_m", "y_m", "z_m")
+    if not set(names) <= set(columns):
+        raise DamagedResults(f"{file}: no column {' or '.join(names)}; expected the edges of a run")
+    return np.stack([numbers(columns[name], file) for name in names], 1)
 
 
 def read_rig_maps(file: Path) -> dict[str, np.ndarray]:
