@@ -2,13 +2,13 @@
 """Draws the picture of the README: stereo edges of a frame beside edges in space and the path so far; animated if there
 are several frames.
 
-    quadedge synth street --scene facade --path drive --frames 103
-    quadedge run street --points street/edges.ply -o street/results
+    quadedge synth yard --scene yard --path drive --frames 103
+    quadedge run yard --points yard/edges.ply -o yard/results
     stamps="$(seq -f %.9f 0.25 0.3 4.9)"
     for stamp in $stamps; do
-      quadedge match street/rgb/$stamp.png street/rgb2/$stamp.png --max-disparity 120 --csv street/edges_$stamp.csv
+      quadedge match yard/rgb/$stamp.png yard/rgb2/$stamp.png --max-disparity 120 --csv yard/edges_$stamp.csv
     done
-    scripts/readme_picture.py street doc/street.webp $stamps
+    scripts/readme_picture.py yard doc/yard.webp $stamps
 
 Needs matplotlib, Pillow and plyfile (tests/requirements.txt).
 Exit code: 0 done, 1 a file is missing or empty, 2 wrong usage.
@@ -28,8 +28,9 @@ from PIL import Image
 from plyfile import PlyData
 
 BACKGROUND, PATH = "#0d1117", "#ffffff"
-WIDTH, HEIGHT, DPI = 16.0, 4.6, 60  # of the picture [inch], pixels per inch
-EYE, TARGET = np.array([13.0, -11.0, -3.0]), np.array([-1.6, -1.0, 16.0])  # of the view on the points [m]
+WIDTH, HEIGHT, DPI = 16.0, 16 / 3, 75  # of the picture [inch], pixels per inch
+EYE, TARGET = np.array([10.0, -10.0, -9.0]), np.array([-0.3, -0.5, 11.0])  # of the view on the points [m]
+FARTHEST = 14  # beside the path [m] that points are shown
 STEP_MS, LAST_MS = 250, 2000  # how long frames of the animation are shown
 
 
@@ -68,6 +69,7 @@ def draw_points(figure, share, points, path, done):
     """The points in space coloured by the distance from the start, and the first `done` poses of the path."""
     axes = figure.add_axes((share, 0, 1 - share, 1))
     axes.axis("off")
+    points = points[np.abs(points[:, 0]) < FARTHEST]
     places, depth = project(points)
     order = np.argsort(-depth)[: np.count_nonzero(depth > 1)]
     axes.scatter(*places[order].T, s=2, c=points[order, 2], cmap="turbo_r", linewidths=0, alpha=0.9)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -33,19 +34,27 @@ TEST_CASE("run: writes every documented file", "[cli][device]") {
   INFO(run.result.err);
   REQUIRE(run.result.code == 0);
   for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "poses.csv", "report.json",
-                           "config.toml", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
+                           "config.toml", "edges.csv", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
     INFO(name);
     CHECK(fs::file_size(run.out(name)) > 0);
   }
   CHECK_FALSE(fs::exists(run.out("pictures/edges_000001.png")));
-  CHECK_THAT(run.result.out, Contains("tracked") && Contains("origin-aligned") && Contains("latency"));
 }
 
-TEST_CASE("run: the summary has the path length and the next command", "[cli][device]") {
+TEST_CASE("run: the summary has the path length, the mean error and the next command, in ten lines", "[cli][device]") {
   const TemporaryFolder folder;
   const auto result = run_program({"run", small_sequence(), "-o", folder / "my results"});
   REQUIRE(result.code == 0);
-  CHECK_THAT(result.out, Contains("next       quadedge report '" + (folder / "my results") + "'"));
+  CHECK(std::count(result.out.begin(), result.out.end(), '\n') <= 10);
+  CHECK_THAT(result.out, Contains("results    " + (folder / "my results/trajectory.txt")));
+  const std::string program = result.out.substr(result.out.find("next       ") + 11);
+  CHECK(program.substr(0, program.find(' ')) == quadedge_program());
+  CHECK_THAT(program, Contains(" report '" + (folder / "my results") + "'"));
+  const auto report = nlohmann::json::parse(read_text(folder / "my results/report.json"));
+  char error[48];
+  std::snprintf(error, sizeof error, "error      %.3g mm and ",
+                1e3 * report["accuracy"]["origin_aligned"]["rpe_translation_m"]["mean"].get<double>());
+  CHECK_THAT(result.out, Contains(error));
   std::istringstream rows(read_text(folder / "my results/trajectory.txt"));
   double length = 0;
   std::array<double, 8> pose{}, before{};

@@ -201,7 +201,7 @@ TEST_CASE("own camera: missing and contradictory options are reported", "[data]"
   CHECK_THAT(complaint(source), Contains("--left and --right go together"));
   source = recording().folders();
   source.calibration.clear();
-  CHECK_THAT(complaint(source), Contains("--calibration FILE is missing"));
+  CHECK_THAT(complaint(source), Contains("with --calibration FILE"));
   source = recording().folders();
   source.video = recording().file("both.mkv");
   CHECK_THAT(complaint(source), Contains("expected one of"));

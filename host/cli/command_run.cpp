@@ -9,6 +9,8 @@
 namespace quadedge::cli {
 namespace {
 
+constexpr int kDrawnOfPipe = 10;  ///< the frame that is drawn where the number of frames is unknown
+
 class RunCommand : public Command {
  public:
   RunCommand()
@@ -26,7 +28,7 @@ class RunCommand : public Command {
     options.text("--name", name_, "name of the recording in the results; default: that of its files", "NAME");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.output("--trace", run_.trace, "write the stages of every frame in Chrome's trace format");
-    options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame");
+    options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame; 0: of the middle frame");
     options.number("--thumbnails", run_.thumbnails, "number of quad thumbnails, spread evenly over the sequence");
     options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
     options.flag("--loops", run_.loops,
@@ -45,8 +47,7 @@ class RunCommand : public Command {
   }
 
   int run() override {
-    if (run_.draw_every < 0)
-      throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 (none) or more");
+    if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 or more");
     if (run_.thumbnails < 0)
       throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
@@ -62,6 +63,10 @@ class RunCommand : public Command {
     const Interruption interruption;
     FrameSource source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());
+    if (run_.draw_every == 0 && run_.thumbnails == 0) {
+      const int frames = source.facts().frames;
+      run_.draw_frame = frames > 0 ? frames / 2 : kDrawnOfPipe;
+    }
     const report::RunRecord record = run_sequence(source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);

@@ -83,30 +83,72 @@ void print_segments(const std::vector<TrajectoryEvaluation>& segments) {
   }
 }
 
-/// Errors beside what was promised of them, over motions of several lengths.
-void print_consistency(const std::vector<evaluation::StepConsistency>& steps) {
-  std::printf(
-      "\nerrors of motions and their standard deviations by the covariances (root mean squares), and normalised error\n"
-      "squared per degree of freedom (1: consistent),");
-  std::printf(" by edge noise alone and with the uncertainty of the rig (pose.rig_sigma_*)\n");
-  std::printf("%-8s %11s %11s %11s %11s %9s %9s\n", "frames", "error [mm]", "predicted", "error [deg]", "predicted",
-              "edges", "with rig");
-  for (const auto& step : steps) {
-    std::printf("%-8d %11.3f %11.3f %11.4f %11.4f %9.2f %9.2f\n", step.frames, 1e3 * step.error_m,
-                1e3 * step.promised_m, step.error_deg, step.promised_deg, step.edges.pose, step.with_rig.pose);
+/// "0.0483 mm": lengths below 10 cm in millimetres.
+std::string length(double metres) {
+  return std::abs(metres) < 0.1 ? dashed("%.3g mm", 1e3 * metres) : dashed("%.3g m", metres);
+}
+
+/// The number of the slowest frame but the first, which is reported by itself.
+std::size_t slowest_frame(const report::RunRecord& run) {
+  std::size_t slowest = std::min<std::size_t>(1, run.frames.size());
+  for (std::size_t i = slowest; i < run.frames.size(); ++i) {
+    if (run.frames[i].result.timing.latency_ms > run.frames[slowest].result.timing.latency_ms) slowest = i;
   }
-  // Over ten times as many frames an error of odometry grows threefold; noise of single poses stays as it is.
-  const auto ten = std::find_if(steps.begin(), steps.end(), [](const auto& step) { return step.frames == 10; });
-  if (steps.front().frames != 1 || ten == steps.end()) return;
-  const bool metres = ten->error_m < 2 * steps.front().error_m, degrees = ten->error_deg < 2 * steps.front().error_deg;
-  if (metres || degrees) {
-    std::printf(
-        "the %s little with the length of the motion: the noise of single poses dominates, including the ground "
-        "truth's\n",
-        metres && degrees ? "errors grow"
-        : metres          ? "translation's error grows"
-                          : "rotation's error grows");
+  return slowest;
+}
+
+void print_time(const report::RunRecord& run) {
+  const report::LatencySummary time = report::latency_summary(run.frames);
+  std::printf("time       %s per frame (median), p99 %s, at most %s in frame %zu\n", milliseconds(time.median).c_str(),
+              milliseconds(time.p99).c_str(), milliseconds(time.max).c_str(), slowest_frame(run));
+  if (run.loops)
+    std::printf("           with loops: median %s, p99 %s\n", milliseconds(run.loops->latency.median).c_str(),
+                milliseconds(run.loops->latency.p99).c_str());
+}
+
+/// Path and loops, and with ground truth the two errors that say most.
+void print_path(const report::RunRecord& run) {
+  std::printf("path       %.3f m (estimated)\n", report::path_length_m(run.frames));
+  if (run.loops) {
+    std::printf("loops      %s kept of %zu compared; %zu frames in the largest of %s\n",
+                data::counted(run.loops->kept, "closure").c_str(), run.loops->compared, run.loops->frames,
+                data::counted(run.loops->segments, "segment").c_str());
   }
+  if (!run.accuracy) return;
+  const PoseErrors& errors = run.accuracy->origin_aligned;
+  std::printf("error      %s and %s per frame (mean), drift %.3f %% of %.3f m; ground truth of %d frames\n",
+              length(errors.rpe_translation_m.mean).c_str(), dashed("%.2g deg", errors.rpe_rotation_deg.mean).c_str(),
+              run.accuracy->end_drift_percent, run.accuracy->path_length_m, run.accuracy->matched);
+}
+
+/// How many frames were tracked, why others were not, and where the trajectory is broken.
+void print_tracked(const report::RunRecord& run) {
+  const int frames = static_cast<int>(run.frames.size());
+  std::printf("tracked    %d of %s\n", run.tracked(), data::counted(frames, "frame").c_str());
+  const std::string lost = report::lost_reasons(run.frames);
+  if (!lost.empty()) std::printf("lost       %s\n", lost.c_str());
+  const std::string segments = report::segments_text(run.frames);
+  if (!segments.empty()) std::printf("broken     %s\n", segments.c_str());
+  if (run.input.dropped > 0) {
+    std::printf("dropped    %s from the pipe, which came faster than they were tracked\n",
+                data::counted(run.input.dropped, "pair").c_str());
+  }
+}
+
+/// How a shell finds this program: as the user typed it.
+std::string program_as_typed() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string program;
+  std::getline(stream, program, '\0');
+  return program.find('/') == std::string::npos ? "quadedge" : data::shell_word(program);
+}
+
+void print_kernel_times(const report::RunRecord& run) {
+  if (run.kernel_times.empty()) return;
+  std::printf("\nkernel times of the profiling pass [ms]\n%-22s %12s %12s\n", "", "median", "p90");
+  for (const auto& stage : report::stage_summary(run.kernel_times))
+    std::printf("%-22s %12.3f %12.3f\n", stage.stage.c_str(), stage.median, stage.p90);
+  std::printf("\n");
 }
 
 }  // namespace
@@ -193,54 +235,21 @@ void note(const std::string& sentence) {
 }
 
 void print_run(const report::RunRecord& run, const std::string& output) {
-  const int frames = static_cast<int>(run.frames.size());
-  int key_rigs = 0;
-  for (const auto& frame : run.frames) key_rigs += frame.result.new_key_rig ? 1 : 0;
   std::printf("sequence   %s (%s), %s of %d x %d\n", visible(run.input.name).c_str(), run.input.format.c_str(),
-              data::counted(frames, "frame").c_str(), run.input.width, run.input.height);
+              data::counted(static_cast<int>(run.frames.size()), "frame").c_str(), run.input.width, run.input.height);
   if (run.config.is_paper()) {
     std::printf("method     the paper's own (doc/paper.md)%s, in C++ on the host\n",
                 run.config.pose.refine ? " with least squares added" : "");
   }
   std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),
               run.device.type.c_str());
-  std::printf("tracked    %d of %s, %s\n", run.tracked(), data::counted(frames, "frame").c_str(),
-              data::counted(key_rigs, "key rig").c_str());
-  const std::string lost = report::lost_reasons(run.frames);
-  if (!lost.empty()) std::printf("lost       %s\n", lost.c_str());
-  const std::string segments = report::segments_text(run.frames);
-  if (!segments.empty()) std::printf("broken     %s\n", segments.c_str());
-  if (run.input.dropped > 0) {
-    std::printf("dropped    %s from the pipe, which came faster than they were tracked\n",
-                data::counted(run.input.dropped, "pair").c_str());
-  }
-  std::printf("path       %.3f m (estimated)\n", report::path_length_m(run.frames));
-  const auto latency = report::latency_summary(run.frames);
-  if (run.loops) {
-    std::printf("loops      %s kept of %zu compared; %zu frames in the largest of %s\n",
-                data::counted(run.loops->kept, "closure").c_str(), run.loops->compared, run.loops->frames,
-                data::counted(run.loops->segments, "segment").c_str());
-    std::printf("           latency with loops: median %s, p99 %s\n", milliseconds(run.loops->latency.median).c_str(),
-                milliseconds(run.loops->latency.p99).c_str());
-  }
-  std::printf("latency    median %s, p90 %s, p99 %s, max %s; first frame %s\n", milliseconds(latency.median).c_str(),
-              milliseconds(latency.p90).c_str(), milliseconds(latency.p99).c_str(), milliseconds(latency.max).c_str(),
-              milliseconds(latency.first).c_str());
-  std::printf("counts    ");
-  for (const auto& [name, value] : report::count_medians(run.frames)) std::printf(" %s %.0f", name.c_str(), value);
-  std::printf(" (medians)\n");
-  std::printf("start      %s, %s of it building programs; some drivers finish a kernel where it runs first\n",
-              milliseconds(run.start_ms).c_str(), milliseconds(run.kernel_build_ms).c_str());
-  std::printf("memory     host %.0f MB, device %.0f MB (peaks)\n", run.host_peak_mb, run.device_peak_mb);
-  if (!run.kernel_times.empty()) {
-    std::printf("\nkernel times of the profiling pass [ms]\n%-22s %12s %12s\n", "", "median", "p90");
-    for (const auto& stage : report::stage_summary(run.kernel_times)) {
-      std::printf("%-22s %12.3f %12.3f\n", stage.stage.c_str(), stage.median, stage.p90);
-    }
-  }
-  if (run.accuracy) print_evaluation(*run.accuracy);
-  if (!run.step_consistency.empty()) print_consistency(run.step_consistency);
-  std::printf("\nresults in %s\nnext       quadedge report %s\n", output.c_str(), data::shell_word(output).c_str());
+  print_tracked(run);
+  print_path(run);
+  print_time(run);
+  print_kernel_times(run);
+  const std::string command = program_as_typed() + " report " + data::shell_word(output);
+  std::printf("results    %s/trajectory.txt (TUM format); report.json has all figures\n", output.c_str());
+  std::printf("next       %s    # makes a page with plots: %s/report.html\n", command.c_str(), output.c_str());
 }
 
 void print_evaluation(const TrajectoryEvaluation& evaluation) {

@@ -5,6 +5,7 @@
 
 #include "benchmark/variant_comparison.hpp"
 #include "cli/console.hpp"
+#include "cli/edge_sample.hpp"
 #include "cli/points_output.hpp"
 #include "cli/rig_file.hpp"
 #include "cli/rig_observation.hpp"
@@ -38,7 +39,7 @@ bool is_thumbnail(int frame, int frames, int count) {
 void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig& rig, const StereoOdometry& odometry,
                 const SequenceRunOptions& options) {
   const bool large =
-      frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
+      options.draw_every > 0 ? frame.number % options.draw_every == 0 : frame.number == options.draw_frame;
   const bool small = is_thumbnail(frame.number, frames, options.thumbnails);
   const bool example = is_thumbnail(frame.number, frames, options.thumbnails > 0 ? 1 : 0);
   if (!large && !small && !example) return;
@@ -114,9 +115,15 @@ double device_peak_mb(const Device& device, const StereoOdometry& odometry) {
   return static_cast<double>(std::max(peak, odometry.device_bytes())) / (1024.0 * 1024.0);
 }
 
+void show_progress(const report::RunRecord& run, int lost, Progress& progress) {
+  const std::string text = printed("%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
+  progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+}
+
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  const Interruption& interruption, PointsOutput& points, RigFile& known, report::RunRecord& run) {
+                  const Interruption& interruption, PointsOutput& points, EdgeSample& sample, RigFile& known,
+                  report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
   bench::add_saved_variants(device, run.config);
@@ -154,11 +161,11 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       report_warnings(record.result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
       points.add(*frame, record.result, odometry);
+      sample.add(odometry, record.result);
       if (loops) loops->add(record.result);
       lost += is_tracked(record.result.status) ? 0 : 1;
       run.frames.push_back(std::move(record));
-      const std::string text = printed("%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
-      progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+      show_progress(run, lost, progress);
       if (interruption.signal() != 0) break;
     }
   } catch (const DataError&) {
@@ -246,10 +253,11 @@ void write_segments(const std::string& folder, const Trajectory& trajectory) {
 }
 
 /// Writes what depends on all frames: accuracy, report.json and the trace.
-void write_results(const FrameSource& source, const SequenceRunOptions& options, const RigFile& known,
-                   report::RunRecord& run) {
+void write_results(const FrameSource& source, const SequenceRunOptions& options, const EdgeSample& sample,
+                   const RigFile& known, report::RunRecord& run) {
   write_segments(options.output, tracked_poses(run));
   evaluate(source, options, run);
+  data::write_atomically(options.output + "/edges.csv", sample.csv());
   if (!run.rig.is_empty()) data::write_atomically(options.output + "/rig_maps.csv", report::rig_maps_csv(run.rig));
   data::write_atomically(options.output + "/report.json", report::report_json(run));
   known.write();
@@ -285,8 +293,9 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   report::check_output_file(options.saved_map, options.force);
   options.points.check(options.force);
   PointsOutput points(options.points, run.config);
+  EdgeSample sample;
   try {
-    track_frames(source, method, options, interruption, points, known, run);
+    track_frames(source, method, options, interruption, points, sample, known, run);
   } catch (const DataError& error) {
     if (run.frames.empty()) throw;
     run.ended_early = error.what();
@@ -295,7 +304,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
                       points.write();
                       run.points = points.facts();
                     },
-                    [&] { write_results(source, options, known, run); }});
+                    [&] { write_results(source, options, sample, known, run); }});
   }
   if (run.frames.empty()) end_if_interrupted(interruption, source);
   points.write();
@@ -306,7 +315,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
     run.ended_early = "interrupted after " + (knows_all ? std::to_string(run.frames.size()) + " of " : "") +
                       data::counted(knows_all ? run.input.frames : static_cast<int>(run.frames.size()), "frame");
   }
-  write_results(source, options, known, run);
+  write_results(source, options, sample, known, run);
   if (interruption.signal() != 0) end_by_signal(interruption, source, options, run);
   return run;
 }

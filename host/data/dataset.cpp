@@ -34,7 +34,9 @@ const Layout& choose(const fs::path& folder, const std::string& format) {
   std::string found;
   for (std::size_t i = 0; i < std::min(entries.size(), kShown); ++i) found += (i ? ", " : "") + entries[i];
   if (entries.size() > kShown) found += ", ...";
-  fail(folder.string(), entries.empty() ? "an empty folder" : found, "one of the layouts " + format_names());
+  fail(folder.string(), entries.empty() ? "an empty folder" : found,
+       "the folder of one recording (your own images: --left, --right and --calibration) in one of the layouts " +
+           format_names());
 }
 
 /// Limits the frames to the half-open range given by the user.

@@ -198,7 +198,8 @@ void check_source(const StereoSource& source) {
   const bool two = !source.left.empty() || !source.right.empty(), one = !source.video.empty();
   if (two + one + source.pipe != 1) throw UsageError("expected one of --left A with --right B, --video F, and -");
   if (two && (source.left.empty() || source.right.empty())) throw UsageError("--left and --right go together");
-  if (source.calibration.empty()) throw UsageError("--calibration FILE is missing: the cameras' calibration");
+  if (source.calibration.empty())
+    throw UsageError("give the calibration of both cameras with --calibration FILE (doc/your-own-data.md)");
   parse_split(source.split);
   if (one && source.split.empty()) throw UsageError("--video needs --split left-right or --split top-bottom");
   if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose images contain both views");

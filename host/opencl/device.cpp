@@ -179,11 +179,12 @@ std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const
 std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) {
     const std::string faults = loader_faults();
-    return "no OpenCL device was found" + (faults.empty() ? ": " : ".\n" + faults) +
+    return "no OpenCL device was found: "
            "`pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
            "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
            "(device=\"reference\" in Python) runs without OpenCL, slowly. PoCL has no devices where it cannot write to "
-           "its cache: set POCL_CACHE_DIR to a writable folder (default: $XDG_CACHE_HOME or ~/.cache, pocl/kcache)";
+           "its cache: set POCL_CACHE_DIR to a writable folder (default: $XDG_CACHE_HOME or ~/.cache, pocl/kcache)" +
+           (faults.empty() ? "" : "\nWhat the loader met: " + faults);
   }
   std::string message = "no OpenCL device matches '" + choice + "'; there are:";
   for (const auto& device : devices) {

@@ -123,6 +123,7 @@ Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
   if (name == "room") return make_room(seed, focal);
   if (name == "cables") return make_cables(seed, focal);
   if (name == "corridor") return make_corridor(seed, focal);
+  if (name == "yard") return make_yard(seed, focal);
   return make_facade(seed, focal);
 }
 

@@ -80,6 +80,10 @@ Scene make_cables(std::uint64_t seed, double focal);
 /// shapes.
 Scene make_facade(std::uint64_t seed, double focal);
 
+/// A walkway between a plain wall and a railing, with wires above it on poles and across to the wall: thin structures
+/// and outlines, hardly any corners.
+Scene make_yard(std::uint64_t seed, double focal);
+
 /// A corridor of 4 x 2.6 x 48 m whose bays of 3 m have equal walls, doors and lamps; only the tiles of floor and
 /// ceiling differ from bay to bay.
 Scene make_corridor(std::uint64_t seed, double focal);

@@ -124,7 +124,7 @@ double exposure_of(const SyntheticOptions& options, const synthetic::CameraPath&
 }  // namespace
 
 const std::vector<std::string>& synthetic_scenes() {
-  static const std::vector<std::string> scenes = {"room", "cables", "facade", "corridor"};
+  static const std::vector<std::string> scenes = {"room", "cables", "facade", "corridor", "yard"};
   return scenes;
 }
 

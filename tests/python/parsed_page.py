@@ -17,6 +17,9 @@ class ParsedPage(HTMLParser):
         self.pictures = 0
         self.plots: list[str] = []
         self.outside: list[str] = []
+        self.links: list[str] = []
+        self.title = ""
+        self.tiles: dict[str, str] = {}  # "value remark" by name
         self.figures: list[dict] = []
         self.text = ""
         self._open: list[str] = []
@@ -30,7 +33,9 @@ class ParsedPage(HTMLParser):
         values = dict(attributes)
         for key in ("src", "href", "action", "srcset", "poster", "data"):
             address = values.get(key, "")
-            if address and not address.startswith(("data:image/", "#")):
+            if tag == "a" and address and not address.startswith("#"):
+                self.links.append(address)  # followed by a reader, not loaded
+            elif address and not address.startswith(("data:image/", "#")):
                 self.outside.append(f"{tag} {key}={address}")
         if tag in ("link", "iframe", "object", "embed"):
             self.outside.append(tag)
@@ -70,6 +75,13 @@ class ParsedPage(HTMLParser):
         if inside == "style":
             return
         self.text += data
+        if inside == "h1":
+            self.title += data
+        if self._open[-3:-1] == ["ul", "li"] and inside == "span":
+            self._tile = data
+            self.tiles[data] = ""
+        elif inside in ("strong", "small") and self._open[-3:-1] == ["ul", "li"]:
+            self.tiles[self._tile] = f"{self.tiles[self._tile]} {data}".strip()
         if "table" in self._open and {"td", "th"} & set(self._open):
             self.tables[self._title][-1][-1] += data
             if self._best and inside == "td":

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -34,6 +35,7 @@ def page_of(path: Path, **options) -> ParsedPage:
     assert len(text.encode()) < LARGEST_PAGE
     page = ParsedPage(text)
     assert page.outside == []
+    assert all(re.fullmatch(r"file://.*/doc/[a-z0-9-]+\.md(#[a-z0-9-]+)?", link) for link in page.links)
     assert "default-src 'none'" in text  # so that the browser refuses network access
     for broken in ("nan", "None", "NaN", "inf", "Undefined"):
         assert broken not in page.text.split()
@@ -118,10 +120,10 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     rows = page.tables["Errors against the ground truth"]
     assert rows[2] == ["", "APE translation", "mm", "50.00", "25.00", "55.00", "150.0"]
     assert rows[4] == ["", "RPE translation", "mm", "4.000", "2.000", "4.400", "12.00"]
-    promises = page.tables["Errors of motions and what their covariances predict, root mean squares"]
+    promises = page.tables["Motions over several frames: RMS of errors and predicted deviations, and NEES"]
     assert promises[0][1] == "position [mm]"
     assert promises[2] == ["5", "7", "20.0", "10.0", "0.100", numbers.DASH, "4.50", "1.20"]
-    assert page.pictures == 3 and "left and right image of frame 6" in page.text
+    assert page.pictures == 3 and "frame 6: left and right image" in page.text
     assert "quads_000009.png: no picture" in page.text
     assert "thumbnail_000007.jpg: no picture" in page.text
     # The estimate drifts sideways by 10 mm per frame and is drawn aligned to the first ground-truth pose.
@@ -133,12 +135,15 @@ def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     assert error["data"][0]["y"][-1] == pytest.approx(0.11)
     assert error["layout"]["yaxis"]["title"]["text"] == "APE translation [m]"
     assert page.figure("rpe_translation")["layout"]["yaxis"]["title"]["text"] == "RPE translation [mm]"
-    stated = next(trace for trace in error["data"] if trace["name"] == "stated by the covariance")
-    assert stated["y"][-1] / error["data"][0]["y"][-1] == pytest.approx(np.sqrt(4e-4 * 11) / 0.11, rel=1e-4)
+    predicted = next(trace for trace in error["data"] if trace["name"] == "predicted standard deviation")
+    assert predicted["y"][-1] / error["data"][0]["y"][-1] == pytest.approx(np.sqrt(4e-4 * 11) / 0.11, rel=1e-4)
+    assert predicted["fill"] == "tozeroy" and "range" not in error["layout"]["yaxis"]
     lost = next(trace for trace in page.figure("quads")["data"] if trace["name"] == "lost frame")
     assert lost["x"] == [pytest.approx(0.7)]
-    spatial = page.figure("_trajectory")["data"][0]
-    assert spatial["type"] == "scatter3d" and len(spatial["z"]) == 12
+    spatial = page.figure("_trajectory")
+    assert spatial["data"][0]["type"] == "scatter3d" and len(spatial["data"][0]["z"]) == 12
+    ratio = spatial["layout"]["scene"]["aspectratio"]
+    assert ratio["y"] == 1 and ratio["x"] == pytest.approx(np.ptp([2 * np.sin(0.3 * i) for i in range(12)]) / 11, 0.1)
     assert content["config_changed"]
 
 
@@ -161,7 +166,88 @@ def test_a_page_lists_reasons_of_lost_frames_and_warnings(tmp_path):
     assert page.tables["Lost frames"][1:] == [["3 to 4", "0.300", "too few edges", "12 stereo edges"],
                                               ["9", "0.900", "too few quads", "4 quads, of 20"]]
     assert "Frame 2: dim images" in page.text and "Frame None" not in page.text
+    assert "Frames 3, 4 lost: too few edges." in page.text and page.text.count("What to do:") == 2  # reasons of losses
     assert "--fps 30 contradicts" in page.text
+
+
+def test_tiles_say_what_matters_most_and_warnings_what_to_do(tmp_path):
+    content = write_run(tmp_path / "street", 12)
+    page = page_of(tmp_path / "street")
+    assert page.title == "Tracking report: street (KITTI)"
+    assert page.tiles == {"Frames tracked": "12 of 12 none lost", "Drift at the end": "1.2 % 0.250 m after 20.0 m",
+                          "Time per frame": "21.0 ms median, 48 frames/s; p99 22.0 ms",
+                          "Warnings": "none nothing unusual"}
+    assert "What to do" not in page.text
+    content["warnings"] = [{"frame": frame, "kind": "static_region", "text": "a bonnet"} for frame in range(2, 10)]
+    content["frames_ambiguous"] = 3
+    del content["accuracy"]
+    content["path_length_m"] = 0.05
+    (tmp_path / "street/report.json").write_text(json.dumps(content))
+    page = page_of(tmp_path / "street")
+    assert page.tiles["Warnings"] == "2 explained below"  # kinds, not frames
+    assert page.tiles["Length of the path"] == "50.0 mm no ground truth to compare"
+    assert "Frames 2, 3, 4, 5, 6 and 3 more: a bonnet" in page.text and "--mask: an image that is black" in page.text
+    assert "In 3 frames the motion may not be" in page.text
+
+
+def test_every_kind_of_warning_and_every_loss_has_advice():
+    from quadedge.report import advice
+
+    header = (Path(report.__file__).parents[3] / "include/quadedge/error.hpp").read_text()
+    kinds = re.findall(r"^  (\w+),\s+///<", header.partition("enum class WarningKind {")[2].partition("};")[0], re.M)
+    assert len(kinds) > 10 and set(kinds) == set(advice.OF_KIND)
+    header = (Path(report.__file__).parents[3] / "include/quadedge/odometry.hpp").read_text()
+    reasons = re.findall(r"^  (lost_\w+),", header.partition("enum class FrameStatus {")[2].partition("};")[0], re.M)
+    assert len(reasons) > 3 and {results.reason_of(reason) for reason in reasons} == set(advice.OF_LOSS)
+
+
+def test_a_band_that_would_flatten_the_errors_is_cut(tmp_path):
+    write_run(tmp_path / "street", 12, drift=0.001)  # 11 mm at the end, where 66 mm are predicted
+    error = page_of(tmp_path / "street").figure("ape_translation")
+    assert error["layout"]["yaxis"]["range"] == [0, pytest.approx(1.5 * 11)]
+    assert "predicted standard deviation, up to 66 mm" in [trace["name"] for trace in error["data"]]
+
+
+def test_slow_frames_are_marked_and_explained(tmp_path):
+    write_run(tmp_path / "street", 40)
+    file = tmp_path / "street/frames.csv"
+    rows = [row.split(",") for row in file.read_text().splitlines()]
+    names = rows[0]
+    for frame, milliseconds in ((1, 160), (20, 170), (30, 180)):
+        rows[1 + frame][names.index("latency_ms")] = str(milliseconds)
+        rows[1 + frame][names.index("temporal_ms")] = str(milliseconds - 15)
+    rows[21][names.index("edges_left")] = "9000"
+    file.write_text("\n".join(map(",".join, rows)) + "\n")
+    page = page_of(tmp_path / "street")
+    assert 'Frame 1 took 160 ms, 145 ms of it in the stage "temporal". OpenCL drivers finish compiling' in page.text
+    assert "Frame 20 took 170 ms" in page.text and "It has 9000 edges; the median is 1020." in page.text
+    assert "Frame 30 took 180 ms" in page.text and "another program may have used the processor" in page.text
+    plot = page.figure("_latency")
+    assert plot["layout"]["yaxis"]["range"] == [0, pytest.approx(1.5 * 22)]
+    marks = next(trace for trace in plot["data"] if trace["name"] == "slower than the plot")
+    assert marks["text"] == ["frame 1: 160 ms", "frame 20: 170 ms", "frame 30: 180 ms"]
+    write_run(tmp_path / "even", 40)
+    page = page_of(tmp_path / "even")
+    assert "range" not in page.figure("_latency")["layout"]["yaxis"] and " took " not in page.text
+
+
+def test_edges_in_space_move_with_the_path_to_the_ground_truth(tmp_path):
+    write_run(tmp_path / "street", 12)
+    positions = [(0.1 * i, -1.0, 2.0 + i) for i in range(200)]
+    rows = [f"{i},{x:.3f},{y:.3f},{z:.3f}" for i, (x, y, z) in enumerate(positions)]
+    (tmp_path / "street/edges.csv").write_text("frame,x_m,y_m,z_m\n" + "\n".join(rows) + "\n")
+    turn = "0 0 0.70710678 0.70710678"  # the ground truth's world is turned about the optical axis
+    truth = tmp_path / "street/groundtruth.txt"
+    truth.write_text("".join(f"{0.1 * i:.9f} 3 1 {i} {turn}\n" for i in range(12)))
+    run = results.read_run(tmp_path / "street")
+    assert run.edges == pytest.approx(np.array(positions), abs=1e-6)  # the first pose with ground truth is the origin
+    cloud = next(trace for trace in page_of(tmp_path / "street").figure("_trajectory")["data"]
+                 if trace["name"].startswith("edges"))
+    assert len(cloud["x"]) == 198  # without the farthest hundredth; at the near end is the path
+    assert cloud["marker"]["color"] == [1.0] * 198  # by height; y points down
+    (tmp_path / "street/edges.csv").write_text("frame,x_m\n1,2\n")
+    with pytest.raises(report.DamagedResults, match="edges.csv"):
+        report.make_page(tmp_path / "street")
 
 
 def test_maps_of_the_rig_have_one_scale_before_and_after(tmp_path):
@@ -175,19 +261,20 @@ def test_maps_of_the_rig_have_one_scale_before_and_after(tmp_path):
     assert [before["zmin"], before["zmax"]] == [after["zmin"], after["zmax"]] == [-0.8, 0.8]
     assert columns["zmax"] == 0.25  # that of a small map
     assert page.figure("rows_before")["layout"]["yaxis"]["range"] == [399.5, -0.5]  # downwards
-    table = next(rows for title, rows in page.tables.items() if title.startswith("Rows and columns"))
+    table = next(rows for title, rows in page.tables.items() if title.startswith("Residuals over the right image"))
     assert table[1] == ["Rows", "calibration as given", "5", "0.40", "-0.80", "0.10"]
     assert "+0.00\u2009\u00b1\u20090.30 px at the start, -0.12\u2009\u00b1\u20090.02 px at the end" in page.text
-    assert "too little, or not clearly enough" in page.text and page.text.count("Nothing beyond their noise") == 1
+    assert "by too little or with too few points" in page.text
+    assert page.text.count("No errors above the noise level") == 1
     assert "turned" not in page.text
     content["rig"]["row_correction_px"] = 0.85
     content["rig"]["right_camera"] = {"yaw_deg": 0.1, "pitch_deg": 0, "radial_3": -0.003, "radial_5": 0}
     (tmp_path / "street/report.json").write_text(json.dumps(content))
     page = page_of(tmp_path / "street")
-    assert "The search allows for up to 0.85 px" in page.text
+    assert "The search corrects rows by up to 0.85 px" in page.text
     assert "turned by +0.100 degrees of yaw" in page.text and "-3.0 r^3" in page.text
     write_rig(tmp_path / "street", 0.01)
-    assert page_of(tmp_path / "street").text.count("Nothing beyond their noise") == 2
+    assert page_of(tmp_path / "street").text.count("No errors above the noise level") == 2
     rows = (tmp_path / "street/rig_maps.csv").read_text().splitlines()
     (tmp_path / "street/rig_maps.csv").write_text("\n".join(rows[:4] + rows[5:]))
     with pytest.raises(report.DamagedResults, match="rig_maps.csv: expected the maps of a run"):
@@ -201,8 +288,8 @@ def test_a_run_without_points_at_new_key_rigs_says_nothing_of_columns(tmp_path):
     content["rig"]["columns"] = {"before": nothing, "after": nothing}
     (tmp_path / "rest/report.json").write_text(json.dumps(content))
     page = page_of(tmp_path / "rest")
-    assert page.text.count("Nothing beyond their noise") == 1
-    assert page.row("Rows and columns of the right image: medians over its cells [px]", "Columns")[2:] == [
+    assert page.text.count("No errors above the noise level") == 1
+    assert page.row(next(title for title in page.tables if title.startswith("Residuals over")), "Columns")[2:] == [
         "0", *[numbers.DASH] * 3]
 
 

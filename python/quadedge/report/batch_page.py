@@ -2,13 +2,15 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
 
 from .error_tables import ALIGNMENTS, ErrorRow, error_table
 from .numbers import difference, length_text, share_of, significant
 from .origin import origin
-from .page import Detail, Facts, Page, Section, Text
+from .page import Detail, Facts, Page, Section, Text, Tile
 from .results import DamagedResults, Errors, Run, aligned, read_json, read_run, read_tum
-from .run_page import LATENCY, NO_PLOTS, picture_blocks, plots
+from .run_page import NO_PLOTS, picture_blocks, plots
+from .run_tables import LATENCY, LATENCY_TITLES
 from .sequence_figures import Other
 from .table import Cell, Table
 
@@ -60,7 +62,7 @@ def read_batch(folder: Path, comparison: Path | None) -> Batch:
 
 def batch_page(batch: Batch, detail: Detail) -> Page:
     """The page of a batch. Damaged sequences are reported, the others shown."""
-    page = Page(f"QuadEdge batch {batch.folder.resolve().name}", _facts(batch))
+    page = Page(f"Batch report: {batch.folder.resolve().name}", _facts(batch), tiles=_tiles(batch.summary))
     page.sections.append(Section("Overview", _overview(batch.summary, batch.compared, batch.sequences)))
     for sequence in batch.sequences:
         page.sections.append(Section(sequence.name, _sequence_blocks(sequence, detail), fold=True,
@@ -97,6 +99,24 @@ def _errors(columns: dict | None) -> Errors | None:
         return None
     texts = {name: ["" if value is None else str(value) for value in values] for name, values in columns.items()}
     return Errors.of(texts, Path("comparison.json"))
+
+
+def _tiles(summary: dict) -> list[Tile]:
+    """Sequences, frames tracked, time per frame, and the drift where there is ground truth."""
+    sequences, everything = summary["sequences"], summary["all"]
+    done = sum(entry["status"] == "done" for entry in sequences)
+    frames, tracked = everything["frames"], everything["frames_tracked"]
+    latency = everything["latency_ms"]
+    tiles = [Tile("Sequences", f"{done} of {len(sequences)}", "done", warns=done < len(sequences)),
+             Tile("Frames tracked", share_of(tracked, frames).partition(" (")[0],
+                  f"{frames - tracked} lost" if tracked < frames else "none lost", warns=tracked < frames),
+             Tile("Time per frame", f"{significant(latency['median'], 3)} ms",
+                  f"median; p99 {significant(latency['p99'], 3)} ms")]
+    drifts = [entry["accuracy"]["end_drift_percent"] for entry in sequences if entry.get("accuracy")]
+    if drifts:
+        tiles.append(Tile("Drift at the end", f"{significant(median(drifts), 2)} %",
+                          f"median of {len(drifts)} sequences; largest {significant(max(drifts), 2)} %"))
+    return tiles
 
 
 def _facts(batch: Batch) -> Facts:
@@ -154,8 +174,7 @@ def _rows_over_all(summary: dict, compared: dict) -> list[ErrorRow]:
 
 def _latency_table(summary: dict, sequences: list[Sequence]) -> Table:
     table = Table("latency", "Tracked frames and latency",
-                  ["sequence", "outcome", "tracked", "key rigs", "median", "90 %", "99 %", "largest",
-                   "first frame"], text_columns=2)
+                  ["sequence", "outcome", "tracked", "key rigs", *LATENCY_TITLES], text_columns=2)
     table.groups = [("", 1), ("", 1), ("", 1), ("", 1), ("latency [ms]", 5)]
     for sequence in sequences:
         entry, baseline = sequence.entry, sequence.compared.get("baseline")

@@ -17,7 +17,8 @@ _SYMBOLS = {"circle": "o", "triangle-up": "^", "x": "x", "square": "s", "diamond
 _SPATIAL_SYMBOLS = ("circle", "square", "diamond", "circle-open", "square-open", "diamond-open", "circle")
 _MATPLOTLIB = {"svg.hashsalt": "quadedge", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
                "grid.alpha": 0.35, "axes.spines.top": False, "axes.spines.right": False}
-_SHORTEST = 0.25  # of the longest axis of a 3D plot
+_SHORTEST = 0.02  # axis of a 3D plot, of the longest, so that a flat path has an axis
+_POINT_SCALE = "Viridis"  # of points that are coloured by a value
 _DIGITS = 5
 FEWEST_FRAMES = 10  # fewer frames are not plotted
 
@@ -53,11 +54,12 @@ class Figure:
     """Of the colour scale."""
 
     def add(self, name: str, x, y, z=None, *, style: int = 0, points: bool = False, fill: str = "", dash: str = "",
-            times: np.ndarray | None = None, hover: list[str] | None = None) -> None:
+            times: np.ndarray | None = None, hover: list[str] | None = None, labels: list[str] | None = None) -> None:
         """Adds a curve, which NaN in y interrupts, or a cloud of points.
 
         style: index of colour, line style and marker. dash: another line style. fill: fills the area down to zero
         ("zero") or to the previous curve ("below"). times: of the points [s], if no axis shows them. hover: texts.
+        labels: texts beside the points.
         """
         spatial, colour = z is not None, COLOURS[style % len(COLOURS)]
         symbol = (_SPATIAL_SYMBOLS if spatial else tuple(_SYMBOLS))[style % len(_SYMBOLS)]
@@ -69,35 +71,37 @@ class Figure:
             trace |= {"mode": "markers", "marker": {"color": colour, "symbol": symbol, "size": 3 if spatial else 6}}
         else:
             line = dash or ("solid" if fill else _DASH_OF_STYLE[style % len(_DASH_OF_STYLE)])
-            trace |= {"mode": "lines", "line": {"color": colour, "dash": line, "width": 4 if spatial else 2}}
+            trace |= {"mode": "lines", "line": {"color": colour, "dash": line, "width": 6 if spatial else 2}}
             if self.categories:
                 trace |= {"mode": "lines+markers", "marker": {"symbol": symbol, "size": 7}}
         if fill:
-            trace |= {"fill": "tozeroy" if fill == "zero" else "tonexty", "fillcolor": colour + "55"}
+            opacity = "30" if style == GREY else "55"
+            trace |= {"fill": "tozeroy" if fill == "zero" else "tonexty", "fillcolor": colour + opacity}
         if times is not None:
             position = "(%{x}, %{y}, %{z})" if spatial else "(%{x}, %{y})"
             trace |= {"customdata": times, "hovertemplate": position + "<br>%{customdata} s"}
+        if labels:
+            trace |= {"mode": "markers+text", "text": labels, "textposition": "bottom right", "hoverinfo": "x+text"}
         if hover:
             trace |= {"text": hover, "hoverinfo": "text+x+y" + ("+z" if spatial else "")}
         self.traces.append(trace)
+
+    def add_cloud(self, name: str, x, y, z, values) -> None:
+        """Adds points in space, each coloured by its value."""
+        axes = dict(zip("xyz", (np.asarray(axis, float) for axis in (x, y, z))))
+        marker = {"color": np.asarray(values, float), "colorscale": _POINT_SCALE, "size": 1.6, "opacity": 0.85}
+        self.traces.append({"name": name, "type": "scatter3d", **axes, "mode": "markers", "marker": marker,
+                            "hoverinfo": "skip"})
 
     @property
     def is_spatial(self) -> bool:
         return any("z" in trace for trace in self.traces)
 
-    def lengths(self, longest: float) -> list[float]:
-        """Lengths of the three axes, at least a quarter of the longest, so that a straight path remains visible."""
-        return [longest * max(share, _SHORTEST) for share in self._shares()]
-
-    def full_title(self) -> str:
-        """The title, with a remark if the axes of space are not to one scale."""
-        distorted = self.is_spatial and min(self._shares()) < _SHORTEST
-        return self.title + (" (axes not to one scale)" if distorted else "")
-
-    def _shares(self) -> list[float]:
+    def shares(self) -> list[float]:
+        """Lengths of the three axes of a plot in space, which have one scale: the longest is 1."""
         extents = [float(np.nanmax(values) - np.nanmin(values)) for values in
                    (np.concatenate([trace[axis] for trace in self.traces]) for axis in "xyz")]
-        return [extent / max(*extents, 1e-9) for extent in extents]
+        return [max(extent / max(*extents, 1e-9), _SHORTEST) for extent in extents]
 
     def _axis(self, axis: str) -> dict:
         limits = getattr(self, f"{axis}_range", None)
@@ -118,11 +122,12 @@ class Figure:
 
     def plotly(self) -> dict:
         """The `data` and `layout` arguments of Plotly.newPlot. The page adds size, fonts and background colours."""
-        layout: dict = {"title": {"text": self.full_title()}}
+        layout: dict = {"title": {"text": self.title}}
         if self.is_spatial:
-            layout["scene"] = {f"{axis}axis": self._axis(axis) for axis in "xyz"} | {
-                "aspectmode": "manual", "aspectratio": dict(zip("xyz", self.lengths(1.4))),
-                "camera": {"eye": {"x": -0.85, "y": -1.5, "z": 0.8}, "center": {"x": 0, "y": 0, "z": -0.12}}}
+            shares = self.shares()
+            layout["scene"] = {"aspectmode": "manual", "aspectratio": dict(zip("xyz", shares))} | {
+                f"{axis}axis": self._axis(axis) | {"nticks": max(2, round(8 * share))}
+                for axis, share in zip("xyz", shares)}
             return {"data": self.traces, "layout": layout}
         if self.cells is not None:
             return {"data": [self._heat_map()], "layout": layout | {axis + "axis": self._axis(axis) for axis in "xy"}}
@@ -152,6 +157,10 @@ def rounded(values: np.ndarray) -> list:
 def _draw(axes, traces: list[dict]) -> None:
     for before, trace in zip([None, *traces], traces):
         line, marker = trace.get("line", {}), trace.get("marker", {})
+        if "colorscale" in marker:
+            axes.scatter(*(trace[axis] for axis in "xyz"), c=marker["color"], s=0.3, label=trace["name"],
+                         cmap=_POINT_SCALE.lower(), rasterized=True)
+            continue
         colour = line.get("color") or marker["color"]
         axes.plot(*(trace[axis] for axis in "xyz" if axis in trace), linewidth=1.4, color=colour, markersize=4,
                   linestyle=_DASHES[line["dash"]] if line else "", label=trace["name"],
@@ -175,10 +184,10 @@ def _draw_cells(picture, axes, figure: Figure) -> None:
 
 
 def _finish(axes, figure: Figure) -> None:
-    axes.set(title=figure.full_title(), xlabel=figure.x_label, ylabel=figure.y_label)
+    axes.set(title=figure.title, xlabel=figure.x_label, ylabel=figure.y_label)
     if figure.is_spatial:
         axes.set_zlabel(figure.z_label)
-        axes.set_box_aspect(figure.lengths(1), zoom=0.85)
+        axes.set_box_aspect(figure.shares(), zoom=0.85)
         axes.locator_params(nbins=4)
         return
     for place, text in figure.markers:

@@ -6,11 +6,11 @@ from .matching_figures import (accuracy_figures, count_distribution_figures, cou
                                disparity_figures, filter_figure, frames_of)
 from .figure import FEWEST_FRAMES
 from .matching_tables import (constraint_table, count_table, disparity_table, filter_table, overview_table, quad_table)
-from .numbers import exists
+from .numbers import exists, percent, significant
 from .origin import device_text, origin
-from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
+from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
 from .results import DamagedResults, read_json
-from .run_page import configuration_table
+from .run_tables import configuration_table
 from .table import Table
 
 MOST_DRAWN = 8  # pairs or sequences
@@ -33,8 +33,9 @@ def matching_page(content: dict, detail: Detail) -> Page:
     """The page of a file of `python -m quadedge.matching --json`."""
     pairs, pooled = content["pairs"], content["pooled"]
     title = pairs[0]["name"] if len(pairs) == 1 else f"{len(pairs)} data sets"
-    page = Page(f"QuadEdge matching: {title}", _facts(content))
-    page.sections.append(Section("Overview", [overview_table(pairs, pooled), *_messages(pairs)]))
+    page = Page(f"Matching report: {title}", _facts(content), lead=_lead(content), tiles=_tiles(pooled))
+    page.sections.append(Section("Overview", [overview_table(pairs, pooled), *_messages(pairs)],
+                                 explained="matching.md"))
     page.sections.append(Section("Tables, pooled" if len(pairs) > 1 else "Tables", summary_tables(pooled, "")))
     figures = [filter_figure("stereo", "Stereo, after every filter", pooled)]
     for side in ("left", "right"):
@@ -51,24 +52,52 @@ def matching_page(content: dict, detail: Detail) -> Page:
     page.sections += _distributions(pooled)
     page.sections += _accuracy(pairs, pooled)
     page.sections += _drawings(content, detail)
-    page.sections.append(Section("Configuration", [configuration_table(content)], fold=True))
+    page.sections.append(_terms(content))
+    page.sections.append(Section("Configuration", [configuration_table(content)], fold=True,
+                                 explained="configuration.md"))
     return page
 
 
+def _lead(content: dict) -> str:
+    return (f"A match is correct within {content['tolerance_px']:g} px of the true position. Recall: share of the "
+            "edges that still have a correct candidate; precision: correct candidates / all candidates. All terms are "
+            "below, in \"Terms\".")
+
+
+def _tiles(pooled: dict) -> list[Tile]:
+    """Stereo edges, then quads, each with recall and precision."""
+    last = (pooled["stereo"] or [{"recall": None, "precision": None}])[-1]
+    tiles = [Tile("Precision of stereo edges", f"{percent(last['precision'], 1)} %",
+                  f"recall {percent(last['recall'], 1)} %")]
+    if "quads" in pooled:
+        quads = pooled["quads"]
+        tiles.append(Tile("Precision of quads", f"{percent(quads['precision'], 1)} %",
+                          f"recall {percent(quads['recall'], 1)} %"))
+    error = pooled["disparity_error_px"]
+    tiles.append(Tile("Error of the disparity", f"{significant(error['median'], 2)} px",
+                      f"median; p90 {significant(error['p90'], 2)} px"))
+    return tiles
+
+
 def _facts(content: dict) -> Facts:
-    facts = origin(content, device_text(content["device"]), ", ".join(content["input"]))
-    return Facts([*facts,
-                  ("Veridical", f"within {content['tolerance_px']:g} px of the true position, where it is visible"),
-                  ("Pool: paired", "edges whose counterpart was detected (the paper's pool): recall starts at 100 % by "
-                                   "construction"),
-                  ("Pool: all", "all edges with ground truth, including those whose counterpart is occluded or was "
+    return Facts(origin(content, device_text(content["device"]), ", ".join(content["input"])))
+
+
+def _terms(content: dict) -> Section:
+    """The words of the tables."""
+    terms = Facts([
+        ("Veridical", f"within {content['tolerance_px']:g} px of the true position, where it is visible"),
+        ("Pool: paired", "edges whose counterpart was detected (the paper's pool): recall starts at 100 % by "
+                         "construction"),
+        ("Pool: all", "all edges with ground truth, including those whose counterpart is occluded or was "
                                 "not detected"),
-                  ("Recall", "share of the pool's edges that still have a veridical candidate"),
-                  ("Precision", "veridical candidates / all candidates"),
-                  ("Per edge", "mean of that ratio over edges that have candidates, as the paper's authors take it"),
-                  ("Ambiguity", "candidates beyond the first, per edge that has any"),
-                  ("Of pool", "the paper's ambiguity: candidates / edges of the pool - 1"),
-                  ("\u00b1", "standard deviation over frames; each pair counts as one")])
+        ("Recall", "share of the pool's edges that still have a veridical candidate"),
+        ("Precision", "veridical candidates / all candidates"),
+        ("Per edge", "mean of that ratio over edges that have candidates, as the paper's authors take it"),
+        ("Ambiguity", "candidates beyond the first, per edge that has any"),
+        ("Of pool", "the paper's ambiguity: candidates / edges of the pool - 1"),
+        ("\u00b1", "standard deviation over frames; each pair counts as one")])
+    return Section("Terms", [terms], fold=True, explained="matching.md")
 
 
 def _messages(pairs: list[dict]) -> list:

@@ -85,7 +85,7 @@ def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
 def disparity_table(name: str, summary: dict) -> Table:
     """Errors of the final stereo edges, and the ground truth of the left edges."""
     table = Table(name, "Final stereo edges against the truth, and what the truth says about the left edges",
-                  ["median", "90 %", "bias", "median", "90 %", "detected", "no statement", "along the line", "occluded",
+                  ["median", "p90", "bias", "median", "p90", "detected", "no statement", "along the line", "occluded",
                    "on depth steps"], text_columns=0)
     table.groups = [("disparity error [px]", 3), ("part across the edge [px]", 2), ("left edges", 5)]
     disparity, across, census = (summary[key] for key in ("disparity_error_px", "across_error_px", "left_edges"))

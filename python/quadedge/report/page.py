@@ -17,6 +17,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from .documentation import explanation_of
 from .figure import Figure, rounded, write_figure
 from .table import Table, to_csv, to_latex, to_markdown
 
@@ -88,26 +89,60 @@ class Pictures:
 
 
 @dataclass
+class Tile:
+    """A figure that matters most, large, between what it is and a remark."""
+
+    name: str
+    value: str
+    remark: str = ""
+    warns: bool = False
+
+
+@dataclass
+class Notice:
+    """A box with what a reader has to know: (what was found, what to do) in each entry."""
+
+    title: str
+    entries: list[tuple[str, str]]
+    kind: str = "notice"
+
+
+@dataclass
+class Columns:
+    """Blocks side by side, below one another on a narrow screen."""
+
+    blocks: list
+    kind: str = "columns"
+
+
+@dataclass
 class Section:
-    """A heading and its blocks. With `fold` they are hidden until clicked, and open in print."""
+    """A heading and its blocks. With `fold` they are hidden until clicked, and open in print. `explained`: the page of
+    the documentation that explains it, such as "accuracy.md#presets"."""
 
     title: str
     blocks: list = field(default_factory=list)
     level: int = 2
     fold: bool = False
     open: bool = False
+    explained: str = ""
 
 
 @dataclass
 class Page:
-    """The content of a page."""
+    """The content of a page: below its title a sentence (`lead`) and tiles, at its end `facts`, the origin of its
+    figures, in a fold."""
 
     title: str
     facts: Facts
     sections: list[Section] = field(default_factory=list)
+    lead: str = ""
+    tiles: list[Tile] = field(default_factory=list)
 
     def blocks(self, kind: str) -> list:
-        return [block for section in self.sections for block in section.blocks if block.kind == kind]
+        blocks = [block for section in self.sections for block in section.blocks]
+        blocks = [inner for block in blocks for inner in (block.blocks if block.kind == "columns" else [block])]
+        return [block for block in blocks if block.kind == kind]
 
     def tables(self) -> list[Table]:
         return self.blocks("table")
@@ -158,6 +193,7 @@ def to_html(page: Page) -> str:
     environment = jinja2.Environment(loader=jinja2.PackageLoader("quadedge.report"), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["breakable"] = _emphasised
+    environment.filters["explanation"] = explanation_of
     anchors: dict[str, int] = {}
 
     def anchor(title: str) -> str:

@@ -94,8 +94,9 @@ class Run:
     estimate: Trajectory
     truth: Trajectory | None
     errors: Errors | None
-    stated_error_m: tuple[np.ndarray, np.ndarray] | None
-    """Stamps [s] and the root of the trace of the covariance of the position in the world [m]."""
+    predicted: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    """Stamps [s], and what the covariances predict of the errors in the world: the roots of the traces of the
+    position's part ("ape_translation_m") [m] and of the rotation's ("ape_rotation_deg") [deg]."""
     pictures: list[Path] = field(default_factory=list)
     corrected: Trajectory | None = None
     """The trajectory of the map, of a run with --loops."""
@@ -103,6 +104,8 @@ class Run:
     """loops.csv."""
     rig_maps: dict[str, np.ndarray] = field(default_factory=dict)
     """The maps of rig_maps.csv by name; NaN where a cell has no median [px]."""
+    edges: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
+    """Some edges in space, of edges.csv [m]."""
 
     @property
     def start(self) -> float:
@@ -154,7 +157,8 @@ LENGTHS = dict.fromkeys(("error_m", "promised_m", "error_deg", "promised_deg"), 
 # What pages need of report.json, in the notation of misfit().
 REPORT = {
     "input": {"name": str, "frames": int, "path": str, "format": str, "width": int, "height": int, "dropped?": int},
-    "frames_tracked": int, "key_rigs": int, "warnings": [{"frame": (int, type(None)), "text": str}],
+    "frames_tracked": int, "key_rigs": int, "frames_ambiguous?": int,
+    "warnings": [{"frame": (int, type(None)), "text": str, "kind?": str}],
     "latency_ms": dict.fromkeys(("median", "p90", "p99", "max", "first"), NUMBER),
     "ended_early?": str, "segments_text?": str, "segments?": int, "path_length_m?": NUMBER,
     "device?": dict.fromkeys(("name", "platform", "opencl", "driver"), str),
@@ -189,17 +193,18 @@ def read_run(folder: Path, name: str = "") -> Run:
     estimate = read_tum(folder / "trajectory.txt", may_be_cut=killed)
     truth = read_tum(folder / "groundtruth.txt") if (folder / "groundtruth.txt").is_file() else None
     match = first_match(estimate, truth) if truth else None
+    edges = read_edges(folder / "edges.csv") if (folder / "edges.csv").is_file() else np.empty((0, 3))
     if match:
         truth = moved(truth, match[1], np.zeros(3), np.eye(3))
-        estimate = aligned(estimate, truth)
-    run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None, None)
+        before, estimate = estimate, aligned(estimate, truth)
+        turn = estimate.rotations[match[0]] @ before.rotations[match[0]].T
+        edges = (edges - before.positions[match[0]]) @ turn.T + estimate.positions[match[0]]
+    run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None,
+              edges=edges)
     if (folder / "errors.csv").is_file() and match:
         run.errors = Errors.of(read_columns(folder / "errors.csv"), folder / "errors.csv")
     if (folder / "poses.csv").is_file():
-        columns = read_columns(folder / "poses.csv", may_be_cut=killed)
-        if "covariance_x_x" in columns:
-            parts = [numbers(columns[f"covariance_{axis}_{axis}"], folder / "poses.csv") for axis in "xyz"]
-            run.stated_error_m = numbers(columns["stamp_s"], folder / "poses.csv"), np.sqrt(sum(parts))
+        run.predicted = read_predicted(folder / "poses.csv", may_be_cut=killed)
     if (folder / "trajectory_map.txt").is_file() and (folder / "loops.csv").is_file():
         corrected = read_tum(folder / "trajectory_map.txt")
         run.corrected = aligned(corrected, run.truth) if run.truth else corrected
@@ -209,6 +214,27 @@ def read_run(folder: Path, name: str = "") -> Run:
     if (folder / "pictures").is_dir():
         run.pictures = sorted((folder / "pictures").iterdir())
     return run
+
+
+def read_predicted(file: Path, *, may_be_cut: bool) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Run.predicted of poses.csv; what has no covariances is missing. Raises DamagedResults."""
+    columns = read_columns(file, may_be_cut=may_be_cut)
+    found = {}
+    for key, axes, factor in (("ape_translation_m", ("x", "y", "z"), 1), ("ape_rotation_deg", ("rx", "ry", "rz"),
+                                                                           180 / np.pi)):
+        names = [f"covariance_{axis}_{axis}" for axis in axes]
+        if all(name in columns for name in names):
+            variance = sum(numbers(columns[name], file) for name in names)
+            found[key] = numbers(columns["stamp_s"], file), factor * np.sqrt(variance)
+    return found
+
+
+def read_edges(file: Path) -> np.ndarray:
+    """The points of edges.csv (n x 3) [m]. Raises DamagedResults."""
+    columns, names = read_columns(file), ("x_m", "y_m", "z_m")
+    if not set(names) <= set(columns):
+        raise DamagedResults(f"{file}: no column {' or '.join(names)}; expected the edges of a run")
+    return np.stack([numbers(columns[name], file) for name in names], 1)
 
 
 def read_rig_maps(file: Path) -> dict[str, np.ndarray]:

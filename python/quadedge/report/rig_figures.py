@@ -15,8 +15,9 @@ TITLES = {"rows": "Rows", "columns": "Columns"}
 
 def rig_table(rig: dict) -> Table:
     """The maps in a few numbers."""
-    table = Table("rig", "Rows and columns of the right image: medians over its cells [px]",
-                  ["", "", "cells", "root mean square", "largest", "scatter of single points"], text_columns=2)
+    table = Table("rig", "Residuals over the right image, vertical (rows) and along the epipolar lines (columns): "
+                  "medians of cells [px]",
+                  ["", "", "cells", "RMS", "largest", "scatter of single points"], text_columns=2)
     for axis, title in TITLES.items():
         for state, text in STATES.items():
             found = rig[axis][state]
@@ -31,35 +32,43 @@ def is_noise(found: dict) -> bool:
     return found["cells"] > 0 and found["rms_px"] <= NOISE * found["noise_px"]
 
 
+def finds_something(rig: dict) -> bool:
+    """Whether the run corrects its rig, or has an error of it that is above the noise."""
+    corrected = rig["row_correction_px"] or any(rig.get("right_camera", {}).values())
+    seen = [rig["rows"]["before"], rig["columns"]["after"]]
+    return bool(corrected) or any(found["cells"] > 0 and not is_noise(found) for found in seen)
+
+
 def rows_text(rig: dict) -> str:
     """What the maps of rows are, and how the search takes them."""
-    text = "Rows: distance of points from their epipolar lines, downwards on a rectified rig. "
+    text = "Rows: distance of points from their epipolar lines, positive downwards on a rectified rig. "
     if rig["row_correction_px"]:
-        return text + f"The search allows for up to {rig['row_correction_px']:.2f} px, learned from these points."
+        return text + f"The search corrects rows by up to {rig['row_correction_px']:.2f} px, learned from these points."
     if is_noise(rig["rows"]["before"]):
-        return text + "Nothing beyond their noise."
-    return text + "They are off, but too little, or not clearly enough, for the search to allow for it."
+        return text + "No errors above the noise level."
+    return text + "They are off, but by too little or with too few points to be corrected."
 
 
 def columns_text(rig: dict) -> str:
     """What is learned of the columns, and what their maps are."""
     start, end = (f"{round(value['px'], 2) + 0.0:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
-    text = (f"Columns: an offset of all disparities is learned, {start} at the start, {end} at the end. "
-            f"{right_camera_text(rig.get('right_camera', {}))}The maps show by how much farther along their lines "
-            "points of a new key rig lie than those of the last one and the motion predict. One rig sees both, so that "
-            "its errors show only as far as points change their depth or their place in the image.")
-    return text + (" Nothing beyond their noise." if is_noise(rig["columns"]["after"]) else "")
+    text = (f"Columns: a common offset of all disparities is estimated, {start} at the start, {end} at the end. "
+            f"{right_camera_text(rig.get('right_camera', {}))}The maps show measured minus predicted disparity at new "
+            "key rigs; the prediction uses the points of the previous key rig and the estimated motion. Errors of the "
+            "calibration that both key rigs share cancel, so only those that depend on depth or image position show.")
+    return text + (" No errors above the noise level." if is_noise(rig["columns"]["after"]) else "")
 
 
 def right_camera_text(error: dict) -> str:
     """By what the columns are corrected, if rows and motions agree that the right camera is not as calibrated."""
     if not any(error.values()):
         return ""
-    return (f"Rows and motions agree that the right camera is turned by {error['yaw_deg']:+.3f} degrees of yaw and "
-            f"{error['pitch_deg']:+.3f} of pitch against its calibration, and its lens moves points outwards by "
+    return ("Vertical residuals and motions agree that the right camera is turned by "
+            f"{error['yaw_deg']:+.3f} degrees of yaw and {error['pitch_deg']:+.3f} of pitch "
+            "against its calibration, and its lens moves points outwards by "
             f"{1e3 * error['radial_3']:+.1f} r^3 {1e3 * error['radial_5']:+.1f} r^5 thousandths of the focal length "
-            "more (r: tangent of the angle from the axis); columns are corrected by this. ")
+            "more (r: tangent of the angle from the axis); disparities are corrected by this. ")
 
 
 def rig_figures(run: Run) -> list[Figure]:

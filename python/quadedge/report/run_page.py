@@ -1,44 +1,155 @@
 """The page of one run."""
 
-from .error_tables import ERRORS, ErrorRow, unit_of
+from pathlib import Path
+
+from .advice import notices
 from .figure import FEWEST_FRAMES
-from .numbers import DASH, count, length_text, length_unit, share_of, significant
-from .origin import configuration_rows, device_text, origin
-from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
+from .latency import latency_figures, slow_texts
+from .numbers import DASH, length_text, share_of, significant
+from .origin import device_text, origin
+from .page import Columns, Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
 from .results import Run
-from .rig_figures import rig_figures, rig_table
+from .rig_figures import finds_something, rig_figures, rig_table
+from .run_tables import (accuracy_table, configuration_table, consistency_tables, consistency_texts, latency_table,
+                         loss_tables, segment_tables, stage_table)
 from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
-from .table import Cell, Table
 
 QUADS_CAPTION = ("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame "
                  "that they were matched with, white for inliers, red for others, one per cell of 16 px.")
-MOST_LOSSES = 30  # rows of a table
-LATENCY = ("median", "p90", "p99", "max", "first")
+PICTURES = ("quads", "thumbnail", "pair", "edges")  # the best first
 NO_PLOTS = Text(f"No plots of fewer than {FEWEST_FRAMES} frames.")
+LAYOUTS = {"kitti": "KITTI", "kitti-raw": "KITTI raw", "euroc": "EuRoC", "tum-vi": "TUM-VI", "tartanair": "TartanAir",
+           "eth3d-slam": "ETH3D SLAM", "images": "folders of images", "video": "video", "pipe": "pipe",
+           "live": "live cameras"}
 
 
 def run_page(run: Run, detail: Detail) -> Page:
     """The page of one run."""
     report = run.report
     device = device_text(report["device"]) if "device" in report else ""
-    facts = Facts(origin(report, device, recording_text(report)))
-    facts.entries += facts_of(run)
-    page = Page(f"QuadEdge: {run.name}", facts)
-    sections = [Section("Results", [*warnings(run), latency_table(run), *accuracy_tables(run), *loss_tables(run)])]
-    figures = plots(run, [], detail) or [("Plots", [NO_PLOTS])]
-    page.sections += sections + [Section(name, blocks) for name, blocks in figures]
+    facts = Facts(origin(report, device, recording_text(report)) + facts_of(run))
+    page = Page(f"Tracking report: {name_of(run)}", facts, lead=lead_of(run), tiles=tiles_of(run))
+    best, picture = best_picture(run, detail)
+    page.sections.append(Section("Overview", [*notices(run), *overview(run, picture, detail), *loss_tables(run)]))
+    page.sections += plot_sections(run, detail)
     if "rig" in report:
-        maps = rig_figures(run)
-        page.sections.append(Section("Rig", [rig_table(report["rig"]), *([Figures(maps)] if maps else [])]))
-    pictures = picture_blocks(run, detail)
+        maps, found = rig_figures(run), finds_something(report["rig"])
+        page.sections.append(Section(
+            "Calibration: errors were found" if found else "Calibration: no errors found",
+            [rig_table(report["rig"]), *([Figures(maps)] if maps else [])], fold=True, open=found,
+            explained="reference.md#maps-of-the-rig"))
+    pictures = picture_blocks(run, detail, without=best)
     if pictures:
-        page.sections.append(Section("Pictures", pictures))
-    stages = stage_table(report)
-    if stages.rows:
-        page.sections.append(Section("Time of the stages", [stages]))
+        page.sections.append(Section("Pictures", pictures, explained="method.md"))
     if "config" in report:
-        page.sections.append(Section("Configuration", [configuration_table(report)], fold=True))
+        page.sections.append(Section("Configuration", [configuration_table(report)], fold=True,
+                                     explained="configuration.md"))
     return page
+
+
+def name_of(run: Run) -> str:
+    """What was tracked, in words."""
+    kind = run.report["input"].get("format", "")
+    if kind == "synthetic":
+        return f"built-in {run.name.replace('-', ', ')}"
+    return f"{run.name} ({LAYOUTS.get(kind, kind)})" if kind else run.name
+
+
+def lead_of(run: Run) -> str:
+    """When and on what it was tracked, in a sentence."""
+    given, report = run.report["input"], run.report
+    text = f"{given['frames']} stereo frames"
+    if "width" in given:
+        text += f" of {given['width']} x {given['height']} px"
+    duration = run.times[-1]
+    text += f", {significant(duration, 3)} s" if duration > 0 else ""
+    if "date" in report:
+        text += f", tracked on {report['date'][:10]}"
+    return text + (f" with {report['device']['name']} ({report['device']['platform']})." if "device" in report else ".")
+
+
+def tiles_of(run: Run) -> list[Tile]:
+    """Frames tracked, drift or path, time per frame, warnings."""
+    report, latency = run.report, run.report["latency_ms"]
+    frames, tracked = report["input"]["frames"], report["frames_tracked"]
+    lost = sum(len(frames) for frames, _, _ in run.losses())
+    tiles = [Tile("Frames tracked", f"{tracked} of {frames}", f"{lost} lost" if lost else "none lost",
+                  warns=tracked < frames)]
+    accuracy = report.get("accuracy")
+    if accuracy:
+        path = accuracy["path_length_m"]
+        drift = accuracy["end_drift_percent"]
+        end = f"{length_text(path * drift / 100)} after {length_text(path)}" if drift is not None else ""
+        tiles.append(Tile("Drift at the end", f"{significant(drift, 2)} %", end))
+    else:
+        tiles.append(Tile("Length of the path", length_text(report.get("path_length_m")), "no ground truth to compare"))
+    rate = f", {1000 / latency['median']:.0f} frames/s" if latency["median"] else ""
+    tiles.append(Tile("Time per frame", f"{significant(latency['median'], 3)} ms",
+                      f"median{rate}; p99 {significant(latency['p99'], 3)} ms"))
+    boxes = notices(run)
+    number = len(boxes[0].entries) if boxes else 0
+    tiles.append(Tile("Warnings", str(number) if number else "none", "explained below" if number else "nothing unusual",
+                      warns=number > 0))
+    return tiles
+
+
+def overview(run: Run, picture: Picture | None, detail: Detail) -> list:
+    """The path from above beside a picture."""
+    figures = [figure for figure in trajectory_figures(run, [], detail.points) if figure.name.endswith("_from_above")]
+    both = [*([Figures(figures)] if figures else []), *([Pictures([picture], wide=True)] if picture else [])]
+    if not figures:
+        both.append(NO_PLOTS)
+    return [Columns(both)] if len(both) > 1 else both
+
+
+def best_picture(run: Run, detail: Detail) -> tuple[Path | None, Picture | None]:
+    """The file with the quads of the most inliers, or without one the first of another kind, and its picture."""
+    if detail.picture_width == 0:
+        return None, None
+    inliers = run.column("inliers")
+
+    def rank(file: Path) -> tuple[int, float]:
+        kind, _, number = file.stem.rpartition("_")
+        frame = int(number) if number.isdigit() else -1
+        return (PICTURES.index(kind) if kind in PICTURES else len(PICTURES),
+                -inliers[frame] if 0 <= frame < len(inliers) else 0)
+
+    for file in sorted(run.pictures, key=rank):
+        kind, _, number = file.stem.rpartition("_")
+        data = reduced(file, 3 * detail.picture_width, detail.quality) if kind in PICTURES else None
+        if data:
+            texts = {"quads": QUADS_CAPTION, "thumbnail": QUADS_CAPTION, "pair": "Left and right image.",
+                     "edges": "Edges, coloured by their direction."}
+            return file, Picture(data, f"Frame {int(number) if number.isdigit() else number}. {texts[kind]}")
+    return None, None
+
+
+def plot_sections(run: Run, detail: Detail) -> list[Section]:
+    """Path, errors with their tables, time and edges of a run; its tables alone if it has few frames."""
+    space = [figure for figure in trajectory_figures(run, [], detail.points)
+             if not figure.name.endswith("_from_above")]
+    world = "In the frame of the first left camera" + (" that has ground truth." if run.truth else ".")
+    errors = error_figures(run, [], detail.points)
+    shown = [Figures(errors, "Origin-aligned: the first poses coincide. Grey: the standard deviation that the "
+                             "covariances predict; errors should mostly lie within twice that.")] if errors else []
+    sections = [Section("Path", [Figures(space, world)], explained="reference.md#points")] if space else []
+    if "accuracy" in run.report:
+        accuracy = run.report["accuracy"]
+        sections.append(Section("Errors", [*shown, Columns([accuracy_table(run.name, accuracy),
+                                                            *segment_tables(accuracy)])], explained="accuracy.md"))
+        tables = consistency_tables(accuracy)
+        if tables:
+            texts = [Text(text) for text in consistency_texts(accuracy)]
+            sections.append(Section("Predicted uncertainty", [*texts, *tables],
+                                    explained="accuracy.md#consistency-of-the-covariances"))
+    time = latency_figures(run, detail.points)
+    tables = [latency_table(run), *filter(lambda table: table.rows, [stage_table(run.report)])]
+    sections.append(Section("Time", [*([Figures(time)] if time else []), *map(Text, slow_texts(run)), Columns(tables)],
+                            explained="performance.md"))
+    counts = frame_figures(run, detail.points)
+    if counts:
+        sections.append(Section("Edges and quads", [Figures(counts)], explained="method.md"))
+    return sections
 
 
 def recording_text(report: dict) -> str:
@@ -81,150 +192,24 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     return facts
 
 
-def warnings(run: Run) -> list[Text]:
-    """Why the run ended early, and the warnings about its recording or its frames."""
-    texts = [f"The run ended early: {run.report['ended_early']}."] if run.report.get("ended_early") else []
-    for warning in run.report["warnings"]:
-        frame = warning["frame"]
-        texts.append(warning["text"] if frame is None else f"Frame {frame}: {warning['text']}")
-    return [Text(text, warns=True) for text in texts]
-
-
-def loss_tables(run: Run) -> list[Table]:
-    """Which frames were lost, when and why; none for a run that kept all."""
-    losses = list(run.losses())
-    if not losses:
-        return []
-    table = Table("lost", "Lost frames", ["frames", "from [s]", "reason", "message"], text_columns=4)
-    for frames, reason, message in losses[:MOST_LOSSES]:
-        numbers = str(frames[0]) if len(frames) == 1 else f"{frames[0]} to {frames[-1]}"
-        table.add(numbers, f"{run.times[frames[0]]:.3f}", reason, message)
-    if len(losses) > MOST_LOSSES:
-        table.notes.append(f"The first {MOST_LOSSES} of {len(losses)}; frames.csv has all.")
-    return [table]
-
-
-def latency_table(run: Run) -> Table:
-    """Latency, and what a frame holds."""
-    table = Table("latency", "Latency [ms], from both images in host memory to the pose",
-                  ["median", "90 %", "99 %", "largest", "first frame"], text_columns=0)
-    latency = run.report["latency_ms"]
-    table.add(*[Cell.of(latency[key]) for key in LATENCY])
-    return table
-
-
-def accuracy_tables(run: Run) -> list[Table]:
-    """Both alignments below one another, and how consistent the covariances are."""
-    accuracy = run.report.get("accuracy")
-    if not accuracy:
-        return []
-    row = ErrorRow(run.name, "QuadEdge", accuracy)
-    table = Table("errors", "Errors against the ground truth", ["alignment", "error", "unit", "mean", "std", "rmse",
-                                                                "max"], text_columns=3)
-    for alignment, text in (("origin_aligned", "origin"), ("se3_aligned", "SE(3)")):
-        for key, name in ERRORS:
-            unit = unit_of(key, [row], alignment)
-            table.add(text if key == ERRORS[0][0] else Cell("", text), name, unit.name,
-                      *[Cell.of(accuracy[alignment][key][statistic], factor=unit.factor)
-                        for statistic in ("mean", "std", "rmse", "max")])
-    if accuracy.get("se3_open_rotation"):
-        table.notes.append(f"SE(3): no APE rotation, {accuracy['se3_open_rotation']}.")
-    tables = [table]
-    tables += segment_tables(accuracy)
-    tables += consistency_tables(accuracy)
-    return tables
-
-
-def segment_tables(accuracy: dict) -> list[Table]:
-    """The errors of every segment by itself; none for a single one."""
-    segments = accuracy.get("segments", [])
-    if not segments:
-        return []
-    rows = [ErrorRow("", "", segment) for segment in segments]
-    units = [unit_of(key, rows, "origin_aligned") for key, _ in ERRORS]
-    path = length_unit([segment["path_length_m"] for segment in segments])
-    table = Table("segments", "Mean errors of every segment by itself, origin-aligned",
-                  ["segment", "poses", f"path [{path.name}]", "drift [%]",
-                   *[f"{name} [{unit.name}]" for (_, name), unit in zip(ERRORS, units)]], text_columns=1)
-    for segment in segments:
-        values = [segment["path_length_m"], segment["end_drift_percent"]]
-        values += [segment["origin_aligned"][key]["mean"] for key, _ in ERRORS]
-        factors = [path.factor, 1, *[unit.factor for unit in units]]
-        several = segment["matched_poses"] > 1
-        table.add(str(segment["segment"]), segment["matched_poses"],
-                  *[Cell.of(value if several else None, factor=factor) for value, factor in zip(values, factors)])
-    table.notes.append("The motions between segments are unknown; the table above includes them.")
-    return [table]
-
-
-def consistency_tables(accuracy: dict) -> list[Table]:
-    """The errors beside what the covariances predict, of whole poses and of motions over several frames."""
-    tables = []
-    squared = accuracy.get("normalised_error_squared")
-    if squared:
-        consistency = Table("consistency", "Errors relative to the stated covariances, squared; 1 is consistent",
-                            ["poses", "pose", "rotation", "translation"], text_columns=0)
-        consistency.add(Cell(count(squared["poses"]), squared["poses"]),
-                        *[Cell.of(squared[key], 3) for key in ("pose", "rotation", "translation")])
-        tables.append(consistency)
-    steps = accuracy.get("consistency", [])
-    if steps:
-        unit = length_unit(step[key] for step in steps for key in ("error_m", "promised_m"))
-        promises = Table("promises", "Errors of motions and what their covariances predict, root mean squares",
-                         ["frames", "motions", *["error", "predicted"] * 2, "squared, edges alone",
-                          "with the calibration"], text_columns=0)
-        promises.groups = [("motions over", 2), (f"position [{unit.name}]", 2), ("rotation [deg]", 2),
-                           ("relative to the covariances", 2)]
-        for step in steps:
-            promises.add(step["frames"], Cell(count(step["motions"]), step["motions"]),
-                         *[Cell.of(step[key], 3, unit.factor) for key in ("error_m", "promised_m")],
-                         *[Cell.of(step[key], 3) for key in ("error_deg", "promised_deg")],
-                         *[Cell.of(step[key]["pose"], 3)
-                           for key in ("normalised_error_squared_by_edges", "normalised_error_squared")])
-        tables.append(promises)
-    return tables
-
-
-def stage_table(report: dict) -> Table:
-    table = Table("stages", "Stages on the host, and kernels of a profiling pass where there was one [ms]",
-                  ["stage", "median", "90 %"])
-    for kind in ("stages_ms", "kernels_ms"):
-        for name, times in report.get(kind, {}).items():
-            table.add(("kernel " if kind == "kernels_ms" else "") + name,
-                      *[Cell.of(times[key], 3) for key in ("median", "p90")])
-    return table
-
-
-def configuration_table(content: dict) -> Table:
-    table = Table("configuration", "Every constant; bold: not the default", ["constant", "value"], text_columns=2)
-    for key, value, changed in configuration_rows(content):
-        table.add(Cell(key, bold=changed), Cell(value, bold=changed))
-    return table
-
-
 def plots(run: Run, others: list[Other], detail: Detail) -> list[tuple[str, list]]:
-    """Trajectory with an example pair above it, errors and frames, each with its name; nothing for a run of few
-    frames."""
-    world = "In the left camera's first pose" + (" that has ground truth, origin-aligned." if run.truth else ".")
-    blocks = [("Trajectory", trajectory_figures(run, others, detail.points), world),
+    """Path, errors and frames of a member of a batch, each with its name; nothing for a run of few frames."""
+    world = "In the frame of the first left camera" + (" that has ground truth, origin-aligned." if run.truth else ".")
+    frames = [*frame_figures(run, detail.points), *latency_figures(run, detail.points)]
+    blocks = [("Path", trajectory_figures(run, others, detail.points), world),
               ("Errors", error_figures(run, others, detail.points), "Errors against the ground truth, origin-aligned."),
-              ("Frames", frame_figures(run, detail.points), "")]
-    named = [(name, [Figures(figures, caption)]) for name, figures, caption in blocks if figures]
-    example = next((file for file in run.pictures if file.stem.startswith("pair_")), None)
-    data = reduced(example, 2 * detail.picture_width, detail.quality) if example and detail.picture_width else None
-    if named and data:
-        named[0][1].insert(0, Pictures([Picture(data, f"left and right image of frame {int(example.stem[5:])}")], True))
-    return named
+              ("Frames", frames, "")]
+    return [(name, [Figures(figures, caption)]) for name, figures, caption in blocks if figures]
 
 
-def picture_blocks(run: Run, detail: Detail) -> list:
-    """The drawings of edges and quads, and the thumbnails."""
+def picture_blocks(run: Run, detail: Detail, without: Path | None = None) -> list:
+    """All pictures of a run but one: large drawings below one another, then thumbnails side by side."""
     if detail.picture_width == 0:
         return []
     blocks, small, large = [], [], []
     for file in run.pictures:
         kind, _, number = file.stem.rpartition("_")
-        if kind not in ("thumbnail", "edges", "quads"):
+        if kind not in PICTURES or file == without:
             continue
         is_small = kind == "thumbnail"
         data = reduced(file, detail.picture_width if is_small else 2 * detail.picture_width, detail.quality)
@@ -232,7 +217,8 @@ def picture_blocks(run: Run, detail: Detail) -> list:
             blocks.append(Text(f"{file}: no picture that can be read", warns=True))
             continue
         frame = int(number) if number.isdigit() else number
-        (small if is_small else large).append(Picture(data, f"frame {frame}" if is_small else f"frame {frame}: {kind}"))
+        text = "left and right image" if kind == "pair" else kind
+        (small if is_small else large).append(Picture(data, f"frame {frame}" if is_small else f"frame {frame}: {text}"))
     if large:
         blocks.append(Pictures(large, wide=True))
     if small:

@@ -1,13 +1,16 @@
-"""Figures of one sequence: trajectory, errors, numbers of edges and quads, latency."""
+"""Figures of one sequence: trajectory, errors, numbers of edges and quads."""
 
 import numpy as np
 
 from .figure import FEWEST_FRAMES, GREY, Figure, every, thinned
-from .numbers import DEGREE, length_unit
+from .latency import TIME
+from .numbers import DEGREE, Unit, length_unit, significant
 from .results import Errors, Run, Trajectory, is_lost
 
-TIME = "time since the first frame [s]"
 MAP_STYLE, CLOSURE_STYLE = 4, 6  # segments have the styles below
+EDGES = 8  # points of edges in space per point of a curve
+AROUND = (1, 99)  # percentiles of the edges that the plot in space shows
+PREDICTED = 1.5  # largest error in the plot that the band of predicted ones may stretch it to
 STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
 
 
@@ -52,17 +55,29 @@ def _closures(run: Run) -> np.ndarray:
     return np.array(ends).reshape(-1, 3)
 
 
+def _around(edges: np.ndarray, path: np.ndarray, limit: int) -> np.ndarray:
+    """At most about `limit` edges, without the few that lie far from the others and from the path."""
+    if not len(edges):
+        return edges
+    low, high = np.percentile(edges, AROUND, axis=0)
+    low, high = np.minimum(low, path.min(axis=0)), np.maximum(high, path.max(axis=0))
+    inside = edges[((edges >= low) & (edges <= high)).all(axis=1)]
+    return inside[every(len(inside), limit)]
+
+
 def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """The trajectory in 3D, from above and from the side; for a straight path also its deviation from a line."""
+    """The trajectory in 3D among edges, from above and from the side; for a straight path also its deviation from a
+    line."""
     if run.count() < FEWEST_FRAMES or len(run.estimate) < 2:
         return []
     paths = _paths(run, others)
     unit = length_unit(np.concatenate([path.positions.ravel() for _, path, _, _ in paths]))
     name = unit.name
     labels = {"x": f"x to the right [{name}]", "y": f"-y upward [{name}]", "z": f"z forward [{name}]"}
-    space = Figure(f"{run.name}_trajectory", "Trajectory", labels["x"], labels["z"], labels["y"], wide=True)
-    above = Figure(f"{run.name}_from_above", "Trajectory from above", labels["x"], labels["z"], equal_units=True)
-    side = Figure(f"{run.name}_from_the_side", "Trajectory from the side", labels["z"], labels["y"], equal_units=True)
+    space = Figure(f"{run.name}_trajectory", "Path and edges in space" if len(run.edges) else "Path in space",
+                   labels["x"], labels["z"], labels["y"], wide=True)
+    above = Figure(f"{run.name}_from_above", "Path from above", labels["x"], labels["z"], equal_units=True)
+    side = Figure(f"{run.name}_from_the_side", "Path from the side", labels["z"], labels["y"], equal_units=True)
     rigs = _at(run.estimate.stamps, _key_rig_stamps(run))
     clouds = [(text, path.positions[every(len(path), points)], path.stamps[every(len(path), points)], style, dash,
                False) for text, path, style, dash in paths]
@@ -76,11 +91,17 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
         space.add(text, x, z, -y, **common)
         above.add(text, x, z, **common)
         side.add(text, z, -y, **common)
+    edges = _around(run.edges, run.estimate.positions, EDGES * points)
+    if len(edges):
+        x, y, z = (edges * unit.factor).T
+        space.add_cloud("edges, by height", x, z, -y, -y)
     lines = _closures(run)
     if len(lines):
         x, y, z = (lines * unit.factor).T
         above.add("closures", x, z, style=CLOSURE_STYLE, dash="dot")
-    return [space, above, side, *_deviation(run, others, points)]
+    beside = _deviation(run, others, points)
+    side.wide = not beside
+    return [space, above, side, *beside]
 
 
 def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
@@ -112,27 +133,24 @@ def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
 
 
 def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """Absolute errors and errors per frame; with the absolute error, the standard deviation from the covariances."""
+    """Absolute errors, above bands of the deviations that the covariances predict, and errors per frame."""
     if not run.errors or run.count() < FEWEST_FRAMES:
         return []
     systems = [("QuadEdge", run.errors, 0)]
     systems += [(other.name, other.errors, 1 + n % 4) for n, other in enumerate(others) if other.errors]
     figures = []
-    for key, title, quantity in (("ape_translation_m", "Absolute error of the position", "APE translation"),
-                                 ("ape_rotation_deg", "Absolute error of the orientation", "APE rotation"),
-                                 ("rpe_translation_m", "Error of the position per frame", "RPE translation"),
-                                 ("rpe_rotation_deg", "Error of the orientation per frame", "RPE rotation")):
+    for key, title, quantity in (("ape_translation_m", "Position error (APE)", "APE translation"),
+                                 ("ape_rotation_deg", "Orientation error (APE)", "APE rotation"),
+                                 ("rpe_translation_m", "Position error per frame (RPE)", "RPE translation"),
+                                 ("rpe_rotation_deg", "Orientation error per frame (RPE)", "RPE rotation")):
         values = np.concatenate([getattr(errors, key) for _, errors, _ in systems])
         unit = length_unit(values) if key.endswith("_m") else DEGREE
         figure = Figure(f"{run.name}_{key.rsplit('_', 1)[0]}", title, TIME, f"{quantity} [{unit.name}]")
         for text, errors, style in systems:
             figure.add(text, *thinned(errors.stamps - run.start, getattr(errors, key) * unit.factor, points),
                        style=style)
-        if key == "ape_translation_m" and run.stated_error_m:
-            stamps, stated = run.stated_error_m
-            within = " within the segment" if run.report.get("segments", 1) > 1 else ""
-            curve = thinned(stamps - run.start, stated * unit.factor, points)
-            figure.add("stated by the covariance" + within, *curve, style=GREY, dash="dot")
+        if key in run.predicted:
+            _add_predicted(figure, run, key, unit, points, float(np.nanmax(values, initial=0)) * unit.factor)
         rigs = _at(run.errors.stamps, _key_rig_stamps(run))
         rigs = rigs[every(len(rigs), points)]
         figure.add("new key rig", run.errors.stamps[rigs] - run.start,
@@ -141,8 +159,22 @@ def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
     return figures
 
 
+def _add_predicted(figure: Figure, run: Run, key: str, unit: Unit, points: int, largest: float) -> None:
+    """Adds the band from 0 to the predicted standard deviation, cut off where it would flatten the errors."""
+    stamps, predicted = run.predicted[key]
+    predicted = predicted * unit.factor
+    top = float(np.nanmax(predicted, initial=0))
+    within = ", within the segment" if run.report.get("segments", 1) > 1 else ""
+    beyond = largest > 0 and top > PREDICTED * largest
+    if beyond:
+        figure.y_range = (0, PREDICTED * largest)
+    up_to = f", up to {significant(top, 2)} {unit.name}" if beyond else ""
+    figure.add("predicted standard deviation" + within + up_to,
+               *thinned(stamps - run.start, predicted, points), style=GREY, dash="dot", fill="zero")
+
+
 def frame_figures(run: Run, points: int) -> list[Figure]:
-    """Edges, quads and latency of every frame."""
+    """Edges and quads of every frame."""
     if run.count() < FEWEST_FRAMES:
         return []
     edges = Figure(f"{run.name}_edges", "Edges", TIME, "edges per frame")
@@ -157,26 +189,4 @@ def frame_figures(run: Run, points: int) -> list[Figure]:
         chosen = np.nonzero(lost)[0][every(int(lost.sum()), points)]
         hover = [run.frames["status"][index] for index in chosen]
         quads.add("lost frame", run.times[chosen], np.zeros(len(chosen)), style=2, points=True, hover=hover)
-    return [edges, quads, _latency(run, points)]
-
-
-def _latency(run: Run, points: int) -> Figure:
-    """The latency of every frame as a stack of its stages, with the remainder on top."""
-    figure = Figure(f"{run.name}_latency", "Latency by stage", TIME, "latency [ms]")
-    latency = run.column("latency_ms")
-    usual, largest = np.nanpercentile(latency, 95), np.nanmax(latency)
-    if largest > 3 * usual:  # one slow frame would hide the others
-        figure.y_range = (0, 1.5 * usual)
-        figure.title += f" (largest {largest:.0f} ms)"
-    chosen = every(run.count(), points)
-    names = list(run.frames)
-    stages = [name for name in names[names.index("latency_ms") + 1:] if name.endswith("_ms")]
-    floor = np.zeros(len(chosen))
-    for style, stage in enumerate(stages):
-        floor = floor + np.nan_to_num(run.column(stage)[chosen])
-        figure.add(stage.removesuffix("_ms"), run.times[chosen], floor, style=style % 5,
-                   fill="below" if style else "zero")
-    figure.add("rest", run.times[chosen], np.maximum(latency[chosen], floor), style=GREY, fill="below")
-    return figure
-
-
+    return [edges, quads]

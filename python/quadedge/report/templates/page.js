@@ -1,11 +1,18 @@
-// Unpacks plotly and draws plots when they become visible, and all of them before printing.
+// Shows which tables go on to the right. Unpacks plotly and draws plots when they become visible, and all of them before
+// printing.
 "use strict";
+for (const table of document.querySelectorAll(".scroll")) {
+  const mark = () => table.classList.toggle("more", table.scrollLeft + table.clientWidth < table.scrollWidth - 4);
+  table.addEventListener("scroll", mark, {passive: true});
+  new ResizeObserver(mark).observe(table);
+}
 (async () => {
   const places = [...document.querySelectorAll(".plot")];
   const unpacked = (id) => {
     const bytes = Uint8Array.from(atob(document.getElementById(id).textContent), (c) => c.charCodeAt(0));
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
   };
+  if (places.length === 0) return;
   let code, figures;
   try {
     code = await unpacked("code-of-plotly");
@@ -24,13 +31,31 @@
     font: {family: "system-ui, sans-serif", size: 12, color: colour("--ink")},
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
     legend: {orientation: "h", y: -0.28, yanchor: "top", font: {size: 11}}, showlegend: true,
+    modebar: {bgcolor: "rgba(0,0,0,0)", color: colour("--line"), activecolor: colour("--soft")},
   });
-  const layoutOf = (figure) => {
+  // Looks from behind, the left and above, from so far that the box of a plot in space fits its place.
+  const cameraOf = ({x, y, z}, place) => {
+    const unit = (v) => v.map((c) => c / Math.hypot(...v));
+    const cross = (a, b) => [0, 1, 2].map((i) => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
+    const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    const eye = unit([-0.5, -0.75, 0.45]), right = unit(cross([0, 0, 1], eye)), up = cross(eye, right);
+    const high = 1.05 * Math.tan(Math.PI / 8), wide = high * place.clientWidth / place.clientHeight;
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const at = [x, y, z].map((length, axis) => (corner >> axis & 1 ? 0.5 : -0.5) * length);
+      const reach = Math.max(Math.abs(dot(at, right)) / wide, Math.abs(dot(at, up)) / high);
+      distance = Math.max(distance, dot(at, eye) + reach);
+    }
+    const [ex, ey, ez] = eye.map((c) => c * distance);
+    return {eye: {x: ex, y: ey, z: ez}, center: {x: 0, y: 0, z: 0}};
+  };
+  const layoutOf = (figure, place) => {
     const layout = {...common(), ...structuredClone(figure.layout)};
     layout.title = {...layout.title, font: {size: 14}, x: 0, xanchor: "left", xref: "paper", y: 0.99, yanchor: "top"};
     const axis = {gridcolor: colour("--line"), zerolinecolor: colour("--soft"), linecolor: colour("--soft")};
     if (!layout.scene) {
-      layout.xaxis = {...axis, ...layout.xaxis, title: {...layout.xaxis.title, standoff: 8}};
+      const isTime = !layout.yaxis.scaleanchor;  // else a position, whose 0 is the first camera
+      layout.xaxis = {...axis, zeroline: !isTime, ...layout.xaxis, title: {...layout.xaxis.title, standoff: 8}};
       layout.yaxis = {...axis, ...layout.yaxis, title: {...layout.yaxis.title, standoff: 8}};
       if (layout.xaxis.type === "category") {  // long names take the place of the legend
         layout.legend = {...layout.legend, y: 1.02, yanchor: "bottom"};
@@ -41,14 +66,15 @@
     for (const name of ["xaxis", "yaxis", "zaxis"]) {
       layout.scene[name] = {...layout.scene[name], ...axis, backgroundcolor: "rgba(0,0,0,0)", color: colour("--ink")};
     }
-    layout.legend = {...layout.legend, y: 0};
+    layout.scene.camera = cameraOf(layout.scene.aspectratio, place);
+    layout.legend = {...layout.legend, y: 0, itemsizing: "constant"};
     return layout;
   };
   const draw = (place) => {
     const figure = figures[place.dataset.figure];
     place.dataset.drawn = "yes";
-    Plotly.newPlot(place, structuredClone(figure.data), layoutOf(figure), {
-      displaylogo: false, responsive: true,
+    Plotly.newPlot(place, structuredClone(figure.data), layoutOf(figure, place), {
+      displaylogo: false, responsive: true, displayModeBar: matchMedia("(max-width: 699px)").matches ? false : "hover",
       toImageButtonOptions: {format: "svg", filename: place.id},
     });
   };

@@ -1,0 +1,148 @@
+"""The tables of a run's page."""
+
+from .error_tables import ERRORS, ErrorRow, unit_of
+from .numbers import count, length_unit, significant
+from .origin import configuration_rows
+from .results import Run
+from .table import Cell, Table
+
+MOST_LOSSES = 30  # rows of a table
+LATENCY = ("median", "p90", "p99", "max", "first")
+LATENCY_TITLES = ("median", "p90", "p99", "largest", "first frame")
+CONSISTENT = (0.5, 2)  # NEES between these is called consistent
+
+
+def loss_tables(run: Run) -> list[Table]:
+    """Which frames were lost, when and why; none for a run that kept all."""
+    losses = list(run.losses())
+    if not losses:
+        return []
+    table = Table("lost", "Lost frames", ["frames", "from [s]", "reason", "message"], text_columns=4)
+    for frames, reason, message in losses[:MOST_LOSSES]:
+        numbers = str(frames[0]) if len(frames) == 1 else f"{frames[0]} to {frames[-1]}"
+        table.add(numbers, f"{run.times[frames[0]]:.3f}", reason, message)
+    if len(losses) > MOST_LOSSES:
+        table.notes.append(f"The first {MOST_LOSSES} of {len(losses)}; frames.csv has all.")
+    return [table]
+
+
+def latency_table(run: Run) -> Table:
+    """The latency of the frames but the first, and that of the first."""
+    table = Table("latency", "Latency [ms], from both images in host memory to the pose", list(LATENCY_TITLES),
+                  text_columns=0)
+    latency = run.report["latency_ms"]
+    table.add(*[Cell.of(latency[key]) for key in LATENCY])
+    return table
+
+
+def accuracy_table(name: str, accuracy: dict) -> Table:
+    """The errors in both alignments, below one another."""
+    row = ErrorRow(name, "QuadEdge", accuracy)
+    table = Table("errors", "Errors against the ground truth", ["alignment", "error", "unit", "mean", "std", "rmse",
+                                                                "max"], text_columns=3)
+    for alignment, text in (("origin_aligned", "origin"), ("se3_aligned", "SE(3)")):
+        for key, name in ERRORS:
+            unit = unit_of(key, [row], alignment)
+            table.add(text if key == ERRORS[0][0] else Cell("", text), name, unit.name,
+                      *[Cell.of(accuracy[alignment][key][statistic], factor=unit.factor)
+                        for statistic in ("mean", "std", "rmse", "max")])
+    table.notes.append("APE: absolute pose error. RPE: relative pose error from frame to frame. Origin: the first "
+                       "compared poses coincide; SE(3): least squares over all positions, without a scale.")
+    if accuracy.get("se3_open_rotation"):
+        table.notes.append(f"SE(3): no APE rotation, {accuracy['se3_open_rotation']}.")
+    return table
+
+
+def segment_tables(accuracy: dict) -> list[Table]:
+    """The errors of every segment by itself; none for a single one."""
+    segments = accuracy.get("segments", [])
+    if not segments:
+        return []
+    rows = [ErrorRow("", "", segment) for segment in segments]
+    units = [unit_of(key, rows, "origin_aligned") for key, _ in ERRORS]
+    path = length_unit([segment["path_length_m"] for segment in segments])
+    table = Table("segments", "Mean errors of every segment by itself, origin-aligned",
+                  ["segment", "poses", f"path [{path.name}]", "drift [%]",
+                   *[f"{name} [{unit.name}]" for (_, name), unit in zip(ERRORS, units)]], text_columns=1)
+    for segment in segments:
+        values = [segment["path_length_m"], segment["end_drift_percent"]]
+        values += [segment["origin_aligned"][key]["mean"] for key, _ in ERRORS]
+        factors = [path.factor, 1, *[unit.factor for unit in units]]
+        several = segment["matched_poses"] > 1
+        table.add(str(segment["segment"]), segment["matched_poses"],
+                  *[Cell.of(value if several else None, factor=factor) for value, factor in zip(values, factors)])
+    table.notes.append("The motions between segments are unknown; the table above includes them.")
+    return [table]
+
+
+def consistency_texts(accuracy: dict) -> list[str]:
+    """What NEES is, and what that of the run says."""
+    texts = ["NEES, the normalised estimation error squared per degree of freedom, compares each error with its "
+             "predicted covariance: 1 is consistent; below 1 the covariances are too large (conservative), "
+             "above 1 they are too small."]
+    steps = accuracy.get("consistency", [])
+    value = steps[0]["normalised_error_squared"]["pose"] if steps else None
+    if value is None:
+        return texts
+    low, high = CONSISTENT
+    verdict = ("conservative: a filter that uses them trusts the poses less than it could" if value < low else
+               "consistent" if value <= high else
+               "too small: a filter that uses them trusts the poses too much, so scale the covariances by about "
+               f"{significant(value, 2)}")
+    frames = steps[0]["frames"]
+    texts.append(f"Over motions of {frames} frame{'s' * (frames > 1)} it is {significant(value, 2)}: these covariances "
+                 f"are {verdict}.")
+    ratio = steps[0]["promised_m"] / steps[0]["error_m"] if steps[0]["promised_m"] and steps[0]["error_m"] else 0
+    if value <= 1 and ratio > 3:
+        texts.append(f"The predicted deviation of the position is {significant(ratio, 2)} times the error, because it "
+                     "is the sum over all directions and the least certain one dominates it; NEES weighs every "
+                     "direction by its own deviation.")
+    return texts
+
+
+def consistency_tables(accuracy: dict) -> list[Table]:
+    """The errors beside what the covariances predict, of whole poses and of motions over several frames."""
+    tables = []
+    steps = accuracy.get("consistency", [])
+    if steps:
+        unit = length_unit(step[key] for step in steps for key in ("error_m", "promised_m"))
+        promises = Table("promises", "Motions over several frames: RMS of errors and predicted deviations, and NEES",
+                         ["frames", "motions", *["error", "predicted"] * 2, "edges alone", "with calibration"],
+                         text_columns=0)
+        promises.groups = [("motions over", 2), (f"position [{unit.name}]", 2), ("rotation [deg]", 2), ("NEES", 2)]
+        for step in steps:
+            promises.add(step["frames"], Cell(count(step["motions"]), step["motions"]),
+                         *[Cell.of(step[key], 3, unit.factor) for key in ("error_m", "promised_m")],
+                         *[Cell.of(step[key], 3) for key in ("error_deg", "promised_deg")],
+                         *[Cell.of(step[key]["pose"], 3)
+                           for key in ("normalised_error_squared_by_edges", "normalised_error_squared")])
+        promises.notes.append("Edges alone: the covariance counts the noise of the edges; with calibration: also the "
+                              "uncertainty of the rig (pose.rig_sigma_*).")
+        tables.append(promises)
+    squared = accuracy.get("normalised_error_squared")
+    if squared:
+        consistency = Table("consistency", "NEES of whole poses, from the first frame on",
+                            ["compared", "pose", "rotation", "translation"], text_columns=0)
+        consistency.add(Cell(count(squared["poses"]), squared["poses"]),
+                        *[Cell.of(squared[key], 3) for key in ("pose", "rotation", "translation")])
+        tables.append(consistency)
+    return tables
+
+
+def stage_table(report: dict) -> Table:
+    table = Table("stages", "Stages on the host, and kernels of a profiling pass where there was one [ms]",
+                  ["stage", "median", "p90"])
+    for kind in ("stages_ms", "kernels_ms"):
+        for name, times in report.get(kind, {}).items():
+            table.add(("kernel " if kind == "kernels_ms" else "") + name,
+                      *[Cell.of(times[key], 3) for key in ("median", "p90")])
+    return table
+
+
+def configuration_table(content: dict) -> Table:
+    table = Table("configuration", "Every constant; bold: not the default", ["constant", "value"], text_columns=2)
+    for key, value, changed in configuration_rows(content):
+        table.add(Cell(key, bold=changed), Cell(value, bold=changed))
+    return table
+
+
