@@ -16,7 +16,7 @@ void limit_threads(int count) {
                                                 static_cast<std::size_t>(count));
   const std::string text = std::to_string(count);
   // PoCL up to version 3, PoCL from version 4 on, Intel's OpenCL for CPUs.
-  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT", "CL_CONFIG_CPU_TBB_NUM_WORKERS"})
+  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT", "DPCPP_CPU_NUM_CUS"})
     setenv(name, text.c_str(), 1);
 }
 
