@@ -247,8 +247,8 @@ class Client:
         self._robot.until(lambda: replies.extend(taken(self._replies)) or replies, "a reply")
         data = replies[0].data[4:]
         success, length = struct.unpack_from("<?xxxI", data, 16)
-        assert data[:16] == asked and len(data) == 24 + length
-        return success, data[24:].rstrip(b"\0").decode()
+        assert data[:16] == asked and data[24 + length - 1:24 + length] == b"\0"
+        return success, data[24:24 + length - 1].decode()
 
 
 def test_services_save_a_map_and_another_run_finds_its_place_in_it(room, frames, tmp_path):

@@ -16,15 +16,16 @@ from .domain import Domain, taken
 
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"  # plain CDR
 _HEADER = 16  # bytes before what rmw_cyclonedds_cpp sends: who has asked, and the number of the request
-_FIELDS = {"Request": {"structure_needs_at_least_one_member": idl_types.uint8},
-           "Response": {"success": bool, "message": str}}  # fmt: skip
 
 
 @cache
 def trigger_type(part: str) -> type:
-    """The type of DDS of a "Request" or "Response" of Trigger. Its objects hold the bytes of it as ``data``."""
-    made = idl.make_idl_struct(f"Trigger_{part}", f"std_srvs.srv.dds_.Trigger_{part}_", _FIELDS[part],
-                               dataclassify=False)
+    """The type of DDS of a "Request" or "Response" of Trigger. Its objects hold the bytes of it as ``data``.
+
+    Cyclone DDS compares what is written with the fields that are declared: one byte, which any header begins with.
+    """
+    fields = {"structure_needs_at_least_one_member": idl_types.uint8}
+    made = idl.make_idl_struct(f"Trigger_{part}", f"std_srvs.srv.dds_.Trigger_{part}_", fields, dataclassify=False)
     made.__init__ = lambda self, data: setattr(self, "data", data)
     made.serialize = lambda self, **_: self.data
     made.deserialize = staticmethod(lambda data, **_: made(bytes(data)))
