@@ -33,15 +33,17 @@ void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::str
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:
-  /// --device, --threads, --trust, --config, --variant, --kernels, --max-disparity, --no-auto-mask, and --KEY for every constant.
+  /// --device, --threads, --trust, --config, --variant, --kernels, --max-disparity, --no-auto-mask, and --KEY for every
+  /// constant.
   void declare(Options& options);
   /// To be called before declare(): rendered sequences have a rig without errors, unless options state one.
   void assume_exact_rig();
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
-  /// Limits the threads of this process, opens the device and runs its self-test, unless this program has a verdict on it with this driver. With `auto` a
-  /// device that fails is skipped with a warning as long as there is another. \param test receives the verdict
-  /// \throws DeviceError for a device that computes wrongly, unless --trust is given.
+  /// Limits the threads, opens the device and runs its self-test, unless this program has a verdict on it with this
+  /// driver. With `auto` a device that fails is skipped with a warning as long as there is another. \param test receives
+  /// the verdict \throws DeviceError for a device that computes wrongly, unless --trust is given; UsageError for fewer
+  /// than no threads.
   Device open_device(bool profiling = false, SelfTestResult* test = nullptr) const;
   /// The value of --device.
   const std::string& device_choice() const { return device_; }

@@ -67,7 +67,8 @@ std::string rate_warning(double fps, const CameraImages& images) {
   const std::int64_t period = usual_period(images.stamps_ns);
   const double rate = period > 0 ? kNanoseconds / static_cast<double>(period) : 0;
   if (!(fps > 0 && rate > 0) || std::abs(fps - rate) <= kSameRate * rate) return {};
-  return printed("--fps %g contradicts the timestamps, whose rate is %.4g Hz; ", fps, rate) + ("those of " + images.stamps_from) + " are used, unless --times FILE replaces them";
+  return printed("--fps %g contradicts the timestamps, whose rate is %.4g Hz; ", fps, rate) +
+         ("those of " + images.stamps_from) + " are used, unless --times FILE replaces them";
 }
 
 /// The timestamps of the pairs: those of --times, otherwise of the images, otherwise of --fps.
