@@ -8,7 +8,7 @@ OF_KIND = {
     "device_memory": "Use a device with more memory, a smaller --edges.max_edges, or --preset fast.",
     "implausible_calibration": "Compare the calibration file with the camera's data sheet: units (metres, not "
                                "millimetres) and the order of the cameras are the usual causes.",
-    "doubtful_calibration": "Run `quadedge check` on the recording: it lists the residuals and can write a corrected "
+    "doubtful_calibration": "Run quadedge check on the recording: it lists the residuals and can write a corrected "
                             "calibration (--write-calibration). If the images are rectified, pass --rectified.",
     "small_disparity_range": "Nearby objects are not matched: raise --stereo.max_disparity.",
     "negative_disparities": "Left and right images are probably exchanged, or the calibration belongs to another rig.",
@@ -19,7 +19,8 @@ OF_KIND = {
     "repeated_images": "The recorder wrote images twice: remove the copies, or correct the time stamps.",
     "large_disparity_offset": "Distances are off by this disparity: calibrate the rig again if they matter.",
     "static_region": "Exclude this part of the image with --mask: an image that is black there.",
-    "displaced_images": "Look at the right camera's frame grabber: single images are shifted.",
+    "displaced_images": "Switch off image stabilisation and the cropping of single images, and fasten both cameras to "
+                        "one bar.",
     "corrected_right_camera": "The run corrects it. Calibrate the rig again, or write the corrected calibration with "
                               "`quadedge check --write-calibration`.",
     "changed_rig": "Fasten the cameras and calibrate again; earlier and later frames have different calibrations."}
@@ -29,7 +30,7 @@ OF_LOSS = {
     "too few quads": "Too little is common to two frames: a higher frame rate or slower turns help.",
     "no consensus": "Something else may fill the image, or the motion is too fast: a higher frame rate, or --mask for "
                     "parts of the vehicle in view.",
-    "rig mismatch": "The images do not fit the calibration: run `quadedge check` on the recording."}
+    "rig mismatch": "The images do not fit the calibration: run quadedge check on the recording."}
 AMBIGUOUS = ("Do not rely on these poses alone: an object that moves may fill the view. In frames.csv they have "
              "ambiguous_motion 1; --mask excludes parts of the vehicle in view.")
 

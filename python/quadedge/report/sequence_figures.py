@@ -11,6 +11,7 @@ MAP_STYLE, CLOSURE_STYLE = 4, 6  # segments have the styles below
 EDGES = 8  # points of edges in space per point of a curve
 AROUND = (1, 99)  # percentiles of the edges that the plot in space shows
 PREDICTED = 1.5  # largest error in the plot that the band of predicted ones may stretch it to
+MOST_KEY_RIGS = 0.4  # of the frames, to be marked
 STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
 
 
@@ -22,8 +23,9 @@ class Other:
 
 
 def _key_rig_stamps(run: Run) -> np.ndarray:
+    """Of the frames that became key rigs; none where so many did that their marks would hide the curves."""
     chosen = np.array([text == "1" for text in run.frames["new_key_rig"]], bool)
-    return run.column("stamp_s")[chosen]
+    return run.column("stamp_s")[chosen & (chosen.mean() < MOST_KEY_RIGS)]
 
 
 def _at(stamps: np.ndarray, wanted: np.ndarray) -> np.ndarray:
@@ -77,7 +79,8 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
     space = Figure(f"{run.name}_trajectory", "Path and edges in space" if len(run.edges) else "Path in space",
                    labels["x"], labels["z"], labels["y"], wide=True)
     above = Figure(f"{run.name}_from_above", "Path from above", labels["x"], labels["z"], equal_units=True)
-    side = Figure(f"{run.name}_from_the_side", "Path from the side", labels["z"], labels["y"], equal_units=True)
+    side = Figure(f"{run.name}_from_the_side", "Path from the side", labels["z"], labels["y"], equal_units=True,
+                  wide=True)
     rigs = _at(run.estimate.stamps, _key_rig_stamps(run))
     clouds = [(text, path.positions[every(len(path), points)], path.stamps[every(len(path), points)], style, dash,
                False) for text, path, style, dash in paths]
@@ -99,9 +102,7 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
     if len(lines):
         x, y, z = (lines * unit.factor).T
         above.add("closures", x, z, style=CLOSURE_STYLE, dash="dot")
-    beside = _deviation(run, others, points)
-    side.wide = not beside
-    return [space, above, side, *beside]
+    return [space, above, side, *_deviation(run, others, points)]
 
 
 def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:

@@ -1,5 +1,5 @@
-// Shows which tables go on to the right. Unpacks plotly and draws plots when they become visible, and all of them before
-// printing.
+// Shows which tables go on to the right. Unpacks plotly and draws plots when they become visible, and all of them
+// before printing.
 "use strict";
 for (const table of document.querySelectorAll(".scroll")) {
   const mark = () => table.classList.toggle("more", table.scrollLeft + table.clientWidth < table.scrollWidth - 4);
@@ -39,15 +39,23 @@ for (const table of document.querySelectorAll(".scroll")) {
     const cross = (a, b) => [0, 1, 2].map((i) => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
     const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     const eye = unit([-0.5, -0.75, 0.45]), right = unit(cross([0, 0, 1], eye)), up = cross(eye, right);
-    const high = 1.05 * Math.tan(Math.PI / 8), wide = high * place.clientWidth / place.clientHeight;
-    let distance = 0;
-    for (let corner = 0; corner < 8; ++corner) {
-      const at = [x, y, z].map((length, axis) => (corner >> axis & 1 ? 0.5 : -0.5) * length);
-      const reach = Math.max(Math.abs(dot(at, right)) / wide, Math.abs(dot(at, up)) / high);
-      distance = Math.max(distance, dot(at, eye) + reach);
+    const high = 0.92 * Math.tan(Math.PI / 8), wide = high * place.clientWidth / place.clientHeight;
+    const corners = [...Array(8).keys()].map(
+      (corner) => [x, y, z].map((length, axis) => (corner >> axis & 1 ? 0.5 : -0.5) * length));
+    let centre = [0, 0, 0], distance = 0;
+    for (let step = 0; step < 5; ++step) {  // nearer corners look larger: the view's middle is not the box's
+      const seen = corners.map((corner) => corner.map((value, axis) => value - centre[axis]));
+      distance = Math.max(...seen.map(
+        (at) => dot(at, eye) + Math.max(Math.abs(dot(at, right)) / wide, Math.abs(dot(at, up)) / high)));
+      const middle = (axis) => {
+        const places = seen.map((at) => dot(at, axis) / (distance - dot(at, eye)));
+        return 0.5 * (Math.min(...places) + Math.max(...places)) * distance;
+      };
+      const across = middle(right), upwards = middle(up);
+      centre = centre.map((value, axis) => value + across * right[axis] + upwards * up[axis]);
     }
-    const [ex, ey, ez] = eye.map((c) => c * distance);
-    return {eye: {x: ex, y: ey, z: ez}, center: {x: 0, y: 0, z: 0}};
+    const named = (v) => ({x: v[0], y: v[1], z: v[2]});
+    return {eye: named(centre.map((value, axis) => value + distance * eye[axis])), center: named(centre)};
   };
   const layoutOf = (figure, place) => {
     const layout = {...common(), ...structuredClone(figure.layout)};
