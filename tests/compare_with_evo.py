@@ -6,7 +6,8 @@
 ESTIMATE and TRUTH are both TUM files, or both KITTI files with one pose per frame. ERRORS.json is the output of
 `quadedge evaluate trajectory ... --json`, a report.json with the same figures under "accuracy", or with --sequence the
 summary.json of a batch. --segment compares one segment of a TUM file, which a comment `# segment N` precedes.
-Compares mean, std, rmse and max of all four errors, origin-aligned and SE(3)-aligned.
+Compares mean, std, rmse and max of all four errors, origin-aligned and SE(3)-aligned, and t_rel and r_rel with the
+formula of KITTI's odometry devkit.
 Exit code: 0 if they agree, 1 for a difference above the tolerance, 2 if the input cannot be compared.
 """
 
@@ -16,6 +17,7 @@ import json
 import math
 import sys
 
+import numpy
 from evo.core import geometry, metrics, sync
 from evo.main_ape import ape
 from evo.main_rpe import rpe
@@ -78,6 +80,24 @@ def evo_statistics(compute, relation, truth, estimate, alignment):
     return result.stats
 
 
+def devkit(truth, estimate, length):
+    """Sub-paths, t_rel [%] and r_rel [deg/m] of KITTI's devkit: from every tenth pose to the first one that is farther
+    along the true path, with the rotation's angle from its trace."""
+    true, found = (numpy.array(poses.poses_se3) for poses in (truth, estimate))
+    distance = numpy.append(0, numpy.cumsum(numpy.linalg.norm(numpy.diff(true[:, :3, 3], axis=0), axis=1)))
+    errors = []
+    for first in range(0, len(true), 10):
+        beyond = numpy.nonzero(distance[first:] > distance[first] + length)[0]
+        if not len(beyond):
+            continue
+        last = first + beyond[0]
+        steps = [numpy.linalg.inv(poses[first]) @ poses[last] for poses in (true, found)]
+        off = numpy.linalg.inv(steps[1]) @ steps[0]
+        angle = math.acos(max(min(0.5 * (numpy.trace(off[:3, :3]) - 1), 1), -1))
+        errors.append((100 * numpy.linalg.norm(off[:3, 3]) / length, math.degrees(angle) / length))
+    return len(errors), *(numpy.mean(errors, axis=0) if errors else (0, 0))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("estimate")
@@ -97,7 +117,7 @@ def main():
         ours = ours.get("accuracy", ours)
         if arguments.segment is not None:
             ours = next(entry for entry in ours["segments"] if entry["segment"] == arguments.segment)
-        open_rotation = "se3_open_rotation" in ours
+        open_rotation, sub_paths = "se3_open_rotation" in ours, ours["sub_paths"]["by_length"]
         ours = {(a, e): ours[a][e] for a in ALIGNMENTS for e in ERRORS}
     except (OSError, KeyError, ValueError, StopIteration, file_interface.FileInterfaceException,
             sync.SyncException) as problem:
@@ -119,6 +139,15 @@ def main():
                 if not difference <= arguments.tolerance:
                     evo_value = None if theirs is None else theirs[name]
                     print(f"{alignment} {error} {name}: QuadEdge {mine}, evo {evo_value}, difference {difference:.3g}")
+    for mine in sub_paths:
+        count, *theirs = devkit(truth, estimate, mine["length_m"])
+        named = zip(("t_rel_percent", "r_rel_deg_per_m"), theirs)
+        # Near zero, the angle from a trace has half of a double's digits.
+        differences = [abs(mine[name] - value) * (0.1 if name[0] == "r" else 1) for name, value in named]
+        worst = max(worst, *differences)
+        if count != mine["sub_paths"] or max(differences) > arguments.tolerance:
+            print(f"sub-paths of {mine['length_m']} m: QuadEdge {mine}, devkit's formula {count} {theirs}")
+            worst = math.inf
     print(f"{estimate.num_poses} poses, largest difference {worst:.3g}, tolerance {arguments.tolerance:g}")
     return 0 if worst <= arguments.tolerance else 1
 

@@ -15,6 +15,12 @@ truth="$folder/room/groundtruth.txt"
 compare() { echo "evo against $3"; "$python" "$compare" "$@"; }
 # The errors in `run`'s report, and those of `evaluate trajectory`, also from a later frame on.
 compare "$folder/run/trajectory.txt" "$truth" "$folder/run/report.json"
+# t_rel and r_rel over sub-paths: a recording that is long enough for several starts.
+"$quadedge" synth "$folder/long" --frames 40 --size 160x100 --quiet
+"$quadedge" run "$folder/long" -o "$folder/long_run" --quiet >/dev/null
+"$quadedge" evaluate trajectory "$folder/long_run/trajectory.txt" "$folder/long" --lengths 0.1,0.25 \
+  --json "$folder/long.json" | grep "^0.25 "
+compare "$folder/long_run/trajectory.txt" "$folder/long/groundtruth.txt" "$folder/long.json"
 for from in 0 3; do
   "$quadedge" evaluate trajectory "$folder/run/trajectory.txt" "$truth" --from-frame $from \
     --json "$folder/from$from.json" >/dev/null

@@ -212,3 +212,41 @@ TEST_CASE("evaluation: every segment is judged by itself, and no step across seg
   CHECK(evaluate_trajectory(truth, truth).segments.empty());
   CHECK(evaluate_trajectory(truth, truth).rpe_steps == 11);
 }
+
+TEST_CASE("evaluation: t_rel and r_rel of a steady drift are those of KITTI's formula", "[evaluation]") {
+  // Steps of 1 m, estimated as 1.02 m, with a turn of 0.01 degrees about the direction of travel. The first pose beyond
+  // 100 m is 101 m away, and the errors there, 2.02 m and 1.01 degrees, are divided by 100 m.
+  Trajectory truth, estimate;
+  for (int i = 0; i < 250; ++i) {
+    truth.push_back({100'000'000LL * i, Eigen::Isometry3d(Eigen::Translation3d(0, 0, i))});
+    estimate.push_back({100'000'000LL * i, Eigen::Translation3d(0, 0, 1.02 * i) * turn(0.01 * i, {0, 0, 1})});
+  }
+  const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth);
+  REQUIRE(result.sub_paths.size() == 8);
+  const SubPathErrors &hundred = result.sub_paths[0], &two_hundred = result.sub_paths[1];
+  CHECK(hundred.count == 15);  // starts 0, 10 ... 140: pose 241 exists, pose 251 does not
+  CHECK(hundred.translation_percent == Approx(2.02));
+  CHECK(hundred.rotation_deg_per_m == Approx(0.0101));
+  CHECK(two_hundred.count == 5);  // starts 0 ... 40
+  CHECK(two_hundred.translation_percent == Approx(100 * 201 * 0.02 / 200));
+  CHECK(two_hundred.rotation_deg_per_m == Approx(2.01 / 200));
+  CHECK(result.sub_paths[2].count == 0);
+  CHECK(std::isnan(result.sub_paths[2].translation_percent));
+  CHECK(result.sub_path_mean.count == 20);  // every sub-path counts once, whatever its length
+  CHECK(result.sub_path_mean.translation_percent == Approx((15 * 2.02 + 5 * 2.01) / 20));
+  CHECK(result.sub_path_mean.rotation_deg_per_m == Approx((15 * 0.0101 + 5 * 0.01005) / 20));
+  CHECK(result.rpe_interval_s == Approx(0.1));
+
+  const auto near = evaluate_trajectory(estimate, truth, 0, kStampToleranceNs, {7.5});
+  REQUIRE(near.sub_paths.size() == 1);
+  CHECK(near.sub_paths[0].count == 25);  // the first pose beyond 7.5 m is the eighth: from 0 ... 240
+  CHECK(near.sub_paths[0].translation_percent == Approx(100 * 0.16 / 7.5));
+
+  for (std::size_t i = 125; i < estimate.size(); ++i) estimate[i].segment = 1;  // no sub-path spans the break
+  const auto broken = evaluate_trajectory(estimate, truth);
+  CHECK(broken.sub_paths[0].count == 3 + 2);  // starts 0, 10, 20 and 130, 140
+  CHECK(broken.sub_paths[1].count == 0);
+  REQUIRE(broken.segments.size() == 2);
+  CHECK(broken.segments[1].sub_paths[0].count == 3);  // poses 125, 135 and 145 of the whole
+  CHECK_THROWS_AS(evaluate_trajectory(estimate, truth, 0, kStampToleranceNs, {100, 0}), UsageError);
+}

@@ -1,6 +1,8 @@
 /// \file command_evaluate.cpp  quadedge evaluate trajectory: APE and RPE of a trajectory file.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -66,12 +68,15 @@ std::vector<std::int64_t> stamps_of(const Trajectory& poses) {
 class EvaluateTrajectoryCommand : public Command {
  public:
   EvaluateTrajectoryCommand()
-      : Command("evaluate trajectory", "absolute and relative pose errors (APE, RPE) of a trajectory",
+      : Command("evaluate trajectory", "absolute and relative errors of a trajectory: APE, ATE, RPE, t_rel and r_rel",
                 "  quadedge evaluate trajectory results_06/trajectory_kitti.txt kitti/poses/06.txt --from-frame 10\n"
-                "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --steps --json errors.json") {}
+                "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --lengths 1,5,10 --json "
+                "errors.json") {}
   void declare(Options& options) override {
     options.positional("ESTIMATE", estimate_, "TUM or KITTI file, or results folder of a run");
     options.positional("TRUTH", truth_, "TUM or KITTI file, or folder of a sequence with ground truth");
+    options.text("--lengths", lengths_, "lengths of the sub-paths of t_rel and r_rel [m]; default: KITTI's, 100 to 800",
+                 "M[,M...]");
     options.number("--from-frame", from_frame_, "ignore poses of the estimate before this one");
     options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if TRUTH is a folder with several",
                  "NAME");
@@ -106,8 +111,9 @@ class EvaluateTrajectoryCommand : public Command {
       frames = stamps_of(truth);
     }
     // Row numbers are one "nanosecond" apart: only equal ones belong together.
-    const TrajectoryEvaluation result = row_numbers ? evaluate_trajectory(estimate.poses, truth, from_frame_, 0)
-                                                    : evaluate_trajectory(estimate.poses, truth, from_frame_);
+    const std::int64_t tolerance = row_numbers ? 0 : kStampToleranceNs;
+    TrajectoryEvaluation result = evaluate_trajectory(estimate.poses, truth, from_frame_, tolerance, lengths());
+    if (row_numbers) result.rpe_interval_s = NAN;
     std::printf("estimate   %s\ntruth      %s\n", estimate_.c_str(), truth_.c_str());
     print_evaluation(result);
     if (!result.segments.empty())
@@ -115,8 +121,7 @@ class EvaluateTrajectoryCommand : public Command {
            " are unknown; the errors of the whole judge predictions there, those of each segment do not");
     std::optional<evaluation::StepJudgement> steps;
     if (steps_) {
-      const std::int64_t tolerance = row_numbers ? 0 : kStampToleranceNs,
-                         first = result.per_pose.front().stamp_ns - tolerance;
+      const std::int64_t first = result.per_pose.front().stamp_ns - tolerance;
       if (from_frame_ > 0) frames.erase(frames.begin(), std::lower_bound(frames.begin(), frames.end(), first));
       steps = evaluation::judge_steps(estimate.poses, truth, frames, step_limits_, tolerance);
       std::printf("\nsteps      %d right, %d wrong, %d lost of %d\n", steps->right, steps->wrong, steps->lost,
@@ -128,6 +133,18 @@ class EvaluateTrajectoryCommand : public Command {
   }
 
  private:
+  std::vector<double> lengths() const {
+    if (lengths_.empty()) return kKittiLengths;
+    std::vector<double> metres;
+    for (const auto& word : data::split(lengths_, ",")) {
+      char* end = nullptr;
+      metres.push_back(std::strtod(word.c_str(), &end));
+      if (*end != '\0' || !(metres.back() > 0 && std::isfinite(metres.back())))
+        throw UsageError("--lengths " + lengths_ + ": expected metres, more than 0, for example 1,5,10");
+    }
+    return metres;
+  }
+
   /// Ground truth of a sequence's folder and the stamps of its frames; gives these to the estimate if it has none.
   Trajectory folder_truth(Loaded& estimate, std::vector<std::int64_t>& frames) const {
     const Dataset dataset = open_dataset(truth_, dataset_);
@@ -141,7 +158,7 @@ class EvaluateTrajectoryCommand : public Command {
     return dataset.truth;
   }
 
-  std::string estimate_, truth_, json_;
+  std::string estimate_, truth_, json_, lengths_;
   DatasetOptions dataset_;
   int from_frame_ = 0;
   bool force_ = false, steps_ = false;

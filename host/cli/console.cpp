@@ -67,6 +67,23 @@ std::string rate_and_rest(int done, int total, const std::string& unit, std::chr
   return done < total ? text + ", " + duration_text((total - done) / rate) + " left" : text;
 }
 
+/// t_rel and r_rel per length, and over the sub-paths of all; nothing where the path is too short for any.
+void print_sub_paths(const TrajectoryEvaluation& evaluation) {
+  if (evaluation.sub_path_mean.count == 0) return;
+  std::printf("\nrelative errors over sub-paths from every tenth pose (KITTI)\n%-10s %9s %10s %16s %20s\n",
+              "length [m]", "sub-paths", "t_rel [%]", "r_rel [deg/m]", "r_rel [deg/100 m]");
+  const auto row = [](const char* name, const SubPathErrors& errors) {
+    std::printf("%-10s %9d %10.4f %16.6f %20.4f\n", name, errors.count, errors.translation_percent,
+                errors.rotation_deg_per_m, 100 * errors.rotation_deg_per_m);
+  };
+  for (const SubPathErrors& errors : evaluation.sub_paths) {
+    char length[32];
+    std::snprintf(length, sizeof length, "%g", errors.length_m);
+    if (errors.count > 0) row(length, errors);
+  }
+  row("all", evaluation.sub_path_mean);
+}
+
 /// Each segment by itself, in one row.
 void print_segments(const std::vector<TrajectoryEvaluation>& segments) {
   std::printf(
@@ -259,6 +276,10 @@ void print_evaluation(const TrajectoryEvaluation& evaluation) {
   print_errors("SE(3)-aligned (least squares over all positions, no scale)", evaluation.se3_aligned);
   if (std::isfinite(evaluation.se3_aligned.ape_translation_m.mean) && !evaluation.se3_open_rotation.empty())
     std::printf("no APE rotation: %s\n", evaluation.se3_open_rotation.c_str());
+  std::printf("\nATE RMSE %s m (SE(3)-aligned); RPE over 1 frame, %s s\n",
+              dashed("%.4f", evaluation.se3_aligned.ape_translation_m.rmse).c_str(),
+              dashed("%.4f", evaluation.rpe_interval_s).c_str());
+  print_sub_paths(evaluation);
   if (!evaluation.segments.empty()) print_segments(evaluation.segments);
 }
 

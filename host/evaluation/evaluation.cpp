@@ -12,24 +12,23 @@
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
 #include "data/text.hpp"
+#include "evaluation/sub_paths.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
 namespace {
 
+using evaluation::angle_deg;
+using evaluation::MatchedPoses;
+using evaluation::mean_of;
+using evaluation::sub_path_errors;
 using Pose = Eigen::Isometry3d;
-
-/// One matched pair of poses.
-struct Match {
-  std::int64_t stamp_ns;
-  Pose estimate, truth;
-  int segment;
-};
 
 /// Nearest truth pose for each estimated pose, both in increasing order and each used at most once. Where a segment of
 /// the estimate goes back in time, the search starts anew.
-std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& truth, std::int64_t tolerance_ns) {
-  std::vector<Match> matches;
+std::vector<MatchedPoses> match_by_stamp(const Trajectory& estimate, const Trajectory& truth,
+                                         std::int64_t tolerance_ns) {
+  std::vector<MatchedPoses> matches;
   std::size_t next = 0;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     const StampedPose& pose = estimate[i];
@@ -41,12 +40,6 @@ std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& 
     ++next;
   }
   return matches;
-}
-
-/// Angle of a rotation [deg], accurate near 0 and 180 degrees, unlike the arc cosine of the trace.
-double angle_deg(const Eigen::Matrix3d& rotation) {
-  const Eigen::Quaterniond q(rotation);
-  return 2 * std::atan2(q.vec().norm(), std::abs(q.w())) * kDegreesPerRadian;
 }
 
 /// Of all errors that have a value.
@@ -74,7 +67,7 @@ ErrorStatistics statistics(std::vector<double> errors) {
 struct Errors {
   std::vector<double> ape_rotation, ape_translation, rpe_rotation, rpe_translation;
 
-  Errors(const std::vector<Match>& matches, const Pose& world_from_estimate) {
+  Errors(const std::vector<MatchedPoses>& matches, const Pose& world_from_estimate) {
     Pose previous;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Pose estimate = world_from_estimate * matches[i].estimate;
@@ -102,7 +95,7 @@ struct Errors {
 
 /// Umeyama's alignment of the positions without scale; nothing if they lie on a line, which leaves the rotation
 /// undetermined.
-std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
+std::optional<Pose> se3_alignment(const std::vector<MatchedPoses>& matches) {
   const auto count = static_cast<Eigen::Index>(matches.size());
   Eigen::Matrix3Xd from(3, count), to(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -128,7 +121,7 @@ std::string length_text(double metres) {
 /// mean square extents measures the extent of the positions off the main direction of the path; errors of a quarter of
 /// it rotate the alignment by about 14 degrees. If the estimate itself is rotated by more than that
 /// (`rotation_error_deg`, root mean square, origin-aligned), its rotation errors are meaningful all the same.
-std::string open_rotation(const std::vector<Match>& matches, double residual, double rotation_error_deg) {
+std::string open_rotation(const std::vector<MatchedPoses>& matches, double residual, double rotation_error_deg) {
   constexpr double kLargestRatio = 0.25;
   if (rotation_error_deg > std::atan(kLargestRatio) * kDegreesPerRadian) return {};
   const auto count = static_cast<Eigen::Index>(matches.size());
@@ -156,8 +149,8 @@ std::string stamp_range(const Trajectory& trajectory) {
          " to " + data::format_seconds(trajectory.back().stamp_ns) + " s";
 }
 
-/// The errors of at least two poses.
-TrajectoryEvaluation evaluate(const std::vector<Match>& matches) {
+/// The errors of at least two poses. \param lengths of the sub-paths [m]
+TrajectoryEvaluation evaluate(const std::vector<MatchedPoses>& matches, const std::vector<double>& lengths) {
   TrajectoryEvaluation evaluation;
   evaluation.matched = static_cast<int>(matches.size());
   evaluation.segment = matches[0].segment;
@@ -170,12 +163,17 @@ TrajectoryEvaluation evaluate(const std::vector<Match>& matches) {
                                 evaluation.origin_aligned.ape_rotation_deg.rmse)
                 : std::string("the positions lie on a straight line, so that the rotation is undetermined");
   if (!evaluation.se3_open_rotation.empty()) evaluation.se3_aligned.ape_rotation_deg = {kNan, kNan, kNan, kNan};
+  std::vector<std::int64_t> steps_ns;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();
-    evaluation.rpe_steps += std::isnan(origin.rpe_rotation[i]) ? 0 : 1;
+    if (!std::isnan(origin.rpe_rotation[i])) steps_ns.push_back(matches[i].stamp_ns - matches[i - 1].stamp_ns);
     evaluation.per_pose.push_back({matches[i].stamp_ns, origin.ape_rotation[i], origin.ape_translation[i],
                                    origin.rpe_rotation[i], origin.rpe_translation[i]});
   }
+  evaluation.rpe_steps = static_cast<int>(steps_ns.size());
+  if (!steps_ns.empty()) evaluation.rpe_interval_s = 1e-9 * static_cast<double>(upper_median(steps_ns));
+  evaluation.sub_paths = sub_path_errors(matches, lengths);
+  evaluation.sub_path_mean = mean_of(evaluation.sub_paths);
   if (evaluation.path_length_m > 0) {
     evaluation.end_drift_percent = 100 * origin.ape_translation.back() / evaluation.path_length_m;
   }
@@ -183,18 +181,19 @@ TrajectoryEvaluation evaluate(const std::vector<Match>& matches) {
 }
 
 /// Every segment by itself; nothing if there is only one.
-std::vector<TrajectoryEvaluation> evaluate_segments(const std::vector<Match>& matches) {
+std::vector<TrajectoryEvaluation> evaluate_segments(const std::vector<MatchedPoses>& matches,
+                                                    const std::vector<double>& lengths) {
   std::vector<TrajectoryEvaluation> segments;
   if (matches.front().segment == matches.back().segment) return segments;
   for (auto begin = matches.begin(); begin != matches.end();) {
     const auto end =
-        std::find_if(begin, matches.end(), [&](const Match& match) { return match.segment != begin->segment; });
+        std::find_if(begin, matches.end(), [&](const MatchedPoses& match) { return match.segment != begin->segment; });
     TrajectoryEvaluation single;
     single.matched = 1;
     single.segment = begin->segment;
     single.origin_aligned = single.se3_aligned = undefined();
     single.se3_open_rotation = "a single pose";
-    segments.push_back(end - begin > 1 ? evaluate({begin, end}) : single);
+    segments.push_back(end - begin > 1 ? evaluate({begin, end}, lengths) : single);
     begin = end;
   }
   return segments;
@@ -203,7 +202,9 @@ std::vector<TrajectoryEvaluation> evaluate_segments(const std::vector<Match>& ma
 }  // namespace
 
 TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth, int from_frame,
-                                         std::int64_t max_stamp_difference_ns) {
+                                         std::int64_t max_stamp_difference_ns, const std::vector<double>& lengths) {
+  for (const double length : lengths)
+    if (!(length > 0 && std::isfinite(length))) throw UsageError("length of sub-paths: expected metres, more than 0");
   check_trajectory(estimate, "estimate");
   check_trajectory(truth, "truth");
   const std::size_t first = std::min(static_cast<std::size_t>(std::max(0, from_frame)), estimate.size());
@@ -214,10 +215,10 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
                     data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " +
                     stamp_range(kept) + " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
   }
-  TrajectoryEvaluation evaluation = evaluate(matches);
+  TrajectoryEvaluation evaluation = evaluate(matches, lengths);
   evaluation.estimate_poses = static_cast<int>(estimate.size());
   evaluation.truth_poses = static_cast<int>(truth.size());
-  evaluation.segments = evaluate_segments(matches);
+  evaluation.segments = evaluate_segments(matches, lengths);
   return evaluation;
 }
 

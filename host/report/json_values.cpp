@@ -40,13 +40,29 @@ void add_configuration(Json& json, const Config& config) {
   }
 }
 
+/// t_rel and r_rel over sub-paths of one length, or of all.
+static Json to_json(const SubPathErrors& errors) {
+  return {{"sub_paths", errors.count},
+          {"t_rel_percent", to_json(errors.translation_percent)},
+          {"r_rel_deg_per_m", to_json(errors.rotation_deg_per_m)}};
+}
+
 Json to_json(const TrajectoryEvaluation& evaluation) {
   Json json = {{"origin_aligned", to_json(evaluation.origin_aligned)},
                {"se3_aligned", to_json(evaluation.se3_aligned)},
                {"matched_poses", evaluation.matched},
+               {"ate_rmse_m", to_json(evaluation.se3_aligned.ape_translation_m.rmse)},
                {"rpe_steps", evaluation.rpe_steps},
+               {"rpe_interval", {{"frames", 1}, {"seconds", to_json(evaluation.rpe_interval_s)}}},
                {"path_length_m", to_json(evaluation.path_length_m)},
                {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
+  json["sub_paths"] = {{"all", to_json(evaluation.sub_path_mean)}, {"by_length", Json::array()}};
+  for (const SubPathErrors& errors : evaluation.sub_paths) {
+    if (errors.count == 0) continue;
+    Json entry = {{"length_m", errors.length_m}};
+    entry.update(to_json(errors));
+    json["sub_paths"]["by_length"].push_back(entry);
+  }
   if (!evaluation.se3_open_rotation.empty()) json["se3_open_rotation"] = evaluation.se3_open_rotation;
   return json;
 }

@@ -38,6 +38,13 @@ void bind_evaluation(nb::module_& module) {
       .def_ro("rpe_rotation_deg", &PoseErrors::rpe_rotation_deg,
               "Between consecutive matched poses of one segment [deg].")
       .def_ro("rpe_translation_m", &PoseErrors::rpe_translation_m);
+  nb::class_<SubPathErrors>(module, "SubPathErrors",
+                            "Relative errors over sub-paths of one length, or of all, as KITTI's odometry benchmark\n"
+                            "defines them: from every tenth pose to the first one that is farther along the true path.")
+      .def_ro("length_m", &SubPathErrors::length_m, "Length [m]; NaN: all lengths.")
+      .def_ro("count", &SubPathErrors::count, "Number of sub-paths.")
+      .def_ro("translation_percent", &SubPathErrors::translation_percent, "Mean t_rel [%]; NaN without sub-paths.")
+      .def_ro("rotation_deg_per_m", &SubPathErrors::rotation_deg_per_m, "Mean r_rel [deg/m]; NaN without sub-paths.");
   using Self = TrajectoryEvaluation;
   nb::class_<Self>(module, "TrajectoryEvaluation", "Errors of a trajectory. Arrays have one row per matched pose.")
       .def_ro("origin_aligned", &Self::origin_aligned, "Errors after aligning the first matched poses.")
@@ -48,6 +55,9 @@ void bind_evaluation(nb::module_& module) {
       .def_ro("segments", &Self::segments,
               "If poses of several segments match: a TrajectoryEvaluation of each by itself, with its own alignments;\n"
               "otherwise empty. Errors of a segment with a single pose are NaN.")
+      .def_ro("sub_paths", &Self::sub_paths, "SubPathErrors of every length.")
+      .def_ro("sub_path_mean", &Self::sub_path_mean, "SubPathErrors over the sub-paths of all lengths.")
+      .def_ro("rpe_interval_s", &Self::rpe_interval_s, "Median duration of the steps of RPE [s].")
       .def_ro("path_length_m", &Self::path_length_m, "Length of the matched ground truth [m].")
       .def_ro("end_drift_percent", &Self::end_drift_percent,
               "Error of the last position relative to the path length [%].")
@@ -60,14 +70,15 @@ void bind_evaluation(nb::module_& module) {
                    "(N,): NaN for the first pose of a segment.");
   module.def(
       "evaluate_trajectory", &evaluate_trajectory, "estimate"_a, "truth"_a, "from_frame"_a = 0,
-      "max_stamp_difference_ns"_a = kStampToleranceNs,
+      "max_stamp_difference_ns"_a = kStampToleranceNs, "lengths"_a = kKittiLengths,
       "Compares an estimated Trajectory with the ground truth. Every pose is matched at most once, with the nearest "
       "time\n"
       "stamp. The errors of the whole include the unknown motions between segments, except for RPE, which is not\n"
       "computed across them.\n\n"
       "from_frame: number of leading poses of the estimate to skip.\n"
       "max_stamp_difference_ns: largest difference of matched time stamps [ns]; use 0 where stamps are row numbers\n"
-      "(KITTI files).\n\n"
+      "(KITTI files).\n"
+      "lengths: of the sub-paths of t_rel and r_rel [m].\n\n"
       "Raises DataError if fewer than two poses match.");
 }
 
