@@ -50,7 +50,8 @@ struct TurnedRig {
                 .code == 0);
     rig = nlohmann::json::parse(read_text(folder / "out/report.json")).at("rig");
     const std::string cells = folder / "out/rig_maps.csv";
-    const auto all = csv_numbers(cells, "rows_before"), columns = csv_numbers(cells, "x"), rows = csv_numbers(cells, "y");
+    const auto all = csv_numbers(cells, "rows_before"), columns = csv_numbers(cells, "x"),
+               rows = csv_numbers(cells, "y");
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (std::isnan(all[i])) continue;
       before.push_back(all[i]);
