@@ -2,13 +2,13 @@
 /// \file made_up_run.hpp  Made-up results of runs, for tests of evaluation and reports.
 
 #include <cmath>
-#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "dataset_files.hpp"
-#include "report/batch_summary.hpp"
 #include "report/json.hpp"
-#include "report/result_rows.hpp"
+#include "report/json_values.hpp"
 
 /// True pose on the made-up path, ten frames per second.
 inline Eigen::Isometry3d made_up_truth(std::int64_t stamp_ns) {
@@ -45,21 +45,32 @@ inline quadedge::report::RunRecord made_up_run(int frames, double drift) {
   return run;
 }
 
-/// Writes a batch's results of one sequence.
-inline void write_member(const std::string& output, const std::string& name, const quadedge::report::RunRecord& run) {
-  const std::string folder = quadedge::report::member_folder(output, name);
-  dataset_files::write_text(folder + "/report.json", quadedge::report::report_json(run));
-  dataset_files::write_text(folder + "/member.json",
-                            quadedge::report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
-  quadedge::report::AppendFile frames(folder + "/frames.csv");
-  frames.append(quadedge::report::frames_row(0, {}).heading());
-  quadedge::Trajectory estimate, truth;
-  for (const auto& frame : run.frames) {
-    frames.append(quadedge::report::frames_row(0, frame.result).line());
-    estimate.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
-    truth.push_back({frame.result.stamp_ns, made_up_truth(frame.result.stamp_ns)});
+/// Folder of a sequence's results within a batch.
+inline std::string member_folder(const std::string& output, const std::string& name) {
+  return output + "/sequences/" + name;
+}
+
+/// Writes a batch of the given runs, all tracked, with the parts of its summary that programs read.
+inline void write_batch(const std::string& output,
+                        const std::vector<std::pair<std::string, quadedge::report::RunRecord>>& runs) {
+  auto summary = quadedge::report::Json{{"schema", 1}, {"min_tracked_percent", 50}};
+  for (const auto& [name, run] : runs) {
+    const std::string folder = member_folder(output, name), report = quadedge::report::report_json(run);
+    dataset_files::write_text(folder + "/report.json", report);
+    const auto parsed = quadedge::report::Json::parse(report);
+    summary["sequences"].push_back({{"name", name},
+                                    {"status", "done"},
+                                    {"frames", run.frames.size()},
+                                    {"frames_tracked", run.tracked()},
+                                    {"latency_ms", parsed["latency_ms"]},
+                                    {"accuracy", parsed["accuracy"]}});
+    quadedge::Trajectory estimate, truth;
+    for (const auto& frame : run.frames) {
+      estimate.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
+      truth.push_back({frame.result.stamp_ns, made_up_truth(frame.result.stamp_ns)});
+    }
+    quadedge::write_tum(folder + "/trajectory.txt", estimate);
+    quadedge::write_tum(folder + "/groundtruth.txt", truth);
   }
-  quadedge::write_tum(folder + "/trajectory.txt", estimate);
-  quadedge::write_tum(folder + "/groundtruth.txt", truth);
-  std::filesystem::create_directories(folder + "/pictures");
+  dataset_files::write_text(output + "/summary.json", quadedge::report::json_text(summary));
 }

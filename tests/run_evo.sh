@@ -52,7 +52,7 @@ done
 "$quadedge" synth "$folder/batch/cables" --scene cables --frames 6 --size 320x200 --quiet
 "$quadedge" synth "$folder/batch/facade" --scene facade --path handheld --frames 6 --size 320x200 --quiet
 mv "$folder/room" "$folder/batch/room"
-"$quadedge" batch "$folder/batch" -o "$folder/out" --quiet >/dev/null
+QUADEDGE_PYTHON="$python" "$quadedge" batch "$folder/batch" -o "$folder/out" --quiet >/dev/null
 for name in room cables facade; do
   compare "$folder/out/sequences/$name/trajectory.txt" "$folder/out/sequences/$name/groundtruth.txt" \
     "$folder/out/summary.json" --sequence $name

@@ -227,19 +227,6 @@ TEST_CASE("run: images of a pipe take the timestamps of --times; the report has 
   CHECK_THAT(read_text(folder / "log"), Contains("few.txt: found 2 times, expected one for every pair"));
 }
 
-TEST_CASE("batch: a list may contain own cameras", "[cli][device]") {
-  const TemporaryFolder folder;
-  own_camera::write_bytes(folder / "list.txt", "--video " + camera().video + " --split left-right --calibration " +
-                                                   camera().calibration + "\n--video absent.mkv --split left-right" +
-                                                   " --calibration " + camera().calibration + "\n");
-  const auto result = run_program({"batch", folder / "list.txt", "-o", folder / "out", "--quiet"});
-  CHECK(result.code == 3);
-  CHECK_THAT(result.err, Contains("absent") && Contains("no such file"));
-  CHECK(read_lines(folder / "out/sequences/both/trajectory.txt").size() == 5);
-  const auto again = run_program({"batch", folder / "list.txt", "-o", folder / "out"});
-  CHECK_THAT(again.err, Contains("1 finished already"));
-}
-
 TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
   const std::vector<std::string> source = {"--video",    camera().video,  "--split",
                                            "left-right", "--calibration", camera().calibration};

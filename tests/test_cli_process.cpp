@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "background_program.hpp"
-#include "batch_folders.hpp"
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -125,13 +124,6 @@ TEST_CASE("process: unreadable folders are recorded with code 3, and the others 
   CHECK(list.code == 0);
   CHECK_THAT(list.out, Contains("itself\t") && Contains("locked\t") && Contains("one\t") && Contains("two\t"));
   fs::permissions(tree + "/locked", fs::perms::owner_all);
-
-  const TemporaryFolder other;
-  fs::create_directory(other / "tree");
-  fs::create_symlink("itself", other / "tree/itself");
-  const auto batch = run_program({"batch", other / "tree", "-o", other / "out", "--device", "reference"});
-  CHECK(batch.code == 3);
-  CHECK_THAT(batch.err, Contains("itself (failed)") && Contains("Too many levels"));
 }
 
 TEST_CASE("process: an impossible path is a user error, not an internal error", "[cli]") {

@@ -6,7 +6,6 @@
 #include "dataset_files.hpp"
 #include "made_up_run.hpp"
 #include "program.hpp"
-#include "report/batch_summary.hpp"
 
 using Catch::Matchers::Contains;
 using dataset_files::write_text;
@@ -18,8 +17,7 @@ namespace {
 /// A batch of one made-up run, which is also a single run.
 std::string made_up_batch(const TemporaryFolder& folder) {
   const std::string batch = folder / "my results";
-  write_member(batch, "street", made_up_run(12, 0.01));
-  write_text(batch + "/summary.json", report::summary_json(report::summarise(batch, {"street"}, 50)));
+  write_batch(batch, {{"street", made_up_run(12, 0.01)}});
   return batch;
 }
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "csv_table.hpp"
 #include "dataset_files.hpp"
 #include "program.hpp"
-#include "report/rows.hpp"
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -89,7 +89,7 @@ TEST_CASE("run: trajectories begin at the identity, with one row per tracked or 
 TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[cli][device]") {
   const auto rows = read_lines(shared_run().out("poses.csv"));
   REQUIRE(rows.size() == 5);
-  const auto names = quadedge::report::csv_fields(rows[0]);
+  const auto names = csv_fields(rows[0]);
   REQUIRE(names.size() == 5 + 7 + 7 + 21 + 21 + 1);
   CHECK(names[19] == "covariance_x_x");
   CHECK(names[40] == "reference_covariance_x_x");
@@ -97,7 +97,7 @@ TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[
   CHECK(names[61] == "base_frame");
   const auto tum = read_lines(shared_run().out("trajectory.txt"));
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto values = quadedge::report::csv_fields(rows[i]);
+    const auto values = csv_fields(rows[i]);
     REQUIRE(values.size() == names.size());
     std::istringstream pose(tum[i]);
     std::string value;
@@ -154,9 +154,9 @@ TEST_CASE("run: frames.csv has a row per frame whose stage times add up to the l
   const auto& run = shared_run();
   const auto rows = read_lines(run.out("frames.csv"));
   REQUIRE(rows.size() == 5);
-  const auto names = quadedge::report::csv_fields(rows[0]);
+  const auto names = csv_fields(rows[0]);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto values = quadedge::report::csv_fields(rows[i]);
+    const auto values = csv_fields(rows[i]);
     REQUIRE(values.size() == names.size());
     double latency = 0, stages = 0;
     for (std::size_t column = 0; column < names.size(); ++column) {
@@ -304,6 +304,36 @@ TEST_CASE("run: frames finished before a broken image stay on disk", "[cli][devi
   CHECK(run_program({"check", folder / "room"}).code == 3);
 }
 
+TEST_CASE("run: a device that fails in mid-run costs no finished frame and no file", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto launches = [&](long most) {
+    return "LD_PRELOAD='" QUADEDGE_LOST_DEVICE "' QUADEDGE_TEST_LAUNCHES=" + std::to_string(most);
+  };
+  const auto run = [&](long most) {
+    return run_program(
+        {"run", small_sequence(), "-o", folder / "out", "--force", "--loops", "--save-map", folder / "places.map",
+         "--rig-file", folder / "rig.toml", "--points", folder / "edges.ply", "--quiet"},
+        launches(most));
+  };
+  CHECK(run(10).code == 4);  // before the first frame
+  CHECK_FALSE(fs::exists(folder / "out/report.json"));
+  ProgramResult result;
+  for (long most = 100; read_lines(folder / "out/trajectory_kitti.txt").size() < 2; most += 50) {
+    REQUIRE(most < 10'000);
+    result = run(most);
+  }
+  CHECK(result.code == 4);
+  CHECK_THAT(result.err, Contains("finished frames in") && Contains("CL_OUT_OF_RESOURCES"));
+  const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
+  CHECK(report["input"]["frames"] == 4);
+  CHECK_THAT(report["ended_early"].get<std::string>(), Contains("CL_OUT_OF_RESOURCES"));
+  CHECK(report["accuracy"]["matched_poses"] == read_lines(folder / "out/trajectory_kitti.txt").size());
+  for (const char* file : {"places.map", "rig.toml", "edges.ply", "out/trajectory_map.txt", "out/errors.csv"}) {
+    INFO(file);
+    CHECK(fs::file_size(folder / file) > 0);
+  }
+}
+
 TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the next", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string file = folder / "rig.toml";
@@ -324,9 +354,9 @@ TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the 
   };
   const auto first_edges = [&] {  // stereo edges of the first frame of the last run
     const auto rows = read_lines(folder / "out/frames.csv");
-    const auto names = quadedge::report::csv_fields(rows[0]);
+    const auto names = csv_fields(rows[0]);
     const auto column = std::find(names.begin(), names.end(), "stereo_edges") - names.begin();
-    return std::stoi(quadedge::report::csv_fields(rows[1])[static_cast<std::size_t>(column)]);
+    return std::stoi(csv_fields(rows[1])[static_cast<std::size_t>(column)]);
   };
   REQUIRE(run("--rig-file").code == 0);
   const double learned = value("rig.toml", "pose.disparity_offset");
@@ -361,6 +391,36 @@ TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the 
   dataset_files::write_text(file, "pose.disparity_offset = 0.125\npose.disparity_offset_sigma = 0.1\n");
   CHECK(run("--rig-file").code == 0);
   CHECK(value("out/config.toml", "disparity_offset") == 0.125);
+}
+
+TEST_CASE("run: a device that fails in mid-run costs no finished frame and no file", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto launches = [&](long most) {
+    return "LD_PRELOAD='" QUADEDGE_LOST_DEVICE "' QUADEDGE_TEST_LAUNCHES=" + std::to_string(most);
+  };
+  const auto run = [&](long most) {
+    return run_program(
+        {"run", small_sequence(), "-o", folder / "out", "--force", "--loops", "--save-map", folder / "places.map",
+         "--rig-file", folder / "rig.toml", "--points", folder / "edges.ply", "--quiet"},
+        launches(most));
+  };
+  CHECK(run(10).code == 4);  // before the first frame
+  CHECK_FALSE(fs::exists(folder / "out/report.json"));
+  ProgramResult result;
+  for (long most = 100; read_lines(folder / "out/trajectory_kitti.txt").size() < 2; most += 50) {
+    REQUIRE(most < 10'000);
+    result = run(most);
+  }
+  CHECK(result.code == 4);
+  CHECK_THAT(result.err, Contains("finished frames in") && Contains("CL_OUT_OF_RESOURCES"));
+  const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
+  CHECK(report["input"]["frames"] == 4);
+  CHECK_THAT(report["ended_early"].get<std::string>(), Contains("CL_OUT_OF_RESOURCES"));
+  CHECK(report["accuracy"]["matched_poses"] == read_lines(folder / "out/trajectory_kitti.txt").size());
+  for (const char* file : {"places.map", "rig.toml", "edges.ply", "out/trajectory_map.txt", "out/errors.csv"}) {
+    INFO(file);
+    CHECK(fs::file_size(folder / file) > 0);
+  }
 }
 
 TEST_CASE("run: --rig-file carries what is confirmed of the right camera", "[cli][device]") {

@@ -206,3 +206,19 @@ TEST_CASE("map: what it cannot work with is a usage error") {
   StereoOdometry with_sift(any.rig(), reference, config);
   CHECK_THROWS_AS(Map(with_sift), UsageError);
 }
+
+TEST_CASE("map: it has to see every frame from the first on", "[device]") {
+  const SyntheticSequence sequence(small("room", "ellipse", 4));
+  const auto track = [&](StereoOdometry& odometry, int frame) { return odometry.track(sequence.pair(frame).view()); };
+  StereoOdometry odometry(sequence.rig());
+  track(odometry, 0);
+  CHECK_THROWS_AS(Map(odometry), UsageError);
+
+  StereoOdometry other(sequence.rig());
+  Map map(other);
+  map.add(track(other, 0));
+  track(other, 1);
+  const FrameResult result = track(other, 2);  // against frame 0 or 1, of which the map knows one
+  CHECK_THROWS_WITH(map.add(result), Catch::Matchers::Contains("frame 2 last, expected 1"));
+  CHECK(map.trajectory().size() == 1);
+}

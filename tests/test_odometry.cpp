@@ -168,6 +168,22 @@ TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right po
   }
 }
 
+TEST_CASE("odometry: a dropped frame does not halve the velocity", "[odometry][device]") {
+  Device device(all_devices().front(), kept_programs());
+  const Image black(240, 150);
+  const auto dark = [&](std::size_t i) { return at(room().frame(i).stamp_ns, {0, black.view(), black.view()}); };
+  {  // frame 4 is dropped before the dark frame 5: two intervals since frame 3
+    StereoOdometry odometry(room().rig, device, room().config);
+    for (std::size_t i : {0, 1, 2, 3}) REQUIRE(is_tracked(odometry.track(room().frame(i)).status));
+    check_pose(odometry.track(dark(5)).predicted_world_from_left, room().world_from_left[5], 0.01, 0.3);
+  }
+  {  // frame 3 is dropped: the last motion was that of two intervals
+    StereoOdometry odometry(room().rig, device, room().config);
+    for (std::size_t i : {0, 1, 2, 4}) REQUIRE(is_tracked(odometry.track(room().frame(i)).status));
+    check_pose(odometry.track(dark(5)).predicted_world_from_left, room().world_from_left[5], 0.01, 0.3);
+  }
+}
+
 TEST_CASE("odometry: in the dark the last motion is repeated once, not for ever", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);

@@ -156,9 +156,10 @@ TEST_CASE("pipe: waiting for an image that never arrives can be interrupted", "[
   REQUIRE(pipe(ends) == 0);
   const auto start = std::chrono::steady_clock::now();
   {
-    bool stop = false;
-    FramePrefetcher frames(dataset_of(make_picture_pipe(ends[0], {Split::none, 10, 3})), 2, [&] { return stop; });
-    stop = true;
+    FramePrefetcher* asked = nullptr;  // the function may ask the prefetcher something
+    FramePrefetcher frames(dataset_of(make_picture_pipe(ends[0], {Split::none, 10, 3})), 2,
+                           [&] { return asked != nullptr && asked->dropped() == 0; });
+    asked = &frames;
     CHECK_FALSE(frames.next());
   }
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "csv_table.hpp"
 #include "dataset_files.hpp"
 #include "program.hpp"
 #include "quadedge/camera.hpp"
 #include "report/rig_maps.hpp"
-#include "report/rows.hpp"
 
 using namespace quadedge;
 using report::CellMap;
@@ -49,13 +49,14 @@ struct TurnedRig {
                          "--pose.disparity_offset_sigma", "1"})
                 .code == 0);
     rig = nlohmann::json::parse(read_text(folder / "out/report.json")).at("rig");
-    const report::CsvTable cells(folder / "out/rig_maps.csv", "maps");
-    const auto all = cells.numbers("rows_before");
+    const std::string cells = folder / "out/rig_maps.csv";
+    const auto all = csv_numbers(cells, "rows_before"), columns = csv_numbers(cells, "x"),
+               rows = csv_numbers(cells, "y");
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (std::isnan(all[i])) continue;
       before.push_back(all[i]);
-      x.push_back(cells.numbers("x")[i] - cx);
-      y.push_back(cells.numbers("y")[i] - cy);
+      x.push_back(columns[i] - cx);
+      y.push_back(rows[i] - cy);
     }
   }
 };

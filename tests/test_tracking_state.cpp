@@ -111,22 +111,22 @@ TEST_CASE("key rig: one with a predicted pose is replaced by the first tracked f
 
 TEST_CASE("constant velocity: a motion over several intervals is divided evenly and repeated", "[odometry]") {
   ConstantVelocity velocity;
-  CHECK_FALSE(velocity.predict(1));
+  CHECK_FALSE(velocity.predict({1}));
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   turn.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  velocity.observe(turn, 3);
-  CHECK(Eigen::AngleAxisd(velocity.predict(1)->linear()).angle() == Approx(0.1));
-  CHECK(velocity.predict(3)->isApprox(turn, 1e-12));
-  CHECK(velocity.predict(0)->matrix() == Eigen::Matrix4d::Identity());
+  velocity.observe(turn, {3});
+  CHECK(Eigen::AngleAxisd(velocity.predict({1})->linear()).angle() == Approx(0.1));
+  CHECK(velocity.predict({3})->isApprox(turn, 1e-12));
+  CHECK(velocity.predict({0})->matrix() == Eigen::Matrix4d::Identity());
 
   Eigen::Isometry3d shift = Eigen::Isometry3d::Identity();
   shift.translation() = Eigen::Vector3d(0, 0.4, -1);
-  velocity.observe(shift, 2);
-  CHECK(velocity.predict(1)->translation().isApprox(Eigen::Vector3d(0, 0.2, -0.5)));
-  CHECK(velocity.predict(5)->translation().isApprox(Eigen::Vector3d(0, 1, -2.5)));
+  velocity.observe(shift, {2});
+  CHECK(velocity.predict({1})->translation().isApprox(Eigen::Vector3d(0, 0.2, -0.5)));
+  CHECK(velocity.predict({5})->translation().isApprox(Eigen::Vector3d(0, 1, -2.5)));
 
   velocity.forget();
-  CHECK_FALSE(velocity.predict(1));
+  CHECK_FALSE(velocity.predict({1}));
 }
 
 TEST_CASE("constant velocity: a turning camera continues along its curve", "[odometry]") {
@@ -134,6 +134,35 @@ TEST_CASE("constant velocity: a turning camera continues along its curve", "[odo
   motion.linear() = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
   motion.translation() = Eigen::Vector3d(0.1, 0, 0.7);
   ConstantVelocity velocity;
-  velocity.observe(motion, 1);
-  CHECK(velocity.predict(2)->isApprox(motion * motion, 1e-12));
+  velocity.observe(motion, {1});
+  CHECK(velocity.predict({2})->isApprox(motion * motion, 1e-12));
+}
+
+TEST_CASE("constant velocity: stamps tell how many intervals a step has", "[odometry]") {
+  constexpr std::int64_t kInterval = 50'000'000;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  motion.translation() = Eigen::Vector3d(0.1, 0, 0.7);
+  ConstantVelocity counted, stamped;
+  counted.observe(motion, {1});
+  stamped.observe(motion, {1, kInterval});
+  const auto same = [&](odometry::TimeStep step, int intervals) {
+    return stamped.predict(step)->matrix() == counted.predict({intervals})->matrix();
+  };
+  CHECK(same({1, kInterval}, 1));
+  CHECK(same({2, 2 * kInterval}, 2));
+  CHECK(same({1, 2 * kInterval}, 2));  // a frame was dropped
+  CHECK(same({1, kInterval + kInterval / 5}, 1));
+  CHECK(same({1, kInterval - kInterval / 5}, 1));
+  CHECK(same({1, 0}, 1));  // equal stamps
+  CHECK_FALSE(stamped.predict({1, 11 * kInterval}));
+
+  // The velocity was seen over a dropped frame.
+  stamped.observe(motion, {1, 2 * kInterval});
+  const Eigen::Isometry3d half = *stamped.predict({1, kInterval});
+  CHECK(Eigen::AngleAxisd(half.linear()).angle() == Approx(0.1));
+  CHECK(half.translation().isApprox(motion.translation() / 2));
+  CHECK(same({1, 4 * kInterval}, 2));
+  stamped.observe(motion, {1, 0});
+  CHECK(same({2, 3 * kInterval}, 2));
 }

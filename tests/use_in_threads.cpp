@@ -101,6 +101,30 @@ void build_in_turn_and_track_in_threads() {
   require_equal(poses);
 }
 
+/// Threads that share one device wait for one another.
+void share_a_device_in_threads() {
+  const Room room;
+  Device device;
+  std::vector<std::vector<double>> poses(kThreads);
+  in_threads([&](std::size_t i) {
+    StereoOdometry odometry(room.sequence.rig(), device);
+    for (const StereoPair& pair : room.pairs) {
+      const FrameResult result = odometry.track(pair.view());
+      if (!is_tracked(result.status)) throw Error(ExitCode::internal, "a frame is lost");
+      const auto& pose = result.world_from_left->matrix();
+      poses[i].insert(poses[i].end(), pose.data(), pose.data() + pose.size());
+    }
+    if (odometry.details().stereo.size() == 0) throw Error(ExitCode::internal, "no edges");
+  });
+  Tracker alone(room, "auto");
+  poses.push_back({});
+  for (const StereoPair& pair : room.pairs) {
+    const auto pose = alone.odometry.track(pair.view()).world_from_left->matrix();
+    poses.back().insert(poses.back().end(), pose.data(), pose.data() + pose.size());
+  }
+  require_equal(poses);
+}
+
 /// Runs work in a forked process. \returns the process's status, 0 if work returned and the process exited normally
 /// \param errors receives its standard error, unless null
 int status_of_fork(const std::function<void()>& work, std::FILE* errors = nullptr) {
@@ -179,6 +203,7 @@ int main(int count, char** arguments) {
   }
   const int failures = failures_of("built and tracked in 4 threads", trials, build_and_track_in_threads) +
                        failures_of("built in turn, tracked in 4 threads", trials, build_in_turn_and_track_in_threads) +
+                       failures_of("one device shared by 4 threads", trials, share_a_device_in_threads) +
                        failures_of("used in a fork of a process that has tracked", 1, fork_after_tracking);
   return failures == 0 ? 0 : 1;
 }

@@ -18,8 +18,9 @@ class Options {
   /// A positional argument.
   virtual void positional(const std::string& name, std::string& value, const std::string& help,
                           bool required = true) = 0;
-  /// One or more positional arguments; the last ones of the command.
-  virtual void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) = 0;
+  /// One or more positional arguments, or any number if not `required`; the last ones of the command.
+  virtual void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help,
+                           bool required = true) = 0;
   virtual void text(const std::string& names, std::string& value, const std::string& help,
                     const std::string& placeholder) = 0;
   /// One or two files: "LEFT,RIGHT", or given twice.

@@ -1,187 +1,183 @@
-/// \file command_batch.cpp  quadedge batch: many sequences, their results and one summary.
-#include <algorithm>
+/// \file command_batch.cpp  quadedge batch: says what is to be run and starts Snakemake (python/quadedge/batch), which
+/// runs it.
 #include <cstdio>
+#include <cstdlib>
+#include <dlfcn.h>
 #include <filesystem>
+#include <link.h>
+#include <thread>
 
-#include "cli/batch.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/method_options.hpp"
 #include "cli/processes.hpp"
 #include "data/atomic_file.hpp"
+#include "data/content_hash.hpp"
+#include "data/find_sequences.hpp"
 #include "data/text.hpp"
+#include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
+#include "report/json_values.hpp"
 #include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;
+using report::Json;
 namespace {
+
+constexpr int kPlanSchema = 1;  // grows when a key changes its meaning
+constexpr int kThumbnails = 4;  // of every sequence; the page shows them
+
+/// The file that holds the program's code: a library where the Python package runs it, else the program itself.
+std::string code_file() {
+  Dl_info about{};
+  link_map* file = nullptr;
+  const bool found =
+      dladdr1(reinterpret_cast<void*>(&code_file), &about, reinterpret_cast<void**>(&file), RTLD_DL_LINKMAP) != 0;
+  return found && *file->l_name != '\0' ? file->l_name : kProgramFile;
+}
+
+/// The file with the ground truth of a recording; empty if it has none or cannot be opened, which its run reports.
+std::string truth_file(const data::FoundSequence& sequence) {
+  if (sequence.source) return {};
+  try {
+    return open_dataset(sequence.path).truth_file;
+  } catch (const Error&) {
+    return {};
+  }
+}
 
 class BatchCommand : public Command {
  public:
   BatchCommand()
-      : Command("batch", "track many sequences, each in its own process, and summarise the results",
+      : Command("batch", "track many sequences with Snakemake, each in its own process, and summarise the results",
                 "  quadedge batch eth3d/training -o results\n"
-                "  quadedge batch sequences.txt -o results --device gpu --jobs 2") {
-    batch_.output = "quadedge_batch";
-  }
+                "  quadedge batch sequences.txt -o results --device gpu -- --executor slurm --jobs 20") {}
   void declare(Options& options) override {
     options.positional("ROOT|LIST", input_,
                        "folder with sequences at any depth, or a file with one folder, or one camera source, per line");
-    options.text("-o,--output", batch_.output, "output folder; default: quadedge_batch in the current folder", "OUT");
-    options.number("--jobs", batch_.jobs, "number of sequences tracked in parallel; 0: chosen by device");
-    options.flag("--timing", batch_.timing,
-                 "measure latencies: track one sequence at a time, and repeat those that ran in parallel");
-    options.flag("--profile", batch_.profile, "measure kernel times of every sequence in a second pass");
-    options.flag("--loops", batch_.loops, "recognise places and close loops in every sequence");
-    options.number("--draw", batch_.draw_every, "draw the edges and quads of every N-th frame");
-    options.number("--min-tracked", batch_.min_tracked,
+    options.positionals("SNAKEMAKE", snakemake_, "after --: options of Snakemake, such as --executor slurm", false);
+    options.text("-o,--output", output_, "output folder; default: quadedge_batch in the current folder", "OUT");
+    options.number("--jobs", jobs_,
+                   "number of sequences tracked in parallel; 0: one, or one per core with --device reference");
+    options.flag("--profile", profile_, "measure kernel times of every sequence in a second pass");
+    options.flag("--loops", loops_, "recognise places and close loops in every sequence");
+    options.number("--draw", draw_every_, "draw the edges and quads of every N-th frame");
+    options.number("--min-tracked", min_tracked_,
                    "exit with code 5 if fewer frames of a sequence are tracked [percent]");
-    options.flag("--force", batch_.force, "repeat finished sequences");
-    options.flag("--quiet", batch_.quiet, "hide progress; warnings and the summary remain");
-    options.group("Single steps of a batch, for schedulers");
     options.flag("--list", list_, "print name and folder of every sequence; track none");
-    options.text("--only", only_, "track only this sequence, without a summary; several processes may share OUT",
-                 "NAME");
-    options.flag("--gather", gather_, "track nothing; summarise the results that exist");
+    options.flag("--dry-run", dry_run_, "print which sequences would be tracked; track none");
+    options.flag("--force", force_, "repeat finished sequences");
+    options.flag("--quiet", quiet_, "hide progress; warnings and the summary remain");
     method_.declare(options);
   }
 
   int run() override {
-    if (batch_.jobs < 0)
-      throw UsageError("--jobs " + std::to_string(batch_.jobs) + ": expected 0 (chosen by device) or more");
-    if (batch_.timing && batch_.jobs > 1)
-      throw UsageError("--timing and --jobs " + std::to_string(batch_.jobs) + " exclude one another");
-    if (batch_.draw_every < 0)
-      throw UsageError("--draw " + std::to_string(batch_.draw_every) + ": expected 0 (none) or more");
-    if (!(batch_.min_tracked >= 0 && batch_.min_tracked <= 100))
-      throw UsageError("--min-tracked: expected 0 to 100 percent");
-    if (list_ + gather_ + !only_.empty() > 1) throw UsageError("--list, --only and --gather exclude one another");
-    method_.config();  // reports wrong options before data is read
+    check_options();
     const auto sequences = data::find_sequences(input_);
-    if (list_) return print_list(sequences);
-    if (!only_.empty()) return run_one(sequences);
-    return gather_ ? summarise(sequences, Interruption()) : run_all(sequences);
+    if (list_) {
+      for (const auto& sequence : sequences) std::printf("%s\t%s\n", sequence.name.c_str(), sequence.path.c_str());
+      return 0;
+    }
+    const auto python = find_python("quadedge.batch");
+    if (python.found.empty()) {
+      print_error("batch needs Snakemake 9, and " + python.tried +
+                  " has no module quadedge.batch with it; `pip install 'quadedge[batch]'`, or `pip install "
+                  "'snakemake>=9'` in the virtual environment of a clone, and set QUADEDGE_PYTHON to its Python");
+      return static_cast<int>(ExitCode::usage);
+    }
+    if (snakemake_.empty()) method_.open_device();  // a missing device ends the batch here, not in every run
+    output_ = fs::absolute(output_).string();
+    data::make_folder(fs::path(output_) / "sequences");
+    const report::FolderLock lock((fs::path(output_) / ".lock").string(), output_);
+    const std::string config = report::config_toml(method_.config(), method_.device_choice());
+    data::write_atomically(output_ + "/config.toml", config);
+    data::write_atomically(output_ + "/batch.json", report::json_text(plan(sequences, config)));
+    std::vector<std::string> words = {"-m", "quadedge.batch", output_};
+    if (dry_run_) words.emplace_back("--dry-run");
+    if (force_) words.emplace_back("--force");
+    if (quiet_) words.emplace_back("--quiet");
+    words.emplace_back("--");
+    words.insert(words.end(), snakemake_.begin(), snakemake_.end());
+    lock.keep_in_next_program();
+    become(python.found, words);
   }
 
  private:
-  static int print_list(const std::vector<data::FoundSequence>& sequences) {
-    for (const auto& sequence : sequences) std::printf("%s\t%s\n", sequence.name.c_str(), sequence.path.c_str());
-    return 0;
+  void check_options() const {
+    if (jobs_ < 0) throw UsageError("--jobs " + std::to_string(jobs_) + ": expected 0 (chosen by device) or more");
+    if (draw_every_ < 0) throw UsageError("--draw " + std::to_string(draw_every_) + ": expected 0 (none) or more");
+    if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
+    if (!snakemake_.empty() && snakemake_.front()[0] != '-')
+      throw UsageError("'" + snakemake_.front() + "': expected one folder or list, then -- and options of Snakemake");
+    method_.config();  // reports wrong options before data is read
   }
 
-  fs::path output() const { return batch_.output; }
-
-  /// The configuration that all runs read.
-  void write_config() const {
-    data::write_atomically((output() / "config.toml").string(),
-                           report::config_toml(method_.config(), method_.device_choice()));
+  /// Sequences at the same time: as many as do not disturb one another. An OpenCL device carries one (a CPU gives it
+  /// all cores, and on a GPU the kernels of others delay it), the plain C++ reference one per core.
+  int jobs() const {
+    if (jobs_ > 0) return jobs_;
+    const bool has_own_core = method_.device_choice() == "reference" && !profile_;
+    return has_own_core ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : 1;
   }
 
-  /// The plan of some sequences, for the device that will run them.
-  std::vector<BatchMember> plan(const std::vector<data::FoundSequence>& sequences) {
-    const DeviceInfo device = method_.open_device().info();  // a missing device ends the batch here, not in every run
-    if (batch_.jobs == 0) batch_.jobs = default_jobs(device, batch_);
-    return plan_batch(sequences, method_, device, batch_);
+  /// What every `quadedge run` of the batch is given beside its sequence.
+  std::vector<std::string> run_options() const {
+    std::vector<std::string> words = {"--config",      output_ + "/config.toml",
+                                      "--device",      method_.device_choice(),
+                                      "--thumbnails",  std::to_string(kThumbnails),
+                                      "--draw",        std::to_string(draw_every_),
+                                      "--min-tracked", "0"};
+    if (!method_.kernel_folder().empty())
+      words.insert(words.end(), {"--kernels", fs::absolute(method_.kernel_folder()).string()});
+    if (method_.trusts()) words.emplace_back("--trust");
+    if (profile_) words.emplace_back("--profile");
+    if (loops_) words.emplace_back("--loops");
+    return words;
   }
 
-  int run_all(const std::vector<data::FoundSequence>& sequences) {
-    data::make_folder(output() / "sequences");
-    const report::FolderLock lock((output() / ".lock").string(), false, batch_.output);
-    const Interruption interruption;
-    write_config();
-    const auto members = plan(sequences);
-    data::remove_all(output() / "unfinished");  // of a batch that was killed; only while the lock is held alone
-    note_progress(members);
-    const bool complete =
-        std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
-    if (!complete) remove_summary();  // it would not match the new results
-    const auto before =
-        std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
-    const auto finished = before + run_batch(members, method_, batch_, interruption);
-    data::remove_all(output() / "unfinished");
-    if (interruption.signal() != 0) {
-      note("interrupted; " + std::to_string(finished) + " of " + data::counted(members.size(), "sequence") +
-           " finished, results in " + (output() / "sequences").string() + "; repeat the command to go on");
-      interruption.end_process();
+  /// batch.json, which python/quadedge/batch reads. `key` stands for program, options and configuration: a sequence
+  /// that was run with another one is run again.
+  Json plan(const std::vector<data::FoundSequence>& sequences, const std::string& config) const {
+    data::ContentHash key;
+    for (const auto& text : {std::string(QUADEDGE_VERSION), data::file_hash(code_file()), config}) key.add(text);
+    const auto options = run_options();
+    for (const auto& word : options) key.add(word);
+    Json json;
+    json["schema"] = kPlanSchema;
+    report::add_origin(json, command_line());
+    json["input"] = input_;
+    report::add_configuration(json, method_.config());
+    json["min_tracked_percent"] = min_tracked_;
+    json["program"] = fs::read_symlink(kProgramFile).string();
+    json["directory"] = fs::current_path().string();
+    json["options"] = options;
+    if (method_.threads() != 0) {  // which changes times alone
+      json["options"].push_back("--threads");
+      json["options"].push_back(std::to_string(method_.threads()));
     }
-    return summarise(sequences, interruption);
-  }
-
-  int run_one(const std::vector<data::FoundSequence>& sequences) {
-    const auto found =
-        std::find_if(sequences.begin(), sequences.end(), [&](const auto& sequence) { return sequence.name == only_; });
-    if (found == sequences.end())
-      throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list prints all");
-    data::make_folder(output() / "sequences");
-    const report::FolderLock lock((output() / ".lock").string(), true, batch_.output);
-    const Interruption interruption;
-    write_config();
-    run_batch(plan({*found}), method_, batch_, interruption);
-    if (interruption.signal() != 0) interruption.end_process();
-    const auto row = report::read_summary_row(report::member_folder(batch_.output, only_), only_, batch_.min_tracked);
-    if (row.member.exit_code != 0)
-      std::fprintf(stderr, "quadedge: %s: %s\n", only_.c_str(), row.member.message.c_str());
-    return row.member.exit_code;
-  }
-
-  void remove_summary() const {
-    for (const char* name : {"summary.json", "summary.md", "report.html"}) data::remove_all(output() / name);
-  }
-
-  void note_progress(const std::vector<BatchMember>& members) const {
-    const auto finished =
-        std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
-    std::string sentence =
-        data::counted(members.size(), "sequence") + ", " + std::to_string(finished) + " finished already";
-    if (static_cast<std::size_t>(finished) < members.size())
-      sentence += ", " + std::to_string(batch_.jobs) + " in parallel";
-    if (!batch_.quiet) note(sentence);
-  }
-
-  /// Writes the summary of all results, and its page if Python can make it. Returns the worst exit code.
-  int summarise(const std::vector<data::FoundSequence>& sequences, const Interruption& interruption) const {
-    std::vector<std::string> names;
-    for (const auto& sequence : sequences) names.push_back(sequence.name);
-    auto summary = report::summarise(batch_.output, names, batch_.min_tracked);
-    summary.command = command_line();
-    summary.input = input_;
-    summary.config = method_.config();
-    remove_summary();
-    data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
-    // Page and tables are an extra: without Python, the message of make_page() is enough.
-    const int page = make_page({batch_.output, "--output", (output() / "report.html").string(), "--markdown",
-                                (output() / "summary.md").string(), "--quiet"},
-                               interruption);
-    print_summary(summary);
-    const bool made = page == 0 || page == static_cast<int>(ExitCode::usage);
-    return made ? summary.exit_code : report::worse_exit_code(summary.exit_code, page);
-  }
-
-  void print_summary(const report::BatchSummary& summary) const {
-    const std::string tables = (output() / "summary.md").string();
-    if (fs::is_regular_file(tables)) {
-      std::printf("%s\n", data::read_bytes(tables).c_str());
-    } else {
-      const auto done = std::count_if(summary.rows.begin(), summary.rows.end(),
-                                      [](const auto& row) { return row.status == report::MemberStatus::done; });
-      std::printf("%d of %s done, %d of %s tracked\n", static_cast<int>(done),
-                  data::counted(summary.rows.size(), "sequence").c_str(), summary.tracked,
-                  data::counted(summary.frames, "frame").c_str());
+    json["kernels"] = method_.kernel_folder();
+    json["key"] = key.hex();
+    json["jobs"] = jobs();
+    json["sequences"] = Json::array();
+    for (const auto& sequence : sequences) {
+      const auto& source = sequence.source;
+      json["sequences"].push_back(
+          {{"name", sequence.name},
+           {"path", sequence.path},
+           {"format", sequence.format},
+           {"words", source ? data::source_words(*source) : std::vector<std::string>{sequence.path}},
+           {"truth", truth_file(sequence)}});
     }
-    std::printf("results in %s\n", batch_.output.c_str());
-    std::fflush(stdout);  // before the complaints below
-    for (const auto& row : summary.rows) {
-      if (row.status == report::MemberStatus::done) continue;
-      std::fprintf(stderr, "quadedge: %s (%s): %s\n", row.member.name.c_str(), to_string(row.status),
-                   row.member.message.c_str());
-    }
+    return json;
   }
 
-  std::string input_, only_;
-  BatchOptions batch_;
-  bool list_ = false, gather_ = false;
+  std::string input_, output_ = "quadedge_batch";
+  std::vector<std::string> snakemake_;
+  int jobs_ = 0, draw_every_ = 0;
+  double min_tracked_ = 50;
+  bool list_ = false, dry_run_ = false, force_ = false, quiet_ = false, profile_ = false, loops_ = false;
   MethodOptions method_;
 };
 

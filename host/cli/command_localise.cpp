@@ -58,6 +58,7 @@ class LocaliseCommand : public Command {
     options.flag("--force", force_, "replace results in OUT");
     options.flag("--quiet", quiet_, "hide progress; warnings and the summary remain");
     source_.declare(options);
+    source_.declare_masks(options);
     method_.declare(options);
   }
 
@@ -80,7 +81,7 @@ class LocaliseCommand : public Command {
     record.input = source.facts();
     try {
       locate(map, source, interruption, record);
-    } catch (const DataError& error) {
+    } catch (const Error& error) {
       if (record.frames.empty()) throw;
       record.ended_early = error.what();
       end_with_error(error, record.frames.size(), output_, {[&] { write_results(source, record); }});

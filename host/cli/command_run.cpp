@@ -42,6 +42,7 @@ class RunCommand : public Command {
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.points.declare(options);
     source_.declare(options);
+    source_.declare_masks(options);
     source_.declare_restarts(options);
     method_.declare(options);
   }

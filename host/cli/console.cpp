@@ -240,10 +240,7 @@ std::string command_line() {
   return line;
 }
 
-void print_error(const std::string& message) {
-  std::fprintf(stderr, "quadedge: %s\n", message.c_str());
-  if (const char* file = std::getenv(kErrorFile); file != nullptr) std::ofstream(file) << message << "\n";
-}
+void print_error(const std::string& message) { std::fprintf(stderr, "quadedge: %s\n", message.c_str()); }
 
 void note(const std::string& sentence) {
   // Replaces the progress line, which is shown again with the next frame.

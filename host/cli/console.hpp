@@ -67,10 +67,7 @@ std::string command_line();
 /// A sentence on stderr that the user should see, also with --quiet.
 void note(const std::string& sentence);
 
-/// Variable with the name of a file that receives the error with which the program ends, for a batch that started it.
-inline constexpr const char* kErrorFile = "QUADEDGE_ERROR_FILE";
-
-/// Prints the error with which the program ends, and writes it to that file.
+/// Prints the error with which the program ends.
 void print_error(const std::string& message);
 
 /// The results of a run on stdout, and the command that shows them. `output` is the folder that holds its files.

@@ -48,8 +48,9 @@ class ParserOptions : public Options {
     inputs_.push_back(&value);
     app_.add_option(name, value, help)->required(required)->check(kText)->type_name("");
   }
-  void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
-    app_.add_option(name, values, help)->required()->check(kText)->type_name("");
+  void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help,
+                   bool required) override {
+    app_.add_option(name, values, help)->required(required)->check(kText)->type_name("");
   }
   void text(const std::string& names, std::string& value, const std::string& help,
             const std::string& placeholder) override {

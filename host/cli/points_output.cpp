@@ -85,9 +85,13 @@ void LoopOutput::add(const FrameResult& result) {
   latencies_ms_.push_back(result.timing.latency_ms + ms);
 }
 
-const Map& LoopOutput::finish() {
+const Map& LoopOutput::finish(bool after_error) {
   const auto start = Clock::now();
-  map_.finish();
+  try {
+    map_.finish();
+  } catch (const DeviceError&) {
+    if (!after_error) throw;
+  }
   total_ms_ += milliseconds_since(start);
   return map_;
 }

@@ -58,8 +58,9 @@ class LoopOutput {
 
   /// Takes in the frame that was tracked last.
   void add(const FrameResult& result);
-  /// Ends the comparisons, after the last frame. \returns the map
-  const Map& finish();
+  /// Ends the comparisons, after the last frame. `after_error`: those that a lost device cannot make are left out.
+  /// \throws DeviceError. \returns the map
+  const Map& finish(bool after_error);
   /// Writes trajectory_map.txt and loops.csv and, unless its name is empty, a map file. \throws DataError. \returns
   /// what they hold
   report::LoopFacts write(const std::string& folder, const std::string& saved_map) const;

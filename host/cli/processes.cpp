@@ -8,10 +8,8 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <spawn.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <utility>
 
 #include "cli/console.hpp"
 #include "quadedge/error.hpp"
@@ -53,78 +51,12 @@ void Interruption::end_process() const {
 
 namespace {
 
-constexpr int kCannotStart = 127;  // exit code of a child that never became the program
-
-/// What the child does until it is another program; only calls that are safe after a fork.
-[[noreturn]] void become(char* const* arguments, char* const* environment, int log, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  setpgid(0, 0);  // a terminal's Ctrl-C is for the parent, which then ends its children in good order
-  if (getppid() != parent) _exit(kCannotStart);  // the parent died before the line above
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  const int input = open("/dev/null", O_RDONLY);
-  dup2(input, STDIN_FILENO);
-  dup2(log, STDOUT_FILENO);
-  dup2(log, STDERR_FILENO);
-  execve(kProgramFile, arguments, environment);
-  _exit(kCannotStart);
-}
-
-}  // namespace
-
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::string& log,
-                           const std::string& error) {
-  std::vector<char*> pointers = {const_cast<char*>("quadedge")};
-  for (const auto& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
-  pointers.push_back(nullptr);
-  std::string variable = std::string(kErrorFile) + "=" + error;
-  std::vector<char*> environment = {variable.data()};
-  for (char** entry = environ; *entry != nullptr; ++entry) environment.push_back(*entry);
-  environment.push_back(nullptr);
-  const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-  if (file < 0) throw DataError(log + ": cannot be made: " + std::strerror(errno));
-  const pid_t parent = getpid();
-  process_ = fork();
-  if (process_ == 0) become(pointers.data(), environment.data(), file, parent);
-  const int reason = errno;
-  close(file);
-  if (process_ < 0) throw Error(ExitCode::internal, std::string("no process can be started: ") + std::strerror(reason));
-}
-
-ChildProcess::ChildProcess(ChildProcess&& other) noexcept : process_(std::exchange(other.process_, -1)) {}
-
-ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
-  std::swap(process_, other.process_);
-  return *this;
-}
-
-ChildProcess::~ChildProcess() {
-  if (process_ < 0) return;
-  kill(process_, SIGKILL);
-  waitpid(process_, nullptr, 0);
-}
-
-std::optional<ChildEnd> ChildProcess::ended() {
-  int status = 0;
-  if (process_ < 0 || waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
-  process_ = -1;
-  if (WIFSIGNALED(status)) return ChildEnd{static_cast<int>(ExitCode::internal), WTERMSIG(status)};
-  return ChildEnd{WEXITSTATUS(status), 0};
-}
-
-void ChildProcess::terminate() const {
-  if (process_ >= 0) kill(process_, SIGTERM);
-}
-
-namespace {
-
 constexpr const char* kVariable = "QUADEDGE_PYTHON";
 
 /// Runs a program, found on PATH where its name has no slash, with nothing to read. `quiet`: what it prints is dropped.
 /// Its exit code; ExitCode::internal where it cannot be started or a signal ends it. A signal that ends this process
 /// ends the other first.
-int run_program(const std::vector<std::string>& words, bool quiet, const Interruption& interruption) {
+int run_program(const std::vector<std::string>& words, bool quiet) {
   std::vector<char*> pointers;
   for (const auto& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);
@@ -144,10 +76,6 @@ int run_program(const std::vector<std::string>& words, bool quiet, const Interru
     if (errno != EINTR) return static_cast<int>(ExitCode::internal);
     kill(process, SIGTERM);  // a signal told this process to end: the other one ends with it
   }
-  if (interruption.signal() != 0) {
-    note("interrupted; no page was made");
-    interruption.end_process();
-  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::internal);
 }
 
@@ -164,24 +92,44 @@ std::vector<std::string> interpreters() {
 
 }  // namespace
 
-int make_page(const std::vector<std::string>& arguments, const Interruption& interruption) {
+FoundPython find_python(const std::string& module) {
   setenv("PYTHONSAFEPATH", "1", 1);  // a folder named quadedge in the current folder is not the module
-  std::string tried;
-  for (const auto& python : interpreters()) {
-    if (run_program({python, "-c", "import quadedge.report"}, true, interruption) != 0) {
-      tried += (tried.empty() ? "" : ", ") + python;
-      continue;
-    }
-    std::vector<std::string> words = {python, "-m", "quadedge.report"};
+  FoundPython python;
+  for (const auto& name : interpreters()) {
+    if (run_program({name, "-c", "import " + module}, true) == 0) return {name, python.tried};
+    python.tried += (python.tried.empty() ? "" : ", ") + name;
+  }
+  return python;
+}
+
+int make_page(const std::vector<std::string>& arguments, const Interruption& interruption) {
+  const FoundPython python = find_python("quadedge.report");
+  int code = static_cast<int>(ExitCode::usage);
+  if (!python.found.empty()) {
+    std::vector<std::string> words = {python.found, "-m", "quadedge.report"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::fflush(stdout);
-    return run_program(words, false, interruption);
+    code = run_program(words, false);
   }
-  std::fprintf(stderr,
-               "quadedge: no page: %s has no module quadedge.report; install it in a virtual environment "
-               "(`python3 -m venv venv && venv/bin/pip install .` in a clone of QuadEdge) and set %s to its Python\n",
-               tried.c_str(), kVariable);
-  return static_cast<int>(ExitCode::usage);
+  if (interruption.signal() != 0) {
+    note("interrupted; no page was made");
+    interruption.end_process();
+  }
+  if (python.found.empty())
+    print_error("no page: " + python.tried +
+                " has no module quadedge.report; install it in a virtual environment (`python3 -m venv venv && "
+                "venv/bin/pip install .` in a clone of QuadEdge) and set " +
+                kVariable + " to its Python");
+  return code;
+}
+
+void become(const std::string& python, const std::vector<std::string>& arguments) {
+  std::vector<char*> pointers = {const_cast<char*>(python.c_str())};
+  for (const auto& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+  pointers.push_back(nullptr);
+  std::fflush(stdout);
+  execvp(pointers[0], pointers.data());
+  throw UsageError(python + ": cannot be started: " + std::strerror(errno));
 }
 
 }  // namespace quadedge::cli

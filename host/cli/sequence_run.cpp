@@ -143,9 +143,9 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   const auto start = Clock::now();
   Progress progress(options.quiet, "frames");
   int lost = 0;
-  const auto write_loops = [&] {
+  const auto write_loops = [&](bool after_error) {
     if (!loops) return;
-    points.correct(loops->finish());
+    points.correct(loops->finish(after_error));
     run.loops = loops->write(options.output, options.saved_map);
   };
   try {
@@ -168,14 +168,14 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       show_progress(run, lost, progress);
       if (interruption.signal() != 0) break;
     }
-  } catch (const DataError&) {
+  } catch (const Error&) {
     try {
-      write_loops();
-    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside the error that ends the run
+      write_loops(true);
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a full disk, beside the error that ends the run
     }
     throw;
   }
-  write_loops();
+  write_loops(false);
   if (run.input.frames == 0) run.input.frames = static_cast<int>(run.frames.size());
   run.input.dropped = source.dropped();
   run.device_peak_mb = device_peak_mb(device, odometry);
@@ -296,7 +296,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   EdgeSample sample;
   try {
     track_frames(source, method, options, interruption, points, sample, known, run);
-  } catch (const DataError& error) {
+  } catch (const Error& error) {
     if (run.frames.empty()) throw;
     run.ended_early = error.what();
     end_with_error(error, run.frames.size(), options.output,
@@ -332,15 +332,16 @@ int exit_code(const char* verb, int done, std::size_t frames, double min_tracked
   return static_cast<int>(ExitCode::too_few_tracked);
 }
 
-void end_with_error(const DataError& error, std::size_t frames, const std::string& folder,
+void end_with_error(const Error& error, std::size_t frames, const std::string& folder,
                     std::initializer_list<std::function<void()>> parts) {
   for (const auto& part : parts) {
     try {
       part();
-    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
     }
   }
-  throw DataError(std::string(error.what()) + "\n" + data::counted(frames, "finished frame") + " in " + folder);
+  throw Error(error.exit_code(),
+              std::string(error.what()) + "\n" + data::counted(frames, "finished frame") + " in " + folder);
 }
 
 }  // namespace quadedge::cli

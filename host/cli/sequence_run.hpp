@@ -32,8 +32,8 @@ struct SequenceRunOptions {
 };
 
 /// Tracks all frames, writing every finished one at once, then the accuracy, the pictures and the report. After a
-/// signal or a DataError these are written for the frames so far: a signal then prints them and ends the process, an
-/// error is thrown on. \throws Error.
+/// signal or an error (of the recording, or of the device) these are written for the frames so far: a signal then
+/// prints them and ends the process, an error is thrown on. \throws Error.
 report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                                const Interruption& interruption);
 
@@ -42,9 +42,9 @@ int exit_code(const report::RunRecord& run, double min_tracked);
 /// The same for `done` frames of all. `verb`: what was done with them, for the message; `lost`: why others were not.
 int exit_code(const char* verb, int done, std::size_t frames, double min_tracked, const std::string& lost);
 
-/// A recording ended with `error` after some frames: calls each of `parts`, which write what is finished, and ignores
-/// that a disk is full. \throws DataError with what happened and where the frames are.
-[[noreturn]] void end_with_error(const DataError& error, std::size_t frames, const std::string& folder,
+/// A run ended with `error` after some frames: calls each of `parts`, which write what is finished, and ignores that a
+/// disk is full. \throws Error with its exit code, what happened and where the frames are.
+[[noreturn]] void end_with_error(const Error& error, std::size_t frames, const std::string& folder,
                                  std::initializer_list<std::function<void()>> parts);
 
 }  // namespace quadedge::cli

@@ -76,6 +76,13 @@ void SourceOptions::declare_restarts(Options& options) {
                "stamps of --times may go back, where a clock was set: a new segment of the trajectory starts there");
 }
 
+void SourceOptions::declare_masks(Options& options) {
+  options.text("--masks", masks_,
+               "folder with a mask per image: left/NAME.png, right/NAME.png, black where nothing is to be tracked; a "
+               "camera without such a folder has none",
+               "FOLDER");
+}
+
 StereoSource SourceOptions::own_camera() const {
   StereoSource source = own_;
   source.pipe = path_ == "-";
@@ -99,7 +106,12 @@ DatasetOptions SourceOptions::layout(DatasetOptions options) const {
 
 Dataset SourceOptions::open(const DatasetOptions& options) const {
   if (!is_given()) throw UsageError("no input: expected PATH, or --left, --right and --calibration");
-  if (!is_own_camera()) return open_dataset(path_, layout(options));
+  Dataset dataset = is_own_camera() ? open_own_camera(options) : open_dataset(path_, layout(options));
+  if (!masks_.empty()) add_masks(dataset, masks_);
+  return dataset;
+}
+
+Dataset SourceOptions::open_own_camera(const DatasetOptions& options) const {
   StereoSource source = own_camera();
   if (options.format != "auto" || !options.sequence.empty())
     throw UsageError("--format and --sequence are for datasets in a published layout");

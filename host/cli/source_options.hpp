@@ -34,6 +34,9 @@ class SourceOptions {
   /// --restarts, for commands that can start a segment where stamps go back. After declare().
   void declare_restarts(Options& options);
 
+  /// --masks, for commands that track. After declare().
+  void declare_masks(Options& options);
+
   /// Whether anything is given.
   bool is_given() const { return !path_.empty() || own_.is_given(); }
   /// Whether the pairs come from the user's own cameras, not from a published layout.
@@ -62,7 +65,9 @@ class SourceOptions {
   PairOfSource pair(int number) const;
 
  private:
-  std::string path_;
+  Dataset open_own_camera(const DatasetOptions& options) const;
+
+  std::string path_, masks_;
   StereoSource own_;  ///< calibration, field of view and mask are of recorded sequences too
 };
 

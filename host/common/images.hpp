@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quadedge/camera.hpp"
@@ -37,12 +38,28 @@ class RecordedImages {
     check(left, left_, "the left image");
     check(right, right_, "the right image");
   }
+  /// The same for a frame. \throws DataError also for a mask that has not 8 bits or the size of its image.
+  void check(const StereoFrame& frame) const {
+    check(frame.left, frame.right);
+    check_mask(frame.left_mask, frame.left, "the left mask");
+    check_mask(frame.right_mask, frame.right, "the right mask");
+  }
 
  private:
   struct Size {
     int width, height;  ///< 0: any
   };
 
+  static void check_mask(const ImageView& mask, const ImageView& image, const std::string& name) {
+    if (mask.pixels == nullptr) return;
+    check_pixels(mask, name);
+    if (mask.max_value != kMaxValue8)
+      throw DataError(name + " has values up to " + std::to_string(mask.max_value) +
+                      ", expected 8 bits: 0 where nothing is to be tracked");
+    if (mask.width != image.width || mask.height != image.height)
+      throw DataError(name + " has " + std::to_string(mask.width) + "x" + std::to_string(mask.height) +
+                      " pixels, its image has " + std::to_string(image.width) + "x" + std::to_string(image.height));
+  }
   static Size size_of(const PinholeCamera& camera, const UndistortionTable& table) {
     return table.empty() ? Size{camera.width, camera.height} : Size{table.recorded_width, table.recorded_height};
   }
@@ -78,28 +95,34 @@ class RecordedImages {
   int max_value_;
 };
 
+/// Replaces every byte by the OR of those at up to `window` - 1 units ahead, as far as there are any.
+inline void or_ahead(std::vector<std::uint8_t>& bytes, std::size_t unit, std::size_t window) {
+  for (std::size_t covered = 1; covered < window;) {
+    const std::size_t ahead = std::min(covered, window - covered), shift = ahead * unit;
+    std::uint8_t* to = bytes.data();
+#pragma GCC ivdep
+    for (std::size_t i = 0; i + shift < bytes.size(); ++i) to[i] |= to[i + shift];
+    covered += ahead;
+  }
+}
+
 /// A mask that also hides pixels up to `margin` pixels away along a row, a column, or both. This is the extent of an
 /// edge's neighbourhood and equals the margin at the image border.
 inline PixelMask with_border(const PixelMask& mask, int margin) {
-  const auto spread = [&](const std::vector<std::uint8_t>& from, int lines, int length, int line_step, int step) {
-    std::vector<std::uint8_t> to(from.size());
-    for (int line = 0; line < lines; ++line) {
-      const auto at = [&](int i) { return static_cast<std::size_t>(line * line_step + i * step); };
-      int last = -margin - 1;  // last hidden pixel so far; then, from the other end, the next one
-      for (int i = 0; i < length; ++i) {
-        if (from[at(i)] != 0) last = i;
-        if (i - last <= margin) to[at(i)] = 1;
-      }
-      last = length + margin;
-      for (int i = length - 1; i >= 0; --i) {
-        if (from[at(i)] != 0) last = i;
-        if (last - i <= margin) to[at(i)] = 1;
-      }
-    }
-    return to;
-  };
-  const auto along_rows = spread(mask.hidden, mask.height, mask.width, mask.width, 1);
-  return {mask.width, mask.height, spread(along_rows, mask.width, mask.height, 1, mask.width)};
+  const auto width = static_cast<std::size_t>(mask.width), height = static_cast<std::size_t>(mask.height),
+             border = static_cast<std::size_t>(margin), window = 2 * border + 1, padded = width + 2 * border;
+  // With `margin` zeros before and after each row, and then as many rows of zeros above and below.
+  std::vector<std::uint8_t> rows(height * padded, 0), columns((height + 2 * border) * width, 0);
+  for (std::size_t y = 0; y < height; ++y)
+    std::copy_n(mask.hidden.begin() + static_cast<std::ptrdiff_t>(y * width), width,
+                rows.begin() + static_cast<std::ptrdiff_t>(y * padded + border));
+  or_ahead(rows, 1, window);
+  for (std::size_t y = 0; y < height; ++y)
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(y * padded), width,
+                columns.begin() + static_cast<std::ptrdiff_t>((y + border) * width));
+  or_ahead(columns, width, window);
+  columns.resize(height * width);
+  return {mask.width, mask.height, std::move(columns)};
 }
 
 }  // namespace quadedge

@@ -1,12 +1,10 @@
 #pragma once
-/// \file content_hash.hpp  Fingerprints that show whether a result belongs to its input.
+/// \file content_hash.hpp  Fingerprints that show whether a kept result belongs to what is asked for.
 
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "quadedge/dataset.hpp"
 
 namespace quadedge::data {
 
@@ -25,13 +23,6 @@ class ContentHash {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// Fingerprint of everything in a recording that determines the result of a run: layout, cameras, undistortion,
-/// timestamps and ground-truth poses, as read from the text files, and for every image or video its file name, size and
-/// first and last 4 KiB, because the images of a long sequence take gigabytes, and a PNG ends with checksums of all its
-/// pixels. (Only changes of equal size deep inside a JPEG, a video or an uncompressed image go unnoticed.) Modification
-/// times and the location of the folder are not included. \throws DataError for an image that cannot be read
-std::string dataset_hash(const Dataset& dataset);
 
 /// Fingerprint of a whole file. \throws DataError
 std::string file_hash(const std::string& path);

@@ -1,7 +1,8 @@
-/// \file mask_file.cpp  Masks drawn by the user for a recorded image, transferred to the pinhole image.
+/// \file mask_file.cpp  Masks of a camera, drawn by the user and transferred to the pinhole image, and masks of frames.
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "data/file_list.hpp"
 #include "data/image_file.hpp"
@@ -46,6 +47,32 @@ void mask_rig(StereoRig& rig, const std::string& files) {
   };
   apply(list.front(), rig.left, rig.left_undistortion, rig.left_mask);
   apply(list.back(), rig.right, rig.right_undistortion, rig.right_mask);
+}
+
+namespace {
+
+/// The mask of an image. \throws DataError if there is none
+std::string mask_of(const std::string& image, const std::filesystem::path& folder) {
+  const std::string file = (folder / std::filesystem::path(image).stem()).string() + ".png";
+  if (!std::filesystem::is_regular_file(file))
+    data::fail(file, "no file", "the mask of " + image + ": black where nothing is to be tracked");
+  return file;
+}
+
+}  // namespace
+
+void add_masks(Dataset& dataset, const std::string& folder) {
+  if (dataset.stream)
+    throw UsageError("--masks " + folder + ": the frames of " + dataset.path +
+                     " have no names; expected a recording of image files");
+  const std::filesystem::path left = std::filesystem::path(folder) / "left", right = left.parent_path() / "right";
+  const bool has_left = std::filesystem::is_directory(left), has_right = std::filesystem::is_directory(right);
+  if (!has_left && !has_right)
+    data::fail(folder, "no folder left or right", "masks of a camera's images in one of them");
+  for (FrameFiles& frame : dataset.frames) {
+    if (has_left) frame.left_mask = mask_of(frame.left, left);
+    if (has_right) frame.right_mask = mask_of(frame.right, right);
+  }
 }
 
 }  // namespace quadedge

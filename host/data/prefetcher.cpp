@@ -63,7 +63,10 @@ class FramePrefetcher::Implementation {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto is_ready = [this] { return !queue_.empty() || finished_; };
     while (!changed_.wait_for(lock, kStopPollInterval, is_ready)) {
-      if (asked_to_stop_ && asked_to_stop_()) return std::nullopt;
+      if (!asked_to_stop_) continue;
+      lock.unlock();  // the caller's function may ask this object something
+      if (asked_to_stop_()) return std::nullopt;
+      lock.lock();
     }
     if (queue_.empty()) return std::nullopt;
     Item item = std::move(queue_.front());
@@ -97,8 +100,21 @@ class FramePrefetcher::Implementation {
     if (stream_) return stream_->next();
     if (next_ == frames_.size()) return std::nullopt;
     const FrameFiles& files = frames_[next_];
-    return StereoPair{static_cast<int>(next_++), files.stamp_ns, read_grey_image(files.left),
-                      read_grey_image(files.right)};
+    return StereoPair{static_cast<int>(next_++),   files.stamp_ns,
+                      read_grey_image(files.left), read_grey_image(files.right),
+                      read_mask(files.left_mask),  read_mask(files.right_mask)};
+  }
+
+  static Image read_mask(const std::string& file) { return file.empty() ? Image() : read_grey_image(file); }
+
+  void check_mask(const Image& mask, const Image& image, const StereoPair& pair, Side side) const {
+    if (mask.pixels.empty()) return;
+    const FrameFiles& files = frames_[static_cast<std::size_t>(pair.number)];
+    const std::string& file = side == Side::left ? files.left_mask : files.right_mask;
+    if (mask.width != image.width || mask.height != image.height)
+      data::fail(file, "a mask of " + data::to_string({mask.width, mask.height}) + " pixels",
+                 data::to_string({image.width, image.height}) + ", the size of its image");
+    if (mask.max_value != kMaxValue8) data::fail(file, "a mask of more than 8 bits", "8 bits: black, or anything else");
   }
 
   /// Reads the next frame; nothing at the end.
@@ -109,6 +125,8 @@ class FramePrefetcher::Implementation {
       if (!pair) return std::nullopt;
       data::check_image(pair->left, source_of(*pair, Side::left), left_, max_value_);
       data::check_image(pair->right, source_of(*pair, Side::right), right_, max_value_);
+      check_mask(pair->left_mask, pair->left, *pair, Side::left);
+      check_mask(pair->right_mask, pair->right, *pair, Side::right);
       item.frame = std::move(*pair);
     } catch (...) {
       item.problem = std::current_exception();

@@ -357,6 +357,7 @@ const std::vector<frontend::StageRows>& expected_rows() {
 
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
   constexpr double kAllowed = 0.02;  // fraction of the rows: different rounding changes decisions near a limit
+  const auto use = device.use();
   const KernelCheck kernels(device.context());
   if (device.context() != nullptr) {
     // Checked first, because the frames are small, so that no stage has long loops.

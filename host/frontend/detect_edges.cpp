@@ -10,6 +10,7 @@ namespace quadedge {
 
 EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config, const PixelMask& mask) {
   check_pixels(image, "the image");
+  const auto use = device.use();
   EdgeSet edges;
   std::size_t found = 0;
   if (device.is_reference() || config.is_paper()) {

@@ -46,7 +46,10 @@ class DeviceFrontend : public StagedFrontend {
            const PixelMask& hidden, int max_value, const Config& config);
   };
 
-  void take_left_mask() override { left_.mask.set(calibration_.left_mask, config_.edges.margin); }
+  void masks_changed() override {
+    left_.mask.set(masks_.left, config_.edges.margin);
+    right_.mask.set(masks_.right, config_.edges.margin);
+  }
   FrameEdges& start(const StereoFrame& frame) override;
   /// Prepares both images for detection and measures their threshold.
   void measure(const stages::DeviceStereoEdges& stereo_edges, stages::EdgeThreshold& threshold, float known_noise);

@@ -2,6 +2,7 @@
 /// \file frame_edges.hpp  Handles to the stereo edges of a frame, valid for as long as they are held.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -18,8 +19,9 @@ class FrameEdges {
  public:
   virtual ~FrameEdges() = default;
 
-  int frame = -1;     ///< frame number, counted from 0 by the front end
-  StereoEdges edges;  ///< on the host
+  int frame = -1;             ///< frame number, counted from 0 by the front end
+  std::int64_t stamp_ns = 0;  ///< of its images
+  StereoEdges edges;          ///< on the host
   /// Spacing of the epipolar lines on which edges were selected, at least that of the maxima of a curve [px]. See
   /// kernels/edge_selection.cl.
   double edges_spacing = 1;

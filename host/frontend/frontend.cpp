@@ -10,8 +10,17 @@
 namespace quadedge::frontend {
 
 void Frontend::hide(const PixelMask& left) {
-  calibration_.left_mask = joined(left_mask_of_rig_, left);
-  take_left_mask();
+  calibration_.left_mask = masks_.left = joined(left_mask_of_rig_, left);
+  masks_changed();
+}
+
+void Frontend::take_masks(const StereoFrame& frame) {
+  const bool was_masked = !of_frame_.empty();
+  to_left_.run(frame.left_mask, calibration_.left, calibration_.left_undistortion, of_frame_.left);
+  to_right_.run(frame.right_mask, calibration_.right, calibration_.right_undistortion, of_frame_.right);
+  if (!was_masked && of_frame_.empty()) return;
+  masks_ = {joined(calibration_.left_mask, of_frame_.left), joined(calibration_.right_mask, of_frame_.right)};
+  masks_changed();
 }
 
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,

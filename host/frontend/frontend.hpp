@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/filter_limits.hpp"
+#include "common/frame_mask.hpp"
 #include "frontend/frame_edges.hpp"
 #include "frontend/kept_frame_edges.hpp"
 #include "frontend/rectification_follower.hpp"
@@ -67,6 +68,9 @@ class Frontend {
   /// hides none.
   void hide(const PixelMask& left);
 
+  /// What the masks of the current frame hide; the rig's own and those of hide() aside.
+  const HiddenPixels& hidden_in_frame() const { return of_frame_; }
+
   /// Takes over what the current frame shows of the rows, which the search of the next ones corrects. \returns by how
   /// much they have changed [px], 0 as a rule
   double observe(const std::vector<rig::CornerMatch>& matches) { return rectification_.observe(matches); }
@@ -95,12 +99,18 @@ class Frontend {
 
  protected:
   Frontend(const StereoRig& rig, const StereoConfig& config)
-      : calibration_(rig), rectification_(calibration_, config), left_mask_of_rig_(rig.left_mask) {}
-  /// Called when calibration_.left_mask has changed.
-  virtual void take_left_mask() {}
+      : calibration_(rig),
+        rectification_(calibration_, config),
+        masks_{rig.left_mask, rig.right_mask},
+        left_mask_of_rig_(rig.left_mask) {}
+  /// Takes the masks that come with a frame, before edges are found in it.
+  void take_masks(const StereoFrame& frame);
+  /// Called when masks_ have changed.
+  virtual void masks_changed() {}
 
   StereoRig calibration_;
   RectificationFollower rectification_;
+  HiddenPixels masks_;  ///< of the current frame: what the rig masks, what hide() was given, and the frame's own
   FrontendCounts counts_;
   bool is_smoothed_ = false;              ///< the current frame
   Image smoothed_left_, smoothed_right_;  ///< as recorded, if it is
@@ -109,6 +119,8 @@ class Frontend {
 
  private:
   PixelMask left_mask_of_rig_;
+  HiddenPixels of_frame_;
+  MaskTransfer to_left_, to_right_;
 };
 
 /// Creates the OpenCL front end on `device`, or the reference if `device` is the reference.

@@ -67,13 +67,15 @@ EdgeSet PaperFrontend::detect(const Image& image, const PixelMask& mask) {
 
 FrameEdgesHandle PaperFrontend::process(const StereoFrame& frame) {
   PaperFrameEdges& now = frames_.next();
+  now.stamp_ns = frame.stamp_ns;
+  take_masks(frame);
   searches_ = 0;
   const Image left = reference::pinhole_image(frame.left, calibration_.left_undistortion),
               right = reference::pinhole_image(frame.right, calibration_.right_undistortion);
   counts_.edge_threshold = threshold_.next({left.view(), right.view()});
   counts_.dropped_edges = 0;
-  left_edges_ = detect(left, calibration_.left_mask);
-  right_edges_ = detect(right, calibration_.right_mask);
+  left_edges_ = detect(left, masks_.left);
+  right_edges_ = detect(right, masks_.right);
   counts_.edges_left = static_cast<int>(left_edges_.size());
   counts_.edges_right = static_cast<int>(right_edges_.size());
   const auto view_of = [&](const Image& image, const EdgeSet& edges) {

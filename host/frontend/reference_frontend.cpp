@@ -59,10 +59,9 @@ void ReferenceFrontend::detect(FrameEdges& current) {
   const ReferenceFrameEdges& now = own(current);
   const double threshold = counts_.edge_threshold;
   reference::ReferenceEdges left = reference::outside_mask(
-      reference::detect_edges(now.left.view(), config_.edges, threshold), calibration_.left_mask, config_.edges.margin);
-  reference::ReferenceEdges right =
-      reference::outside_mask(reference::detect_edges(now.right.view(), config_.edges, threshold),
-                              calibration_.right_mask, config_.edges.margin);
+      reference::detect_edges(now.left.view(), config_.edges, threshold), masks_.left, config_.edges.margin);
+  reference::ReferenceEdges right = reference::outside_mask(
+      reference::detect_edges(now.right.view(), config_.edges, threshold), masks_.right, config_.edges.margin);
   float spacing = 0;
   if (config_.edges.budget > 0) {
     const SelectionArguments in_left = selection_arguments(calibration_, Side::left),

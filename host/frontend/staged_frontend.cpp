@@ -17,7 +17,9 @@ StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
 FrameEdgesHandle StagedFrontend::process(const StereoFrame& frame) {
   counts_ = {};
   searches_ = 0;
+  take_masks(frame);
   FrameEdges& current = start(frame);
+  current.stamp_ns = frame.stamp_ns;
   rectification_.start_frame();
   do {
     detect(current);

@@ -32,7 +32,7 @@ rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
   if (!checks_rig_) return {};
   const frontend::FrontendCounts& counts = frontend_->counts();
   return rig_monitor_.judge(frontend_->searched(frame), current_->edges, counts.edges_left, counts.disparity_range,
-                            counts.epipolar_correction);
+                            counts.epipolar_correction, frontend_->hidden_in_frame());
 }
 
 void FramePreparation::adopt(const rig::RigReport& report, const std::optional<Eigen::Isometry3d>& current_from_last) {

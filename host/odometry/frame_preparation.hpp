@@ -36,7 +36,7 @@ class FramePreparation {
   FramePreparation(const StereoRig& recorded, const StereoRig& rig, Device& device, const Config& config);
 
   /// \throws DataError for images that do not fit the rig
-  void check(const StereoFrame& frame) const { recorded_.check(frame.left, frame.right); }
+  void check(const StereoFrame& frame) const { recorded_.check(frame); }
   /// Turns the images into the front end's current frame edges.
   frontend::FrameEdgesHandle process(const StereoFrame& frame);
   bool has_enough_edges() const { return static_cast<int>(current_->edges.size()) >= min_edges_; }

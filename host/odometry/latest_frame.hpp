@@ -13,6 +13,7 @@ namespace quadedge::odometry {
 
 /// Refers to parts of a StereoOdometry, which must outlive it.
 struct LatestFrame {
+  Device& device;
   frontend::Frontend& frontend;
   frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame
   const DisparityOffset& offset;

@@ -106,7 +106,8 @@ class StereoOdometry::Implementation {
     return current_ ? current_->edges : none;
   }
   odometry::LatestFrame latest_frame() const {
-    return {preparation_.frontend(), current_, offset_, step_ ? &*step_ : nullptr, preparation_.corner_matches()};
+    return {device_, preparation_.frontend(),   current_,
+            offset_, step_ ? &*step_ : nullptr, preparation_.corner_matches()};
   }
   const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
@@ -147,6 +148,7 @@ class StereoOdometry::Implementation {
   frontend::FrameEdgesHandle current_;                  ///< of the last frame tracked; null before the first frame
   odometry::StepHandle step_;                           ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
+  odometry::TimeStep since_last_;
   bool starts_segment_ = false;    ///< with the next frame that has edges
   bool at_start_ = false;          ///< no motion has been searched for since the first frame
   std::vector<double> distances_;  ///< buffer of median_parallax()
@@ -158,6 +160,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     throw DataError("timestamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
                     std::to_string(*last_stamp_ns_) + " ns, the timestamp of the previous frame");
   }
+  since_last_.ns = last_stamp_ns_ ? frame.stamp_ns - *last_stamp_ns_ : 0;
   last_stamp_ns_ = frame.stamp_ns;
   StageClock latency, clock;
   FrameResult result;
@@ -272,7 +275,7 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
   query.base = state_.base.frame_edges;
-  query.prediction = velocity_.predict(current_->frame - state_.base.frame_edges->frame);
+  query.prediction = velocity_.predict(odometry::TimeStep::between(*state_.base.frame_edges, *current_));
   query.accepts_ambiguous = current_->frame - state_.base.frame_edges->frame == 1;
   if (!state_.base_is_key()) {
     query.key = state_.key.frame_edges();
@@ -390,9 +393,9 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   pose::RelativePose current_from_key = step.motion.adopted();
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
   const Eigen::Isometry3d current_from_base = current_from_key.transform * state_.base.from_key.transform.inverse();
-  const int frames = current_->frame - state_.base.frame_edges->frame;
-  if (!has_returned_) velocity_.observe(current_from_base, frames);
-  if (frames == 1) current_from_last_ = current_from_base;
+  const auto step_in_time = odometry::TimeStep::between(*state_.base.frame_edges, *current_);
+  if (!has_returned_) velocity_.observe(current_from_base, step_in_time);
+  if (step_in_time.frames == 1) current_from_last_ = current_from_base;
 
   odometry::KeyRigFitness fitness;
   fitness.quads = static_cast<int>(step.matches.size());
@@ -439,7 +442,7 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   result.status = status;
   add_message(message, result);
   if (std::exchange(was_lost_, true)) velocity_.forget();
-  const auto repeated = velocity_.predict(1);
+  const auto repeated = velocity_.predict(since_last_);
   result.predicted_world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
   result.reference_frame = state_.key.frame();
   if (status == FrameStatus::lost_too_few_edges || status == FrameStatus::lost_rig_mismatch) return;
@@ -473,15 +476,22 @@ StereoOdometry::StereoOdometry(const StereoRig& rig, const Config& config) {
   implementation_ = std::make_unique<Implementation>(rig, std::move(device), opened, sound);
 }
 
-StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config)
-    : implementation_(std::make_unique<Implementation>(rig, nullptr, device, checked(rig, config))) {}
+StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config) {
+  const Config sound = checked(rig, config);
+  const auto use = device.use();
+  implementation_ = std::make_unique<Implementation>(rig, nullptr, device, sound);
+}
 
 StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) {
+  const auto use = implementation_->device().use();
   return implementation_->processors.run([&] { return implementation_->track(frame); });
 }
 void StereoOdometry::restart() { implementation_->restart(); }
-FrameDetails StereoOdometry::details() const { return implementation_->details(); }
+FrameDetails StereoOdometry::details() const {
+  const auto use = implementation_->device().use();
+  return implementation_->details();
+}
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
 odometry::LatestFrame odometry::LatestFrame::of(const StereoOdometry& odometry) {
   return odometry.implementation_->latest_frame();

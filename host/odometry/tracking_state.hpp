@@ -3,6 +3,7 @@
 /// frame may be located (paper section 6, doc/method.md section 7).
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,29 +15,36 @@
 
 namespace quadedge::odometry {
 
-/// The motion per frame interval.
+/// From one frame to a later one.
+struct TimeStep {
+  int frames = 1;
+  std::int64_t ns = 0;  ///< 0: the stamps say nothing
+
+  static TimeStep between(const frontend::FrameEdges& earlier, const frontend::FrameEdges& later) {
+    return {later.frame - earlier.frame, later.stamp_ns - earlier.stamp_ns};
+  }
+};
+
+/// The motion per frame interval. Stamps tell how many intervals lie between two frames, so that a dropped frame counts
+/// as one; where they say nothing, the frames are counted.
 class ConstantVelocity {
  public:
-  /// Sets the velocity from a motion over `intervals` equal frame intervals; its translation is divided evenly.
-  void observe(const Eigen::Isometry3d& current_from_earlier, int intervals) {
-    const Eigen::AngleAxisd rotation(current_from_earlier.linear());
-    one_interval_ = Eigen::Isometry3d::Identity();
-    one_interval_->linear() = Eigen::AngleAxisd(rotation.angle() / intervals, rotation.axis()).toRotationMatrix();
-    one_interval_->translation() = current_from_earlier.translation() / intervals;
+  /// Sets the velocity from a motion over a step; its translation is divided evenly.
+  void observe(const Eigen::Isometry3d& current_from_earlier, TimeStep step) {
+    one_interval_ = divided(current_from_earlier, step.frames);
+    interval_ns_ = static_cast<double>(step.ns) / step.frames;
   }
   /// Resets the velocity to unknown.
   void forget() { one_interval_ = std::nullopt; }
 
-  /// Returns current_from_earlier over `intervals` frame intervals, or nothing if no velocity is known.
-  std::optional<Eigen::Isometry3d> predict(int intervals) const {
-    if (!one_interval_) return std::nullopt;
-    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-    for (int i = 0; i < intervals; ++i) motion = *one_interval_ * motion;
-    return motion;
-  }
+  /// Returns current_from_earlier over a step, or nothing if no velocity is known or the step is too long for it.
+  std::optional<Eigen::Isometry3d> predict(TimeStep step) const;
 
  private:
+  static Eigen::Isometry3d divided(const Eigen::Isometry3d& motion, double parts);
+
   std::optional<Eigen::Isometry3d> one_interval_;
+  double interval_ns_ = 0;
 };
 
 /// Quality of the current frame's location relative to the key rig.

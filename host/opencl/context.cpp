@@ -180,8 +180,9 @@ void Context::finish_copies() noexcept {
 }
 
 void Context::account(std::ptrdiff_t bytes) {
-  bytes_ = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(bytes_) + bytes);
-  peak_bytes_ = std::max(peak_bytes_, bytes_);
+  const std::size_t now = bytes_ += static_cast<std::size_t>(bytes);  // a negative one wraps around to the difference
+  for (std::size_t peak = peak_bytes_; now > peak && !peak_bytes_.compare_exchange_weak(peak, now);) {
+  }
 }
 
 cl::Event* Context::watch(Command kind) {

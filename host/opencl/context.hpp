@@ -2,9 +2,11 @@
 /// \file context.hpp  An OpenCL device with its in-order queue, built programs and counters.
 
 #include <CL/opencl.hpp>
+#include <atomic>
 #include <cstddef>
 #include <deque>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +57,8 @@ class Context {
     return queue_;
   }
   const std::string& name() const { return name_; }
+  /// See Device::use().
+  std::recursive_mutex& in_use() { return in_use_; }
   /// Alignment of regions within a buffer [bytes].
   std::size_t region_alignment() const { return limits_.region_alignment; }
   /// True if the variants for CPUs are the default.
@@ -157,7 +161,8 @@ class Context {
   bool is_cpu_ = false;
   double build_ms_ = 0;
   std::map<std::string, cl::Program> programs_;
-  std::size_t bytes_ = 0, peak_bytes_ = 0;
+  std::recursive_mutex in_use_;
+  std::atomic<std::size_t> bytes_ = 0, peak_bytes_ = 0;  ///< atomic, as objects are destroyed in any thread
   Traffic traffic_;
   std::string stage_ = "other";
   struct Watched {

@@ -237,6 +237,10 @@ Device opencl::open_limited(const std::string& choice, const DeviceOptions& opti
   return Device(choice, options, limits);
 }
 
+std::unique_lock<std::recursive_mutex> Device::use() const {
+  return context_ == nullptr ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(context_->in_use());
+}
+
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;

@@ -127,6 +127,7 @@ class Localiser::Implementation {
         follow_(follow),
         config_(checked(map.places(), rig, config)),
         rig_(with_scale_of(map.rig().left, with_equal_scales(rig))),
+        device_(device),
         preparation_(rig, rig_, device, without_auto_mask(config)),
         offset_(rig_, with_offset_of(map.places(), rig_, config.pose)),
         search_(config_, frontend(), offset_) {
@@ -135,6 +136,7 @@ class Localiser::Implementation {
 
   Localisation locate(const StereoFrame& frame);
   const Config& config() const { return config_; }
+  const Device& device() const { return device_; }
   Processors processors;
 
  private:
@@ -152,11 +154,14 @@ class Localiser::Implementation {
   bool follow_;
   Config config_;
   StereoRig rig_;  ///< the cameras in which edges are detected
+  Device& device_;
   odometry::FramePreparation preparation_;
   odometry::DisparityOffset offset_;
   odometry::MotionSearch search_;
   std::optional<Eigen::Isometry3d> last_;  ///< pose of the previous frame, if that was located
   odometry::ConstantVelocity velocity_;
+  std::optional<std::int64_t> last_stamp_ns_;
+  odometry::TimeStep since_last_;  ///< from the frame before
 };
 
 Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
@@ -164,6 +169,8 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   const auto start = Clock::now();
   Localisation result;
   result.stamp_ns = frame.stamp_ns;
+  since_last_.ns = last_stamp_ns_ ? frame.stamp_ns - *last_stamp_ns_ : 0;
+  last_stamp_ns_ = frame.stamp_ns;
   const frontend::FrameEdgesHandle frame_edges = preparation_.process(frame);
   const rig::RigReport report = preparation_.judge(frame);
   if (const auto fault = preparation_.fault(report)) {
@@ -175,7 +182,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   }
   result.warnings = preparation_.new_warnings();
   if (last_ && result.map_from_left)
-    velocity_.observe(result.map_from_left->inverse() * *last_, 1);
+    velocity_.observe(result.map_from_left->inverse() * *last_, since_last_);
   else
     velocity_.forget();
   if (result.map_from_left) preparation_.adopt(report, std::nullopt);
@@ -186,7 +193,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
 
 /// Tries the key rig nearest to the predicted pose: 1 rad counts as much as 1 m.
 bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& frame_edges, Localisation& result) {
-  const auto motion = velocity_.predict(1);
+  const auto motion = velocity_.predict(since_last_);
   if (!follow_ || !last_ || !motion) return false;
   const Eigen::Isometry3d predicted = *last_ * motion->inverse();
   const std::vector<places::Place>& places = map_.places().store.places();
@@ -297,10 +304,13 @@ void Localiser::Implementation::set_location(const Match& match, Localisation& r
   result.support = match.support;
 }
 
-Localiser::Localiser(const SavedMap& map, const StereoRig& rig, Device& device, const Config& config, bool follow)
-    : implementation_(std::make_unique<Implementation>(map, rig, device, config, follow)) {}
+Localiser::Localiser(const SavedMap& map, const StereoRig& rig, Device& device, const Config& config, bool follow) {
+  const auto use = device.use();
+  implementation_ = std::make_unique<Implementation>(map, rig, device, config, follow);
+}
 Localiser::~Localiser() = default;
 Localisation Localiser::locate(const StereoFrame& frame) {
+  const auto use = implementation_->device().use();
   return implementation_->processors.run([&] { return implementation_->locate(frame); });
 }
 const Config& Localiser::config() const { return implementation_->config(); }

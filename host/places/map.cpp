@@ -122,6 +122,9 @@ class Map::Implementation {
         search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend,
                 odometry::LatestFrame::of(odometry).offset) {
     places::check_map_config(config_);
+    if (const auto& latest = odometry::LatestFrame::of(odometry).frame_edges)
+      throw UsageError("a map has to see every frame, and the odometry has tracked " +
+                       std::to_string(latest->frame + 1) + "; expected a map made before the first one");
   }
 
   bool add(const FrameResult& result);
@@ -130,11 +133,13 @@ class Map::Implementation {
   std::optional<Eigen::Isometry3d> pose(std::size_t frame) const;
   SavedMap saved() const;
   int segments() const;
+  const Device& device() const { return odometry::LatestFrame::of(odometry_).device; }
   const Eigen::Isometry3d& map_from_odometry() const { return map_from_odometry_; }
   const std::vector<Closure>& closures() const { return closures_; }
   const places::PlaceStore& store() const { return store_; }
 
  private:
+  void check_is_next() const;
   void locate(const FrameResult& result);
   int node_of_reference(int frame);
   bool recognise(int node);
@@ -210,7 +215,17 @@ void Map::Implementation::locate(const FrameResult& result) {
   }
 }
 
+/// \throws UsageError where frames are missing: the odometry refers to them by their numbers
+void Map::Implementation::check_is_next() const {
+  const auto& latest = odometry::LatestFrame::of(odometry_).frame_edges;
+  const int found = latest ? latest->frame : -1, expected = static_cast<int>(frames_.size());
+  if (found != expected)
+    throw UsageError("a map has to see every frame: the odometry tracked frame " + std::to_string(found) +
+                     " last, expected " + std::to_string(expected));
+}
+
 bool Map::Implementation::add(const FrameResult& result) {
+  check_is_next();
   locate(result);
   const LocatedFrame& now = frames_.back();
   if (now.node < 0) return false;
@@ -541,10 +556,19 @@ StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
 
 }  // namespace
 
-Map::Map(StereoOdometry& odometry) : implementation_(std::make_unique<Implementation>(with_kept_rigs(odometry))) {}
+Map::Map(StereoOdometry& odometry) {
+  const auto use = odometry::LatestFrame::of(odometry).device.use();
+  implementation_ = std::make_unique<Implementation>(with_kept_rigs(odometry));
+}
 Map::~Map() = default;
-bool Map::add(const FrameResult& result) { return implementation_->add(result); }
-bool Map::finish() { return implementation_->finish(); }
+bool Map::add(const FrameResult& result) {
+  const auto use = implementation_->device().use();
+  return implementation_->add(result);
+}
+bool Map::finish() {
+  const auto use = implementation_->device().use();
+  return implementation_->finish();
+}
 const Eigen::Isometry3d& Map::map_from_odometry() const { return implementation_->map_from_odometry(); }
 Trajectory Map::trajectory() const { return implementation_->trajectory(); }
 std::optional<Eigen::Isometry3d> Map::pose(int frame) const {

@@ -23,7 +23,8 @@ constexpr double kUsualRange = 0.12;
 StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config) {
   check_rig(rig, "stereo rig");
   check_config(config);
-  RecordedImages(rig).check(frame.left, frame.right);
+  RecordedImages(rig).check(frame);
+  const auto use = device.use();
   StereoMatches matches;
   matches.rig = with_equal_scales(rig);
   const auto frontend = frontend::make_frontend(matches.rig, device, config, &matches.warnings);

@@ -1,22 +1,24 @@
 #include "report/comparison.hpp"
 
 #include <filesystem>
-#include <optional>
+#include <map>
 
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/trajectory.hpp"
-#include "report/batch_summary.hpp"
 #include "report/json_values.hpp"
 
 namespace quadedge::report {
 namespace fs = std::filesystem;
 namespace {
 
-const std::string kBaseline = "baseline";
+/// What OUT/summary.json states about the batch in OUT. \throws DataError for a missing or damaged file.
+Json read_summary(const std::string& output) { return read_json(output + "/summary.json", "the summary of a batch"); }
 
-bool ran(const SummaryRow& row) {
-  return row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked;
+bool ran(const Json& entry) { return entry.contains("frames_tracked"); }
+
+std::string member_folder(const std::string& output, const std::string& name) {
+  return (fs::path(output) / "sequences" / name).string();
 }
 
 /// The file of a peer's trajectory; empty if there is none.
@@ -45,66 +47,42 @@ Json per_pose(const TrajectoryEvaluation& evaluation) {
   return columns;
 }
 
-/// The comparison of one batch as it grows.
+/// The comparison of one sequence as it grows.
 class Comparison {
  public:
-  explicit Comparison(Json& sequences) : sequences_(sequences) {}
+  explicit Comparison(const std::string& name)
+      : entry_({{"name", name}, {"systems", Json::array()}, {"notes", Json::array()}}) {}
 
-  void add(const std::string& output, const std::string& name, double min_tracked, const std::string& baseline,
-           const std::vector<Peer>& peers) {
-    entry_ = {{"name", name}, {"systems", Json::array()}, {"notes", Json::array()}};
-    const SummaryRow own = read_summary_row(member_folder(output, name), name, min_tracked);
-    if (ran(own)) {
-      own_with_truth_ += own.accuracy ? 1 : 0;
-      compare(member_folder(output, name), name, min_tracked, baseline, peers);
-    }
-    sequences_.push_back(std::move(entry_));
-  }
-
-  /// Of a system over its sequences; nothing for a baseline that lacks some.
-  Json over_all(const std::string& system) const {
-    std::vector<const TrajectoryEvaluation*> parts;
-    for (const auto& [name, accuracy] : accuracies_) {
-      if (name == system) parts.push_back(&accuracy);
-    }
-    const auto pooled = pooled_accuracy(parts);
-    if (!pooled || (system == kBaseline && parts.size() != own_with_truth_)) return nullptr;
-    return {{"name", system}, {"sequences", parts.size()}, {"accuracy", to_json(*pooled)}};
-  }
-
- private:
-  void compare(const std::string& folder, const std::string& name, double min_tracked, const std::string& baseline,
+  /// `folder`: results of the sequence; `baseline`: folder of the other batch, with its `entry`, or empty.
+  Json compare(const std::string& folder, const std::string& name, const std::string& baseline, const Json& entry,
                const std::vector<Peer>& peers) {
-    Trajectory truth;
     try {
-      if (fs::is_regular_file(folder + "/groundtruth.txt")) truth = read_tum(folder + "/groundtruth.txt");
+      if (fs::is_regular_file(folder + "/groundtruth.txt")) truth_ = read_tum(folder + "/groundtruth.txt");
     } catch (const DataError& problem) {
-      return note(problem.what());
+      note(problem.what());
+      return std::move(entry_);
     }
-    if (!baseline.empty()) {
-      const std::string other = member_folder(baseline, name);
-      const SummaryRow row = read_summary_row(other, name, min_tracked);
-      if (ran(row) && add_system(kBaseline, other + "/trajectory.txt", truth)) {
-        entry_["baseline"] = {
-            {"frames", row.frames}, {"frames_tracked", row.tracked}, {"latency_ms", to_json(row.latency)}};
-        if (row.accuracy) {
-          entry_["baseline"]["accuracy"] = to_json(*row.accuracy);
-          accuracies_.emplace_back(kBaseline, *row.accuracy);
-        }
-      }
+    if (ran(entry) && add_system("baseline", member_folder(baseline, name) + "/trajectory.txt")) {
+      for (const char* key : {"frames", "frames_tracked", "latency_ms", "accuracy"})
+        if (entry.contains(key)) entry_["baseline"][key] = entry[key];
     }
     for (const auto& peer : peers) {
       const std::string file = peer_file(peer, name);
       if (file.empty()) {
         note(peer.name + ": no " + name + ".txt in " + peer.folder);
       } else {
-        add_system(peer.name, file, truth);
+        add_system(peer.name, file);
       }
     }
+    return std::move(entry_);
   }
 
+  /// Of a sequence without results.
+  Json nothing() { return std::move(entry_); }
+
+ private:
   /// False if the file cannot be read; a note states why.
-  bool add_system(const std::string& system, const std::string& file, const Trajectory& truth) {
+  bool add_system(const std::string& system, const std::string& file) {
     Trajectory poses;
     try {
       poses = read_tum(file);
@@ -114,11 +92,10 @@ class Comparison {
     }
     Json json = {{"name", system}, {"file", fs::absolute(file).string()}};
     try {
-      if (!truth.empty()) {
-        TrajectoryEvaluation evaluation = evaluate_trajectory(poses, truth);
+      if (!truth_.empty()) {
+        const TrajectoryEvaluation evaluation = evaluate_trajectory(poses, truth_);
         json["accuracy"] = to_json(evaluation);
         json["per_pose"] = per_pose(evaluation);
-        if (system != kBaseline) accuracies_.emplace_back(system, std::move(evaluation));
       }
     } catch (const DataError& problem) {
       note(system + ": " + problem.what());
@@ -129,18 +106,15 @@ class Comparison {
 
   void note(const std::string& text) { entry_["notes"].push_back(text); }
 
-  Json& sequences_;
   Json entry_;
-  std::vector<std::pair<std::string, TrajectoryEvaluation>> accuracies_;  ///< with the system's name
-  std::size_t own_with_truth_ = 0;
+  Trajectory truth_;
 };
 
 }  // namespace
 
 std::string comparison_json(const std::string& output, const std::string& baseline, const std::vector<Peer>& peers,
                             const std::string& command) {
-  const SummarisedBatch batch = summarised_batch(output);
-  if (!baseline.empty()) summarised_batch(baseline);  // throws for a folder without a batch
+  const Json batch = read_summary(output), other = baseline.empty() ? Json::object() : read_summary(baseline);
   Json json;
   json["schema"] = kComparisonSchema;
   add_origin(json, command);
@@ -149,12 +123,19 @@ std::string comparison_json(const std::string& output, const std::string& baseli
   json["peers"] = Json::array();
   for (const auto& peer : peers) json["peers"].push_back({{"name", peer.name}, {"folder", peer.folder}});
   json["sequences"] = Json::array();
-  Comparison comparison(json["sequences"]);
-  for (const auto& name : batch.names) comparison.add(output, name, batch.min_tracked, baseline, peers);
-  json["all"] = Json::array();
-  if (const Json all = comparison.over_all(kBaseline); !all.is_null()) json["all"].push_back(all);
-  for (const auto& peer : peers) {
-    if (const Json all = comparison.over_all(peer.name); !all.is_null()) json["all"].push_back(all);
+  try {
+    std::map<std::string, Json> of_baseline;
+    if (!baseline.empty())
+      for (const auto& entry : other.at("sequences")) of_baseline[entry.at("name")] = entry;
+    for (const auto& entry : batch.at("sequences")) {
+      const std::string name = entry.at("name");
+      Comparison comparison(name);
+      json["sequences"].push_back(
+          ran(entry) ? comparison.compare(member_folder(output, name), name, baseline, of_baseline[name], peers)
+                     : comparison.nothing());
+    }
+  } catch (const Json::exception& problem) {
+    throw DataError(output + ": " + problem.what() + "; expected the summaries of batches");
   }
   return json_text(json);
 }

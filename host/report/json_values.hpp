@@ -3,7 +3,6 @@
 /// or read JSON.
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -70,25 +69,6 @@ void add_configuration(Json& json, const Config& config);
 
 /// The content of a file. \throws DataError, naming it and what was expected, for a missing or damaged one.
 Json read_json(const std::string& file, const char* expected);
-
-/// Reads values back: null becomes NaN. \throws nlohmann::json::exception for a missing key or another type.
-inline double to_number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
-inline ErrorStatistics to_statistics(const Json& json) {
-  return {to_number(json.at("mean")), to_number(json.at("std")), to_number(json.at("rmse")), to_number(json.at("max"))};
-}
-
-inline PoseErrors to_pose_errors(const Json& json) {
-  return {to_statistics(json.at("ape_rotation_deg")), to_statistics(json.at("ape_translation_m")),
-          to_statistics(json.at("rpe_rotation_deg")), to_statistics(json.at("rpe_translation_m"))};
-}
-
-inline LatencySummary to_latency(const Json& json) {
-  return {to_number(json.at("median")), to_number(json.at("p90")), to_number(json.at("p99")), to_number(json.at("max")),
-          to_number(json.at("first"))};
-}
 
 /// The text of a file. File names may contain bytes that are not UTF-8; these are replaced.
 inline std::string json_text(const Json& json) {

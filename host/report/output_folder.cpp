@@ -93,13 +93,12 @@ void check_beside_results(const std::vector<std::string>& outputs, const std::st
   }
 }
 
-FolderLock::FolderLock(std::string file, bool shared, const std::string& what)
-    : name_(std::move(file)), shared_(shared) {
+FolderLock::FolderLock(std::string file, const std::string& what) : name_(std::move(file)) {
   do {
     if (file_ >= 0) close(file_);
     file_ = open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) throw DataError(name_ + ": cannot be created: " + std::strerror(errno));
-    if (flock(file_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(file_);
       throw UsageError(what + ": another run or batch is writing to this folder");
     }
@@ -108,8 +107,12 @@ FolderLock::FolderLock(std::string file, bool shared, const std::string& what)
 
 FolderLock::~FolderLock() {
   if (file_ < 0) return;
-  if (!shared_) unlink(name_.c_str());  // before the lock ends, so no other process holds it yet
+  unlink(name_.c_str());  // before the lock ends, so no other process holds it yet
   close(file_);
+}
+
+void FolderLock::keep_in_next_program() const {
+  if (file_ >= 0) fcntl(file_, F_SETFD, fcntl(file_, F_GETFD) & ~FD_CLOEXEC);
 }
 
 /// Whether its last holder removed the file between open() and flock(); other processes then lock a new file.
@@ -124,7 +127,7 @@ FolderLock prepare_output_folder(const std::string& path, bool force) {
   const fs::path folder(path);
   data::make_folder(folder / "pictures");
   std::error_code error;
-  FolderLock lock((folder / ".lock").string(), false, path);
+  FolderLock lock((folder / ".lock").string(), path);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (is_result(entry.path().filename())) old.push_back(entry.path());

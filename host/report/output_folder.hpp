@@ -10,23 +10,23 @@ namespace quadedge::report {
 /// Beginning of the names of files with the trajectory of one segment, before its number and ".txt".
 constexpr const char* kSegmentFile = "trajectory_segment_";
 
-/// A lock that ends with its object or its process. An exclusive lock removes its file.
+/// A lock that ends with its object or its process, and removes its file.
 class FolderLock {
  public:
-  /// `shared`: other processes may hold it shared as well. `what`: the folder, for the message. \throws UsageError when
-  /// another process holds it, DataError when the file cannot be created. On file systems without locks it does
-  /// nothing.
-  FolderLock(std::string file, bool shared, const std::string& what);
+  /// `what`: the folder, for the message. \throws UsageError when another process holds it, DataError when the file
+  /// cannot be created. On file systems without locks it does nothing.
+  FolderLock(std::string file, const std::string& what);
   ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept
-      : name_(std::move(other.name_)), shared_(other.shared_), file_(std::exchange(other.file_, -1)) {}
+  FolderLock(FolderLock&& other) noexcept : name_(std::move(other.name_)), file_(std::exchange(other.file_, -1)) {}
   FolderLock& operator=(FolderLock&&) = delete;
+
+  /// The program that replaces this one in its process holds the lock as well; its file then remains.
+  void keep_in_next_program() const;
 
  private:
   bool is_removed() const;
 
   std::string name_;
-  bool shared_;
   int file_ = -1;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// \file rows.hpp  Text files of rows: written as the rows come, so that finished ones survive a crash, and CSV (RFC
-/// 4180, one line per record) by column name.
+/// \file rows.hpp  Text files of rows, written as the rows come, so that finished ones survive a crash: CSV (RFC 4180,
+/// one line per record) by column name.
 
 #include <cstdint>
 #include <cstdio>
@@ -38,34 +38,6 @@ class CsvRow {
 
  private:
   std::vector<std::string> names_, fields_;
-};
-
-/// The fields of one line.
-std::vector<std::string> csv_fields(const std::string& line);
-
-/// A CSV file with a heading.
-class CsvTable {
- public:
-  /// \param expected  what the file should be, for messages: "a frames.csv of `quadedge run`"
-  /// \throws DataError for a missing or empty file, and for a row whose length differs from the heading's.
-  CsvTable(std::string file, std::string expected);
-
-  std::size_t rows() const { return rows_.size(); }
-  /// One field per row. \throws DataError for a column that does not exist.
-  std::vector<std::string> texts(const std::string& column) const;
-  /// The same as numbers, NaN for empty fields. \throws DataError also for a field that is not a number.
-  std::vector<double> numbers(const std::string& column) const;
-
- private:
-  struct Row {
-    int line;
-    std::vector<std::string> fields;
-  };
-  std::size_t position(const std::string& column) const;
-
-  std::string file_, expected_;
-  std::vector<std::string> names_;
-  std::vector<Row> rows_;
 };
 
 }  // namespace quadedge::report

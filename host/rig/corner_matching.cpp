@@ -191,8 +191,8 @@ CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, 
           })};
 }
 
-CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn,
-                                   std::size_t every) const {
+CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
+                                   const HiddenPixels& hidden) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
   const CoarseViews views = coarse_views(left, right, turn);
@@ -234,10 +234,17 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
                                   *position};
     return outcome;
   };
-  const auto corners = find_corners(views.left);
+  auto corners = find_corners(views.left);
+  corners.erase(std::remove_if(corners.begin(), corners.end(),
+                               [&](const Eigen::Vector2i& corner) {
+                                 const Eigen::Vector2d at = views.in_left(corner.cast<double>());
+                                 return hides(hidden.left, at.x(), at.y());
+                               }),
+                corners.end());
   std::vector<SearchedCorner> all((corners.size() + every - 1) / every);
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = seek(corners[i * every]); });
   for (const SearchedCorner& outcome : all) {
+    if (outcome.found && hides(hidden.right, outcome.found->right.x(), outcome.found->right.y())) continue;
     result.searched += outcome.has_line ? 1 : 0;
     result.negative += outcome.is_negative ? 1 : 0;
     if (outcome.found) result.found.push_back(*outcome.found);

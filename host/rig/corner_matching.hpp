@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/epipolar_geometry.hpp"
+#include "common/frame_mask.hpp"
 #include "common/undistortion.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
@@ -54,8 +55,9 @@ class CornerMatcher {
   /// over a tenth of the image height across it. Uses images reduced to a width of about 320 px.
   /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
   /// \param every searches for every `every`-th corner, in `every`-th of the time
+  /// \param hidden neither corners there are searched for, nor counts what is found there
   CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none,
-                      std::size_t every = 1) const;
+                      std::size_t every = 1, const HiddenPixels& hidden = {}) const;
 
  private:
   /// An epipolar line in the right image.

@@ -23,9 +23,10 @@ std::uint64_t fingerprint(const ImageView& image) {
 }
 
 /// The transformation of the right image with which a search finds most corners; none if there is no such.
-ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity) {
+ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
+                    const HiddenPixels& hidden) {
   for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
-    const CornerSearch search = matcher.search(frame, max_disparity, turn);
+    const CornerSearch search = matcher.search(frame, max_disparity, turn, 1, hidden);
     if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
   }
   return ImageTurn::none;
@@ -110,8 +111,9 @@ std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarF
 
 /// Adds a search for every `every`-th corner and its findings to the report. \returns the number of corners found
 std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const StereoFrame& frame,
-                             double max_disparity, RigReport& report, std::size_t every = 1) {
-  const CornerSearch search = matcher.search(frame, max_disparity, ImageTurn::none, every);
+                             double max_disparity, const HiddenPixels& hidden, RigReport& report,
+                             std::size_t every = 1) {
+  const CornerSearch search = matcher.search(frame, max_disparity, ImageTurn::none, every, hidden);
   // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
   std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
@@ -123,7 +125,7 @@ std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig,
   }
   add_search_results(search, fit, report.evidence);
   const ImageTurn turn =
-      finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity) : ImageTurn::none;
+      finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity, hidden) : ImageTurn::none;
   report.findings = judge_search(search, fit, report.evidence, turn, rig.left);
   return search.found.size();
 }
@@ -209,7 +211,7 @@ bool RigMonitor::needs_search(const RigEvidence& evidence) const {
 }
 
 RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
-                            double correction) {
+                            double correction, const HiddenPixels& hidden) {
   RigReport report;
   RigEvidence& evidence = report.evidence;
   evidence.epipolar_correction = correction;
@@ -229,11 +231,11 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   const bool is_frozen = repeated && is_mismatch(repeated->kind);
   if (!is_frozen && left_edges > 0 && needs_search(evidence)) {
     // If the rig was right before, a third of the corners suffices to see that it still is.
-    const bool is_right =
-        searched_ && fits_ &&
-        search_and_judge(corner_matcher_, rig_, frame, max_disparity, report, kSparseCorners) >= kMinSparseMatches &&
-        report.findings.empty();
-    if (!is_right) search_and_judge(corner_matcher_, rig_, frame, max_disparity, report);
+    const bool is_right = searched_ && fits_ &&
+                          search_and_judge(corner_matcher_, rig_, frame, max_disparity, hidden, report,
+                                           kSparseCorners) >= kMinSparseMatches &&
+                          report.findings.empty();
+    if (!is_right) search_and_judge(corner_matcher_, rig_, frame, max_disparity, hidden, report);
     frames_since_search_ = 0;
     searched_ = evidence;
     fits_ = report.mismatch() == nullptr;
@@ -269,7 +271,7 @@ std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& cu
 
 RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
   RigReport report;
-  search_and_judge(CornerMatcher(rig), rig, frame, max_disparity, report);
+  search_and_judge(CornerMatcher(rig), rig, frame, max_disparity, {}, report);
   judge_rows(frame.left, report);
   return report;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/frame_mask.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "rig/corner_matching.hpp"
@@ -55,9 +56,9 @@ class RigMonitor {
   /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
   /// \param edges its stereo edges \param left_edges number of edges in its left image
   /// \param max_disparity up to which they were searched, in the middle of the left image [px]
-  /// \param correction see RigEvidence::epipolar_correction
+  /// \param correction see RigEvidence::epipolar_correction \param hidden what the masks of the frame hide
   RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
-                  double correction = 0);
+                  double correction = 0, const HiddenPixels& hidden = {});
 
   /// Adds the image motion of the frame passed to judge() since the last one; reports a camera that seems to lag.
   std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);

@@ -18,7 +18,8 @@ namespace quadedge {
 /// Image files of one stereo frame.
 struct FrameFiles {
   std::int64_t stamp_ns = 0;
-  std::string left, right;
+  std::string left = {}, right = {};
+  std::string left_mask = {}, right_mask = {};  ///< masks of this frame, see StereoFrame; empty: none
 };
 
 /// A sequence or an image pair: cameras, list of frames. Images are not loaded yet.
@@ -63,6 +64,11 @@ std::vector<std::string> dataset_formats();
 /// Recognises the layout and reads calibration, list of frames and ground truth. Checks that every image file exists
 /// and that timestamps increase. \throws DataError that names the file, what was found and what was expected.
 Dataset open_dataset(const std::string& path, const DatasetOptions& options = {});
+
+/// Gives every frame of a dataset of image files its masks (StereoFrame): FOLDER/left/NAME.png and
+/// FOLDER/right/NAME.png for images NAME.*; a camera without such a folder has none. \throws UsageError for a video or
+/// a pipe; DataError for a folder without left and right, and for an image without its mask.
+void add_masks(Dataset& dataset, const std::string& folder);
 
 /// Result of `quadedge check`: all problems of a dataset, not only the first. Every image is decoded.
 struct DatasetCheck {

@@ -2,6 +2,7 @@
 /// \file device.hpp  Lists and opens OpenCL devices.
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ struct DeviceLimits;
 Device open_limited(const std::string& choice, const DeviceOptions& options, const DeviceLimits& limits);
 }  // namespace opencl
 
-/// An open device: an OpenCL context with its queue and built kernels, or the C++ reference implementation.
+/// An open device: an OpenCL context with its queue and built kernels, or the C++ reference implementation. Objects in
+/// several threads may share one; their calls then wait for one another.
 class Device {
  public:
   /// `choice`: auto (first GPU, else first CPU), cpu, gpu, reference, an index of list_devices(), or a part of the
@@ -64,6 +66,9 @@ class Device {
 
   const DeviceInfo& info() const { return info_; }
   bool is_reference() const { return context_ == nullptr; }
+  /// Holds the device for a call: its queue, kernels and counters are for one thread at a time. Everything that takes a
+  /// Device does so itself. The reference device needs no order.
+  std::unique_lock<std::recursive_mutex> use() const;
   /// The OpenCL context; null for the reference device.
   opencl::Context* context() const { return context_.get(); }
 

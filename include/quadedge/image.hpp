@@ -88,7 +88,10 @@ inline Image to_8_bits(const ImageView& image) {
 /// Two recorded grey images of the same time. The views must remain valid during track().
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
-  ImageView left, right;
+  ImageView left = {}, right = {};
+  /// Masks of this frame, of 8 bits and of the size of their image: where one is 0, the image shows something that is
+  /// not to be tracked (people, a gripper). No edges are found within edges.margin of it. Empty: everything counts.
+  ImageView left_mask = {}, right_mask = {};
 };
 
 /// Decodes a PNG, JPEG, PGM or PPM at its full bit depth, as read_grey_image() does; colour images are converted to

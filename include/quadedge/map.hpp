@@ -83,12 +83,13 @@ struct Closure {
 /// Comparisons that take long are made in the frames that follow, so that each takes about as long as without the map.
 class Map {
  public:
-  /// Refers to the odometry, which must outlive the map. \throws UsageError if `temporal.global_edges` is 0 or a filter
-  /// in time uses SIFT, because kept frames have no images.
+  /// Refers to the odometry, which must outlive the map and has tracked no frame yet. \throws UsageError if it has, and
+  /// if `temporal.global_edges` is 0 or a filter in time uses SIFT, because kept frames have no images.
   explicit Map(StereoOdometry& odometry);
   ~Map();
 
-  /// To be called after every frame with its result. \returns whether the map's poses have changed
+  /// To be called after every frame with its result. \returns whether the map's poses have changed \throws UsageError
+  /// if a frame was left out; DeviceError
   bool add(const FrameResult& result);
   /// Makes the comparisons that still wait, after the last frame. \returns whether the map's poses have changed
   bool finish();

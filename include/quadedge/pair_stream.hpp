@@ -13,8 +13,10 @@ namespace quadedge {
 struct StereoPair {
   int number = 0;  ///< number of the pair in its stream, from 0
   std::int64_t stamp_ns = 0;
-  Image left, right;
-  StereoFrame view() const { return {stamp_ns, left.view(), right.view()}; }  ///< valid as long as the pair
+  Image left = {}, right = {};
+  Image left_mask = {}, right_mask = {};  ///< see StereoFrame; empty: none
+  /// Valid as long as the pair.
+  StereoFrame view() const { return {stamp_ns, left.view(), right.view(), left_mask.view(), right_mask.view()}; }
 };
 
 /// Reads pairs in order, each once. To be used by one thread, except for stop().

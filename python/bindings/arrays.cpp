@@ -49,6 +49,7 @@ Eigen::Isometry3d transform_from(const nb::object& object, const std::string& na
 
 namespace {
 
+constexpr const char* kExpectedMask = "expected a numpy array of uint8, height x width, 0 where nothing is tracked";
 constexpr const char* kExpected = "expected a numpy array of uint8 or uint16, height x width";
 
 [[noreturn]] void refuse_type(const std::string& name, const std::string& found) {
@@ -99,6 +100,16 @@ ImageArgument::ImageArgument(nb::handle object, const std::string& name, int max
     row = bytes * width;
   }
   view_ = {pixels, width, height, row, words ? max_value : kMaxValue8};
+}
+
+std::unique_ptr<ImageArgument> ImageArgument::mask(nb::handle object, const std::string& name) {
+  if (object.is_none()) return nullptr;
+  if (!nb::ndarray_check(object))
+    throw nb::type_error((name + " is " + type_of(object) + ", " + kExpectedMask).c_str());
+  const std::string type = nb::cast<std::string>(nb::str(nb::handle(nb::object(object.attr("dtype")))));
+  if (type != "uint8" && type != "torch.uint8")
+    throw nb::type_error((name + " is an array of " + type + ", " + kExpectedMask).c_str());
+  return std::make_unique<ImageArgument>(object, name, kMaxValue8);
 }
 
 nb::object pixels_of(const Image& image, nb::handle owner) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <functional>
+#include <memory>
 #include <nanobind/ndarray.h>
 #include <optional>
 #include <string>
@@ -98,6 +99,8 @@ class ImageArgument {
   /// \throws TypeError for anything but an array of uint8 or uint16, DataError for other shapes (colour) and for
   ///     negative strides along a row.
   ImageArgument(nb::handle object, const std::string& name, int max_value);
+  /// A mask of uint8, height x width, or None, which is empty. Not copied, unless its rows are strided.
+  static std::unique_ptr<ImageArgument> mask(nb::handle object, const std::string& name);
   ImageArgument(const ImageArgument&) = delete;
   ImageArgument& operator=(const ImageArgument&) = delete;
   /// Empty images and strides shorter than a row are left to the library to refuse.

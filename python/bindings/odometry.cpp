@@ -101,8 +101,16 @@ class Odometry {
   const StereoRig& rig() const { return rig_; }
   const Config& config() const { return config_; }
   int max_value() const { return max_value_; }
-  DeviceInfo device() { return running().device.info(); }
-  std::map<std::string, std::string> variants() { return running().odometry.variants(); }
+  DeviceInfo device() {
+    const ReleasedGil released;
+    const std::lock_guard<std::mutex> alone(in_use_);
+    return running().device.info();
+  }
+  std::map<std::string, std::string> variants() {
+    const ReleasedGil released;
+    const std::lock_guard<std::mutex> alone(in_use_);
+    return running().odometry.variants();
+  }
 
  private:
   struct Running {
@@ -309,11 +317,15 @@ void bind_details(nb::module_& module) {
       .def_ro("quads", &Details::quads, "Indices into ``previous_stereo`` and ``stereo``.");
 }
 
-MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::handle right) {
+MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::handle right, nb::handle left_mask,
+                   nb::handle right_mask) {
   const ImageArgument left_image(left, "the left image", self.max_value());
   const ImageArgument right_image(right, "the right image", self.max_value());
+  const auto hides_left = ImageArgument::mask(left_mask, "left_mask"),
+             hides_right = ImageArgument::mask(right_mask, "right_mask");
   const ReleasedGil released;
-  return self.track({stamp_ns, left_image.view(), right_image.view()});
+  return self.track({stamp_ns, left_image.view(), right_image.view(), hides_left ? hides_left->view() : ImageView(),
+                     hides_right ? hides_right->view() : ImageView()});
 }
 
 void bind_result_files(nb::module_& module) {
@@ -377,19 +389,26 @@ void bind_odometry(nb::module_& module) {
           "loops"_a = false,
           nb::sig("def __init__(self, rig: Rig | Dataset | Synthetic, device: str | int = 'auto', preset: str = "
                   "'default', config: dict | str | os.PathLike | None = None, loops: bool = False) -> None"))
-      .def("track", &track, "stamp_ns"_a, "left"_a.none(), "right"_a.none(),
-           nb::sig("def track(self, stamp_ns: int, left: numpy.typing.NDArray, right: numpy.typing.NDArray) -> "
-                   "FrameResult"),
-           "Processes the next frame. Releases the GIL.\n\n"
-           "stamp_ns: time stamp [ns], not below that of the previous frame.\n"
-           "left, right: grey images as recorded, of the calibrated size, (height, width) or (height, width, 1),\n"
-           "uint8, or uint16 if ``rig.max_value`` exceeds 255. Colour is refused: convert it first, for example with\n"
-           "``cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)``. Rows may be padded and arrays may be read-only; they are\n"
-           "not kept after the call.\n\n"
-           "A frame that cannot be tracked is reported by ``status``, not by an exception. Raises TypeError for\n"
-           "anything but an array of uint8 or uint16, DataError for images that do not fit the rig and for stamps\n"
-           "that go back, DeviceError for a failing device and in a process forked after OpenCL had been used, and\n"
-           "UsageError after close(). The odometry's state does not change when DataError or TypeError is raised.")
+      .def(
+          "track", &track, "stamp_ns"_a, "left"_a.none(), "right"_a.none(), "left_mask"_a.none() = nb::none(),
+          "right_mask"_a.none() = nb::none(),
+          nb::sig("def track(self, stamp_ns: int, left: numpy.typing.NDArray, right: numpy.typing.NDArray, left_mask: "
+                  "numpy.typing.NDArray | None = None, right_mask: numpy.typing.NDArray | None = None) -> FrameResult"),
+          "Processes the next frame. Releases the GIL.\n\n"
+          "stamp_ns: time stamp [ns], not below that of the previous frame.\n"
+          "left, right: grey images as recorded, of the calibrated size, (height, width) or (height, width, 1),\n"
+          "uint8, or uint16 if ``rig.max_value`` exceeds 255. Colour is refused: convert it first, for example with\n"
+          "``cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)``. Rows may be padded and arrays may be read-only; they are\n"
+          "not kept after the call.\n"
+          "left_mask, right_mask: masks of this frame, uint8, (height, width) of the image: 0 where it shows "
+          "something\n"
+          "that is not to be tracked (people, a gripper). Neither edges there nor within ``edges.margin`` of it match\n"
+          "or vote. None: everything counts.\n\n"
+          "A frame that cannot be tracked is reported by ``status``, not by an exception. Raises TypeError for\n"
+          "anything but an array of uint8 or uint16 (a mask: uint8), DataError for images and masks that do not fit\n"
+          "the rig and for stamps that go back, DeviceError for a failing device and in a process forked after OpenCL "
+          "had been used, and\n"
+          "UsageError after close(). The odometry's state does not change when DataError or TypeError is raised.")
       .def("edges", &Odometry::edges, kReleasesGil,
            "Stereo edges of the last tracked frame; empty before the first one. Raises UsageError after close().")
       .def("details", &Odometry::details, kReleasesGil,

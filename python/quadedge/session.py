@@ -98,13 +98,16 @@ class Session:
         self.frames += 1
 
     def close(self) -> None:
-        """Finishes the results and releases the device."""
-        if self._files:
-            self._files.finish()
-            if self._loops and self.frames:
-                self.odometry.map_trajectory().write_tum(Path(self._output) / "trajectory_map.txt")
-            self._say(f"results of {self.frames} frames are in {self._output}")
-        self.odometry.close()
+        """Finishes the results and releases the device. Raises DataError for results that cannot be written; the device is
+        released in any case."""
+        try:
+            if self._files:
+                self._files.finish()
+                if self._loops and self.frames:
+                    self.odometry.map_trajectory().write_tum(Path(self._output) / "trajectory_map.txt")
+                self._say(f"results of {self.frames} frames are in {self._output}")
+        finally:
+            self.odometry.close()
 
 
 def say_on_stderr(program: str):

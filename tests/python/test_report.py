@@ -403,8 +403,7 @@ def comparison(tmp_path: Path, batch: Path, names: list[str]) -> Path:
                                      "latency_ms": {"median": 20.0, "p90": 22.0, "p99": 22.0, "max": 22.0,
                                                     "first": 20.0}}})
     file = tmp_path / "comparison.json"
-    file.write_text(json.dumps({"sequences": entries, "baseline": "yesterday", "peers": [],
-                                "all": [{"name": "Other & <Co>", "sequences": 2, "accuracy": accuracy(0.01)}]}))
+    file.write_text(json.dumps({"sequences": entries, "baseline": "yesterday", "peers": []}))
     return file
 
 
@@ -415,7 +414,7 @@ def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
     assert page.row(ORIGIN_TABLE, "street")[4:6] == [f"50.00{THIN}mm", f"25.00{THIN}mm"]
     assert page.row(ORIGIN_TABLE, "yard")[4:6] == [f"0.1500{THIN}m", f"0.07500{THIN}m"]
     assert page.tables[ORIGIN_TABLE][0][-1] == "RPE translation [mm]"
-    assert page.row(ORIGIN_TABLE, "all sequences, poses weighted equally")[4] == f"70.00{THIN}mm"
+    assert page.row(ORIGIN_TABLE, "all sequences, poses weighted equally")[4] == f"0.1000{THIN}m"
     assert page.bold == []  # nothing to compare with
     assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
     assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"
@@ -433,10 +432,10 @@ def test_comparison_names_the_own_row_and_prints_the_best_bold(tmp_path):
     assert f"10.00{THIN}mm" in page.bold and f"50.00{THIN}mm" not in page.bold
     assert len(page.bold) == 2 * 2 * 3  # APE translation, mean and std, of both alignments, each sequence and over all
     fewer = json.loads((tmp_path / "comparison.json").read_text())
-    fewer["all"][0]["sequences"] = 1  # over different data than our row: neither better nor worse
+    fewer["sequences"][1]["systems"] = []  # over different data than our row: neither better nor worse
     (tmp_path / "fewer.json").write_text(json.dumps(fewer))
     again = page_of(tmp_path / "batch", comparison=tmp_path / "fewer.json", output=tmp_path / "fewer.html")
-    assert len(again.bold) == 2 * 2 * 2
+    assert len(again.bold) == 2 * 2  # of the other sequence
     assert "Other & <Co>, 2 sequences" in [row[1] for row in page.tables[ORIGIN_TABLE]]
     assert "(+2)" in page.row("Tracked frames and latency", "street")[2]
     assert page.text.count("a peer had no file") == 2

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
 
+from .batch_summary import pooled
 from .error_tables import ALIGNMENTS, ErrorRow, error_table
 from .numbers import difference, length_text, share_of, significant
 from .origin import origin
@@ -54,7 +55,7 @@ def read_batch(folder: Path, comparison: Path | None) -> Batch:
     summary = read_json(folder / "summary.json", "the summary of a batch")
     if "sequences" not in summary or "all" not in summary:
         raise DamagedResults(f"{folder / 'summary.json'}: no `sequences`; expected the summary of a batch")
-    compared = read_json(comparison, "the comparison of a batch") if comparison else {"sequences": [], "all": []}
+    compared = read_json(comparison, "the comparison of a batch") if comparison else {"sequences": []}
     by_name = {entry["name"]: entry for entry in compared["sequences"]}
     sequences = [_read(folder, entry, by_name.get(entry["name"], {})) for entry in summary["sequences"]]
     return Batch(folder, summary, compared, sequences)
@@ -63,7 +64,7 @@ def read_batch(folder: Path, comparison: Path | None) -> Batch:
 def batch_page(batch: Batch, detail: Detail) -> Page:
     """The page of a batch. Damaged sequences are reported, the others shown."""
     page = Page(f"Batch report: {batch.folder.resolve().name}", _facts(batch), tiles=_tiles(batch.summary))
-    page.sections.append(Section("Overview", _overview(batch.summary, batch.compared, batch.sequences)))
+    page.sections.append(Section("Overview", _overview(batch.summary, batch.sequences)))
     for sequence in batch.sequences:
         page.sections.append(Section(sequence.name, _sequence_blocks(sequence, detail), fold=True,
                                      open=len(batch.sequences) <= MOST_OPEN))
@@ -134,7 +135,7 @@ def _facts(batch: Batch) -> Facts:
     return Facts(facts)
 
 
-def _overview(summary: dict, compared: dict, sequences: list[Sequence]) -> list:
+def _overview(summary: dict, sequences: list[Sequence]) -> list:
     blocks: list = []
     failed = [(sequence.name, sequence.message or f"{sequence.entry['status']}: {sequence.entry['message']}")
               for sequence in sequences if sequence.message or sequence.entry["status"] != "done"]
@@ -142,7 +143,7 @@ def _overview(summary: dict, compared: dict, sequences: list[Sequence]) -> list:
         blocks += [Text("Failed or incomplete sequences:", warns=True), Facts(failed)]
     if any(sequence.accuracy for sequence in sequences):
         groups = [_error_rows(sequence) for sequence in sequences]
-        groups.append(_rows_over_all(summary, compared))
+        groups.append(_rows_over_all(summary, sequences))
         blocks += [error_table(groups, alignment) for alignment in ALIGNMENTS]
     blocks.append(_latency_table(summary, sequences))
     shared = any(sequence.entry.get("jobs", 1) > 1 for sequence in sequences)
@@ -160,16 +161,28 @@ def _error_rows(sequence: Sequence) -> list[ErrorRow]:
     return rows
 
 
-def _rows_over_all(summary: dict, compared: dict) -> list[ErrorRow]:
-    own_sequences = sum("accuracy" in entry for entry in summary["sequences"])
+def _rows_over_all(summary: dict, sequences: list[Sequence]) -> list[ErrorRow]:
+    own_sequences = sum(sequence.accuracy is not None for sequence in sequences)
     title = "all sequences, poses weighted equally"
-    others = {entry["name"]: entry for entry in compared["all"]}
-    baseline = others.get("baseline", {}).get("accuracy")
+    baselines = [sequence.compared["baseline"]["accuracy"] for sequence in sequences
+                 if sequence.accuracy and "accuracy" in sequence.compared.get("baseline", {})]
+    baseline = pooled(baselines) if baselines and len(baselines) == own_sequences else None
     rows = [ErrorRow(title, "QuadEdge", summary["all"].get("pooled"), baseline)]
-    for name, entry in others.items():
-        rows.append(ErrorRow(title, f"{name}, {entry['sequences']} sequences", entry["accuracy"],
-                             ranked=entry["sequences"] == own_sequences))
+    for name, parts in _accuracies(sequences).items():
+        if name != "baseline" or baseline:  # one that lacks sequences is of other data
+            rows.append(ErrorRow(title, f"{name}, {len(parts)} sequences", pooled(parts),
+                                 ranked=len(parts) == own_sequences))
     return rows
+
+
+def _accuracies(sequences: list[Sequence]) -> dict[str, list[dict]]:
+    """Of every other system, over its sequences."""
+    found: dict[str, list[dict]] = {}
+    for sequence in sequences:
+        for system in sequence.compared.get("systems", []):
+            if system.get("accuracy"):
+                found.setdefault(system["name"], []).append(system["accuracy"])
+    return found
 
 
 def _latency_table(summary: dict, sequences: list[Sequence]) -> Table:

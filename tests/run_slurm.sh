@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs scripts/Snakefile on two sequences, one of them broken, first locally and then on a one-node Slurm cluster that
-# this script starts, and compares the results.
-#   run_snakemake.sh QUADEDGE PYTHON SNAKEFILE
+# Runs a batch of two sequences, one of them broken, first locally and then on a one-node Slurm cluster that this script
+# starts, and compares the results.
+#   run_slurm.sh QUADEDGE PYTHON
 set -euo pipefail
-quadedge="$1" python="$2" snakefile="$3"
+quadedge="$1" python="$2"
 for tool in munged slurmctld slurmd sbatch srun squeue sinfo; do
   PATH="$PATH:/usr/sbin" command -v "$tool" >/dev/null ||
     { echo "$tool is missing; scripts/test.sh installs Slurm"; exit 1; }
@@ -25,15 +25,12 @@ fail() { echo "$1"; exit 1; }
 "$quadedge" synth "$folder/data/good" --frames 4 --size 240x150 --quiet
 cp -r "$folder/data/good" "$folder/data/broken"
 rm "$folder/data/broken/calibration2.txt"
-snakemake() {  # OUT OPTION...: checks that the workflow ends with an error that names the broken sequence
-  local out="$1"
+export QUADEDGE_PYTHON="$python"
+batch() {  # OUT OPTION...: checks that the batch ends with the exit code and the name of the broken sequence
+  local out="$1" code=0
   shift
-  if "$python" -m snakemake --snakefile "$snakefile" --directory "$folder" "$@" \
-    --config root=data "out=$out" "quadedge=$quadedge" \
-    >"$folder/$out.log" 2>&1; then
-    cat "$folder/$out.log"
-    fail "Snakemake did not report the broken sequence"
-  fi
+  (cd "$folder" && "$quadedge" batch data -o "$out" "$@") >"$folder/$out.log" 2>&1 || code=$?
+  [ $code -eq 3 ] || { cat "$folder/$out.log"; fail "expected exit code 3, found $code"; }
   grep -q "broken (failed): .*calibration2.txt" "$folder/$out.log" ||
     { cat "$folder/$out.log"; fail "the error does not name the broken sequence"; }
   for file in summary.json summary.md report.html \
@@ -43,7 +40,7 @@ snakemake() {  # OUT OPTION...: checks that the workflow ends with an error that
 }
 
 echo "locally"
-snakemake local --cores 1
+batch local
 
 echo "on Slurm"
 mkdir -p "$folder/slurm"/{state,spool,bin}
@@ -92,7 +89,7 @@ for _ in $(seq 100); do
   sleep 0.2
 done
 sinfo --noheader --format=%T | grep -q idle || fail "the node does not start: $(sinfo 2>&1)"
-snakemake cluster --executor slurm --jobs 2 --default-resources slurm_partition=main runtime=5 mem_mb=900 --keep-going \
+batch cluster -- --executor slurm --jobs 2 --default-resources slurm_partition=main runtime=5 mem_mb=900 \
   --slurm-no-account --slurm-status-command squeue --slurm-init-seconds-before-status-checks 1 \
   --seconds-between-status-checks 1
 jobs="$(squeue --states=all --noheader --format=%T | sort | uniq -c | tr -s ' ')"
