@@ -34,8 +34,7 @@ _COMPILED = (
     "RigEvidence", "Search", "StereoEdges", "StereoFilter", "SubPathErrors", "Synthetic", "Tap", "TemporalFilter",
     "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image", "detect_edges",
     "devices", "evaluate_trajectory", "limit_threads", "match", "open_dataset", "open_stereo_source", "presets",
-    "read_grey_image",
-    "synthetic",
+    "read_grey_image", "synthetic",
 )  # fmt: skip
 
 __all__ = [*_ERRORS, *_COMPILED, "__version__", "evaluate_matching"]
