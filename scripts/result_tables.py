@@ -23,11 +23,16 @@ BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re
 PART_OF = {"quads": "matching", "pace": "speed"} | {
     name: "paper" for name in TABLES if name.startswith("paper-")} | {
     name: "nvidia" for name in TABLES if name.startswith("gpu-")} | dict.fromkeys(
+    ("whole", "evidence-nees"), "evidence") | dict.fromkeys(
     ("beside", "compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
 # Part -> (title, introduction, tables and headings)
 PAGES = {
     "accuracy": ("Accuracy", "Errors are origin-aligned means: absolute (APE) and from frame to frame (RPE)."
                  " [accuracy.md](../accuracy.md) explains them.", ("systems", "steps", "paths", "consistency")),
+    "evidence": ("Whole recordings", "t_rel and r_rel are errors over sub-paths"
+                 " ([definition](../reference.md#trajectory-errors)); figures over less than 100 m are not those of KITTI's"
+                 " leaderboard. Several seeds: median (range). ORB-SLAM3 runs without loop closing.", (
+                     "evidence", "## Consistency of the covariances", "evidence-nees")),
     "matching": ("Matching", "Recall and precision after the last filter, for left edges whose counterpart exists"
                  " (paired) and for all left edges (all). [matching.md](../matching.md) defines the terms.",
                  ("matching", "quads")),
@@ -69,7 +74,8 @@ def page(part, results):
     title, about, names = PAGES[part]
     if part not in results:
         return f"# {title}\n\n{render(part, results)}"
-    made_by = "scripts/device_kit.sh" if part == "nvidia" else f"scripts/measure.py --only {part}"
+    made_by = {"nvidia": "scripts/device_kit.sh", "evidence": "scripts/evidence.py"}.get(
+        part, f"scripts/measure.py --only {part}")
     blocks = [f"# {title}\n", f"Made by `{made_by}`. {about}\n",
               *(f"{name}\n" if name.startswith("#") else render(name, results) for name in names)]
     if "commands" in results[part].get("rows", [{}])[0] and part != "paper":  # whose commands are a table

@@ -327,6 +327,91 @@ def ros2(results):
                              f"{end:.0f} MB. {part['cores']} cores, {part['note']}. {stamp(part)}")
 
 
+PEERS = {"viso2": "libviso2", "orb_slam3": "ORB-SLAM3", "toy_vo": "toy-vo"}
+WHOLE = {"street": "KITTI street, 300 m", "karlsruhe": "Karlsruhe, 226 m", "mh_01": "EuRoC MH_01, 30 s"}
+HEADLINE = {"street": (100, 200), "mh_01": (1, 5)}  # lengths of sub-paths on the first page [m]
+
+
+def spread(values, digits=3):
+    """The median and, of several different values, the range."""
+    middle, least, most = statistics.median(values), min(values), max(values)
+    return number(middle, digits) + (
+        f" ({number(least, digits)} to {number(most, digits)})" if number(least, digits) != number(most, digits) else "")
+
+
+def sub_paths(run, length):
+    """t_rel [%] and r_rel [deg/100 m] of a run over sub-paths of one length; nothing without such."""
+    for entry in run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", []):
+        if entry["length_m"] == length:
+            return entry["t_rel_percent"], 100 * entry["r_rel_deg_per_m"]
+    return None
+
+
+def whole_row(row, lengths):
+    """One recording and system: frames with a pose, errors over sub-paths, absolute error, time per frame."""
+    runs, cells = row["runs"], []
+    for length in lengths:
+        found = [sub_paths(run, length) for run in runs]
+        cells += [spread(values) for values in zip(*found)] if all(found) else ["-", "-"]
+    errors = [run["errors"]["accuracy"] for run in runs if "errors" in run]
+    ate = spread([of["ate_rmse_m"] for of in errors]) if errors else "-"
+    times = [run["latency_ms"]["median"] for run in runs if run.get("latency_ms")]
+    return (PEERS.get(row["system"], row["system"]), f"{spread([run['poses'] for run in runs])} of {row['frames']}",
+            *cells, ate, spread(times, 2) if times else "-")
+
+
+def whole_recordings(results):
+    """The headline: errors over two lengths of sub-paths, of QuadEdge and the peers."""
+    part, rows = results["evidence"], []
+    for row in part["rows"]:
+        if row["recording"] not in HEADLINE or row["system"] in ("QuadEdge, fast", "QuadEdge, dense"):
+            continue
+        cells = whole_row(row, HEADLINE[row["recording"]])
+        short, long = HEADLINE[row["recording"]]
+        rows.append((f"{WHOLE[row['recording']]}: {short} m; {long} m", cells[0], cells[1], f"{cells[2]}; {cells[4]}",
+                     f"{cells[3]}; {cells[5]}"))
+    head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
+    return table(head, rows, f"Medians of {counted(part['seeds'], 'seed')}, and their range. {stamp(part)}")
+
+
+def evidence(results):
+    """Every recording and system with all lengths."""
+    part, text = results["evidence"], []
+    for name, title in WHOLE.items():
+        rows = [row for row in part["rows"] if row["recording"] == name]
+        if not rows:
+            continue
+        lengths = sorted({entry["length_m"] for row in rows for run in row["runs"] for entry in
+                          run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", [])})
+        head = ("system", "frames with a pose", *(f"{kind}, {length:g} m" for length in lengths for kind in
+                                                  ("t_rel [%]", "r_rel [deg/100 m]")), "ATE RMSE [m]", "median time [ms]")
+        first = rows[0]
+        text.append(f"## {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
+                    f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. Commit "
+                    f"{first['commit']}.\n\n" + table(head, [whole_row(row, lengths) for row in rows]))
+        if not lengths:
+            text.append(table(("system", "length of the path [m]"), [
+                (PEERS.get(row["system"], row["system"]), spread([run["length_m"] for run in row["runs"]], 5))
+                for row in rows]))
+    return "\n".join(text)
+
+
+def evidence_nees(results):
+    """NEES of QuadEdge's poses on the whole recordings, with the calibration."""
+    rows = []
+    for row in results["evidence"]["rows"]:
+        found = [run["consistency"] for run in row["runs"] if run.get("consistency")]
+        if row["system"] != "QuadEdge" or not found:
+            continue
+        cells = []
+        for frames in (1, 5, 10, 20, 50):
+            values = [entry["normalised_error_squared"]["pose"] for of in found for entry in of
+                      if entry["frames"] == frames]
+            cells.append(spread(values) if values else "-")
+        rows.append((WHOLE[row["recording"]], *cells))
+    return table(("NEES", "1 frame", "5", "10", "20", "50"), rows)
+
+
 def gpu_latency(results):
     """Time of a frame on each GPU."""
     rows = [(device["name"], row["sequence"], row["preset"], *(f"{row[name]:.1f}" for name in
@@ -360,6 +445,7 @@ TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": be
           "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
           "drift": drift_over_scenes, "ros2": ros2, "gpu-latency": gpu_latency, "gpu-poses": gpu_poses,
           "gpu-variants": gpu_variants,
+          "whole": whole_recordings, "evidence": evidence, "evidence-nees": evidence_nees,
           "paper-stereo": lambda results: paper_comparison.stereo(results, table),
           "paper-temporal": lambda results: paper_comparison.temporal(results, table),
           "paper-constraints": lambda results: paper_comparison.constraints(results, table),

@@ -41,8 +41,9 @@ class MethodOptions {
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
   /// Limits the threads, opens the device and runs its self-test, unless this program has a verdict on it with this
-  /// driver. With `auto` a device that fails is skipped with a warning as long as there is another. \param test receives
-  /// the verdict \throws DeviceError for a device that computes wrongly, unless --trust is given; UsageError for fewer
+  /// driver. With `auto` a device that fails is skipped with a warning as long as there is another.
+  /// \param test receives the verdict
+  /// \throws DeviceError for a device that computes wrongly, unless --trust is given; UsageError for fewer
   /// than no threads.
   Device open_device(bool profiling = false, SelfTestResult* test = nullptr) const;
   /// The value of --device.

@@ -122,7 +122,7 @@ class Estimates:
         return self._keys[key] and (base in (key, -1) or self._is_known)
 
     def _at_stamp(self, mean: numpy.ndarray, covariance: numpy.ndarray, seconds: float) -> tuple:
-        """A mean twist as that at the end of its interval: with what accelerations may have changed since the middle."""
+        """A mean twist as the one at the end of its interval: with what accelerations may have changed."""
         if self._twist is not None:
             before, seconds_before = self._twist
             seen = (2 * (mean - before) / (seconds + seconds_before)) ** 2

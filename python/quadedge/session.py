@@ -98,8 +98,8 @@ class Session:
         self.frames += 1
 
     def close(self) -> None:
-        """Finishes the results and releases the device. Raises DataError for results that cannot be written; the device is
-        released in any case."""
+        """Finishes the results and releases the device. Raises DataError for results that cannot be written; the
+        device is released in any case."""
         try:
             if self._files:
                 self._files.finish()
