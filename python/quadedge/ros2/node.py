@@ -75,8 +75,8 @@ class Node:
                 if self._lacks_info():
                     self._watch.pair()
                 elif pair := self._queue.newest():
-                    self._watch.pair()
                     self._track(*pair, time.monotonic())
+                    self._watch.pair()  # afterwards: the first pair builds kernels
                     self._receive()
                 if time.monotonic() - self._second >= 1:
                     self._publish_state()

@@ -55,6 +55,8 @@ class Watch:
             return f"{both}: their stamps are 0"
         if apart is None:
             return f"{both}: their stamps do not go on"
+        if apart <= self._tolerance_ns:  # they are about to be tracked
+            return ""
         return (f"{both}: their stamps are {apart / 1e6:.3f} ms apart, more than the --tolerance of "
                 f"{self._tolerance_ns / 1e6:g} ms (are the cameras synchronised?)")
 
