@@ -70,7 +70,7 @@ class Robot:
                 return
             time.sleep(min(rest, 0.01))
 
-    def until(self, holds, what: str, seconds: float = 60.0) -> None:
+    def until(self, holds, what: str, seconds: float = 180.0) -> None:
         """Listens until a condition holds."""
         end = time.monotonic() + seconds
         while not holds():
@@ -78,7 +78,7 @@ class Robot:
             assert time.monotonic() < end, f"waited for {what}: {self.words}"
             self.listen(0.05)
 
-    def said(self, text: str, seconds: float = 60.0) -> None:
+    def said(self, text: str, seconds: float = 180.0) -> None:
         self.until(lambda: text in self.words, text, seconds)
 
     def info(self, side: int, stamp: int = 1):
@@ -107,7 +107,7 @@ class Robot:
         """
         for number, frame in enumerate(frames):
             stamp, sent = first_stamp + number * step_ns, 0.0
-            end = time.monotonic() + 60
+            end = time.monotonic() + 180
             while stamp not in self.poses():
                 assert time.monotonic() < end and self.process.poll() is None, self.words
                 if time.monotonic() - sent > 0.5:
