@@ -366,7 +366,7 @@ def test_a_restart_is_in_diagnostics_and_moves_no_map(robot, frames, tmp_path):
     robot.play(frames[5:], SECOND)
     robot.until(lambda: robot.diagnostics()["restarts"] == "1", "diagnostics")
     values = robot.diagnostics()
-    assert "went back by 99.250 s" in values["last restart"] and values["level"] == 1
+    assert "went back by 99.250 s" in values["last restart"] and values["level"] in (1, 2)  # 2: it has become silent
     assert values["place in odom"].startswith("not measured since 1.000 s: the stamps")
     poses = {}
     for message in robot.heard["/tf"]:
