@@ -19,9 +19,10 @@ class FrameEdges {
  public:
   virtual ~FrameEdges() = default;
 
-  int frame = -1;             ///< frame number, counted from 0 by the front end
-  std::int64_t stamp_ns = 0;  ///< of its images
-  StereoEdges edges;          ///< on the host
+  int frame = -1;                           ///< frame number, counted from 0 by the front end
+  std::int64_t stamp_ns = 0;                ///< of its images
+  std::shared_ptr<const PixelMask> hidden;  ///< by the mask of its left image, with edges.margin; null: none
+  StereoEdges edges;                        ///< on the host
   /// Spacing of the epipolar lines on which edges were selected, at least that of the maxima of a curve [px]. See
   /// kernels/edge_selection.cl.
   double edges_spacing = 1;
@@ -47,6 +48,7 @@ class FrameEdges {
   void start(int frame_number) {
     frame = frame_number;
     own_calibration = nullptr;
+    hidden = nullptr;
     is_restored = false;
     measured_with_ = never();
   }

@@ -1,5 +1,6 @@
 #include "frontend/frontend.hpp"
 
+#include "common/images.hpp"
 #include "frontend/common_view.hpp"
 #include "frontend/device_frontend.hpp"
 #include "frontend/memory_fit.hpp"
@@ -14,13 +15,14 @@ void Frontend::hide(const PixelMask& left) {
   masks_changed();
 }
 
-void Frontend::take_masks(const StereoFrame& frame) {
+std::shared_ptr<const PixelMask> Frontend::take_masks(const StereoFrame& frame) {
   const bool was_masked = !of_frame_.empty();
   to_left_.run(frame.left_mask, calibration_.left, calibration_.left_undistortion, of_frame_.left);
   to_right_.run(frame.right_mask, calibration_.right, calibration_.right_undistortion, of_frame_.right);
-  if (!was_masked && of_frame_.empty()) return;
+  if (!was_masked && of_frame_.empty()) return nullptr;
   masks_ = {joined(calibration_.left_mask, of_frame_.left), joined(calibration_.right_mask, of_frame_.right)};
   masks_changed();
+  return of_frame_.left.empty() ? nullptr : std::make_shared<const PixelMask>(with_border(of_frame_.left, margin_));
 }
 
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,

@@ -98,13 +98,14 @@ class Frontend {
   void set_tap(Tap* tap) { tap_ = tap; }
 
  protected:
-  Frontend(const StereoRig& rig, const StereoConfig& config)
+  Frontend(const StereoRig& rig, const Config& config)
       : calibration_(rig),
-        rectification_(calibration_, config),
+        rectification_(calibration_, config.stereo),
         masks_{rig.left_mask, rig.right_mask},
-        left_mask_of_rig_(rig.left_mask) {}
-  /// Takes the masks that come with a frame, before edges are found in it.
-  void take_masks(const StereoFrame& frame);
+        left_mask_of_rig_(rig.left_mask),
+        margin_(config.edges.margin) {}
+  /// Takes the masks that come with a frame, before edges are found in it. \returns FrameEdges::hidden
+  std::shared_ptr<const PixelMask> take_masks(const StereoFrame& frame);
   /// Called when masks_ have changed.
   virtual void masks_changed() {}
 
@@ -119,6 +120,7 @@ class Frontend {
 
  private:
   PixelMask left_mask_of_rig_;
+  int margin_;
   HiddenPixels of_frame_;
   MaskTransfer to_left_, to_right_;
 };

@@ -51,7 +51,7 @@ CandidateLists lists_of(const std::vector<std::vector<paper::Cluster>>& rows, co
 }  // namespace
 
 PaperFrontend::PaperFrontend(const StereoRig& rig, const Config& config)
-    : Frontend(rig, config.stereo),
+    : Frontend(rig, config),
       config_(config),
       geometry_(make_epipolar_geometry(rig, with_disparity_range(config, rig).stereo)),
       threshold_(config.edges) {
@@ -68,7 +68,7 @@ EdgeSet PaperFrontend::detect(const Image& image, const PixelMask& mask) {
 FrameEdgesHandle PaperFrontend::process(const StereoFrame& frame) {
   PaperFrameEdges& now = frames_.next();
   now.stamp_ns = frame.stamp_ns;
-  take_masks(frame);
+  now.hidden = take_masks(frame);
   searches_ = 0;
   const Image left = reference::pinhole_image(frame.left, calibration_.left_undistortion),
               right = reference::pinhole_image(frame.right, calibration_.right_undistortion);

@@ -9,7 +9,7 @@
 namespace quadedge::frontend {
 
 StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
-    : Frontend(rig, config.stereo),
+    : Frontend(rig, config),
       config_(config),
       range_(rig, config),
       gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()) {}
@@ -17,9 +17,10 @@ StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
 FrameEdgesHandle StagedFrontend::process(const StereoFrame& frame) {
   counts_ = {};
   searches_ = 0;
-  take_masks(frame);
+  auto hidden = take_masks(frame);
   FrameEdges& current = start(frame);
   current.stamp_ns = frame.stamp_ns;
+  current.hidden = std::move(hidden);
   rectification_.start_frame();
   do {
     detect(current);

@@ -248,6 +248,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
     frontend::predict_positions(fits_.calibration(), base->edges, fits_.measured(*base), motion,
                                 config_.temporal.radius, every, search);
     hide_masked(hidden_, search);
+    if (query.current->hidden) hide_masked(*query.current->hidden, search);
   };
   const auto predict_all = [&] {
     predict(current_from_base, 1, search_);
