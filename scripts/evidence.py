@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Errors of QuadEdge and of other systems on whole recordings: every figure of recordings in README.md and doc/accuracy.md.
+"""Errors of QuadEdge and of other systems on whole recordings, for README.md and doc/accuracy.md.
 
     scripts/evidence.py [--street DIR] [--karlsruhe DIR] [--mh_01 DIR] [--quadedge FILE] [--opencv-baseline FILE]
                         [--viso2 FILE] [--peers PYTHON] [--seeds N] [--work DIR] [--out FILE]
@@ -113,8 +113,7 @@ def call(command, environment=None):
 
 def run_quadedge(options, recording, folder, seed, arguments):
     """Runs the program. Returns its command, the time of a frame and what report.json says of the run."""
-    command = [options.quadedge, "run", recording.folder, "-o", folder, "--force", "--quiet", "--seed", seed, *arguments]
-    call(command)
+    call([options.quadedge, "run", recording.folder, "-o", folder, "--force", "--quiet", "--seed", seed, *arguments])
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     shown = ["quadedge", "run", recording.name, "-o", "OUT", "--seed", str(seed), *arguments]
     return " ".join(shown), folder / "trajectory.txt", report

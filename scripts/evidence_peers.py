@@ -4,7 +4,7 @@
 
 PAIRS is a folder with image_0, image_1, calib.txt and times.txt as KITTI has them. OUT receives one row per pose, in
 TUM's format, in the coordinates of the rectified left camera; the last line printed is a JSON object with the version
-and the seconds per frame. Nothing of the systems is part of this repository: pyorbslam3 and toy-vo are packages of PyPI.
+and the seconds per frame. Nothing of the systems is part of this repository: pyorbslam3 and toy-vo are on PyPI.
 """
 
 import json
@@ -84,7 +84,7 @@ def train_vocabulary(pairs, file, branching=10, levels=3):
     detector = cv2.ORB_create(500)
     words = numpy.concatenate([detector.detectAndCompute(left, None)[1]
                                for index, (left, _) in enumerate(pairs) if index % 10 == 0])
-    signs = 1 - 2 * numpy.unpackbits(words, axis=1).astype(numpy.float32)  # their product is 256 less twice the distance
+    signs = 1 - 2 * numpy.unpackbits(words, axis=1).astype(numpy.float32)  # product: 256 less twice the distance
     lines, nodes, random = [], [(0, numpy.arange(len(signs)), 0)], numpy.random.default_rng(0)
     while nodes:
         parent, members, depth = nodes.pop(0)

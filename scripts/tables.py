@@ -335,8 +335,9 @@ HEADLINE = {"street": (100, 200), "mh_01": (1, 5)}  # lengths of sub-paths on th
 def spread(values, digits=3):
     """The median and, of several different values, the range."""
     middle, least, most = statistics.median(values), min(values), max(values)
-    return number(middle, digits) + (
-        f" ({number(least, digits)} to {number(most, digits)})" if number(least, digits) != number(most, digits) else "")
+    if number(least, digits) == number(most, digits):
+        return number(middle, digits)
+    return f"{number(middle, digits)} ({number(least, digits)} to {number(most, digits)})"
 
 
 def sub_paths(run, length):
@@ -383,8 +384,9 @@ def evidence(results):
             continue
         lengths = sorted({entry["length_m"] for row in rows for run in row["runs"] for entry in
                           run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", [])})
-        head = ("system", "frames with a pose", *(f"{kind}, {length:g} m" for length in lengths for kind in
-                                                  ("t_rel [%]", "r_rel [deg/100 m]")), "ATE RMSE [m]", "median time [ms]")
+        kinds = ("t_rel [%]", "r_rel [deg/100 m]")
+        head = ("system", "frames with a pose", *(f"{kind}, {length:g} m" for length in lengths for kind in kinds),
+                "ATE RMSE [m]", "median time [ms]")
         first = rows[0]
         text.append(f"## {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
                     f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. Commit "
