@@ -418,6 +418,8 @@ def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
     assert page.bold == []  # nothing to compare with
     assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
     assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"
+    assert page.title == "Batch report: batch" and page.tiles["Sequences"] == "3 of 3 done"
+    assert page.tiles["Drift at the end"].startswith("1.2 % median of 3 sequences")
     assert sum(plot.endswith("latency") for plot in page.plots) == 3
 
 

@@ -6,7 +6,7 @@ from statistics import median
 
 from .batch_summary import pooled
 from .error_tables import ALIGNMENTS, ErrorRow, error_table
-from .numbers import difference, length_text, share_of, significant
+from .numbers import difference, exists, length_text, share_of, significant
 from .origin import origin
 from .page import Detail, Facts, Page, Section, Text, Tile
 from .results import DamagedResults, Errors, Run, aligned, read_json, read_run, read_tum
@@ -114,6 +114,7 @@ def _tiles(summary: dict) -> list[Tile]:
              Tile("Time per frame", f"{significant(latency['median'], 3)} ms",
                   f"median; p99 {significant(latency['p99'], 3)} ms")]
     drifts = [entry["accuracy"]["end_drift_percent"] for entry in sequences if entry.get("accuracy")]
+    drifts = [drift for drift in drifts if exists(drift)]
     if drifts:
         tiles.append(Tile("Drift at the end", f"{significant(median(drifts), 2)} %",
                           f"median of {len(drifts)} sequences; largest {significant(max(drifts), 2)} %"))
