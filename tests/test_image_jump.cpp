@@ -2,7 +2,7 @@
 
 #include "generated_quads.hpp"
 #include "matching.hpp"
-#include "odometry/image_jump.hpp"
+#include "rig/image_jump.hpp"
 
 using namespace quadedge;
 using Eigen::Vector3d;
@@ -50,7 +50,7 @@ TEST_CASE("image jump: a displaced right image is measured beside the motion", "
     const Scene scene(forward(0.8, 1), displaced, 5);
     // The prediction is off by 0.1 m and by 0.2 degrees.
     for (const auto& predicted : {forward(0.8, 1), forward(0.7, 1), forward(0.8, 1.2)}) {
-      const auto jump = odometry::JumpMeter().measure(scene.before, scene.now, scene.matches, predicted);
+      const auto jump = rig::JumpMeter().measure(scene.before, scene.now, scene.matches, predicted);
       REQUIRE(jump);
       CHECK(jump->shift == Approx(displaced).margin(0.1));
       CHECK(std::abs(jump->shift - displaced) < 5 * jump->sigma);
@@ -63,12 +63,12 @@ TEST_CASE("image jump: a third of wrong matches does not matter", "[odometry]") 
   Scene scene(forward(0.8, 1), 2.8, 5);
   for (std::size_t m = 0; m + 1 < scene.matches.size(); m += 6)
     std::swap(scene.matches.current[m], scene.matches.current[m + 1]);
-  const auto jump = odometry::JumpMeter().measure(scene.before, scene.now, scene.matches, forward(0.8, 1));
+  const auto jump = rig::JumpMeter().measure(scene.before, scene.now, scene.matches, forward(0.8, 1));
   REQUIRE(jump);
   CHECK(jump->shift == Approx(2.8).margin(0.2));
 }
 
 TEST_CASE("image jump: few matches show none", "[odometry]") {
   const Scene scene(forward(0.8, 1), 2.8, 5, 20);
-  CHECK_FALSE(odometry::JumpMeter().measure(scene.before, scene.now, scene.matches, forward(0.8, 1)));
+  CHECK_FALSE(rig::JumpMeter().measure(scene.before, scene.now, scene.matches, forward(0.8, 1)));
 }

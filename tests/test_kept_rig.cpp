@@ -55,8 +55,7 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
     INFO(name);
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-    const odometry::DisparityOffset offset(room().rig, room().config.pose);
-    odometry::MotionSearch search(room().config, *frontend, offset);
+    odometry::MotionSearch search(room().config, *frontend, room().rig);
     const auto base = frontend->process(room().frame(0));
     const frontend::KeptFrameEdges kept = frontend->keep();
     odometry::MotionQuery query;

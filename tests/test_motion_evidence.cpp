@@ -28,11 +28,10 @@ struct TwoMotions {
   }
   double area_of(const Eigen::Isometry3d& motion) {
     const Config config;
-    const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
     step.motion.current_from_previous = motion;
     step.verdict = {};
     step.verdict.refusal = odometry::Refusal::none;
-    MotionEvidence(config, offset).judge(predicted, Config().temporal.min_support, step);
+    MotionEvidence(config, generated::car_rig()).judge(predicted, Config().temporal.min_support, step);
     return step.verdict.area;
   }
 };
@@ -91,8 +90,7 @@ TEST_CASE("motion evidence: the moving ratio is a fraction of the image, and mot
   CHECK(alike.step.verdict.moving_ratio < 0.02);
 
   const Config config;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
-  MotionEvidence evidence(config, offset);
+  MotionEvidence evidence(config, generated::car_rig());
   alike.step.motion.inlier.assign(alike.step.quads.size(), 1);
   CHECK(evidence.is_same_motion(alike.step, shift(0.005, 0) * scene.motion));
   CHECK_FALSE(evidence.is_same_motion(alike.step, shift(0.6, 0)));
@@ -123,8 +121,7 @@ TEST_CASE("motion evidence: points at rest contradict a motion: the camera may b
 TEST_CASE("motion evidence: without enough support among the edges in view a motion is refused", "[odometry]") {
   Config config;
   config.temporal.min_support = 0.06;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
-  MotionEvidence evidence(config, offset);
+  MotionEvidence evidence(config, generated::car_rig());
   EdgePositions predicted;
   predicted.x.assign(100, 5.0f);
   predicted.x.resize(150, std::numeric_limits<float>::quiet_NaN());
@@ -145,8 +142,7 @@ TEST_CASE("motion evidence: without enough support among the edges in view a mot
 
 TEST_CASE("motion evidence: global matches confirm the motion that they follow", "[odometry]") {
   const Config config;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
-  const MotionEvidence evidence(config, offset);
+  const MotionEvidence evidence(config, generated::car_rig());
   generated::Problem problem;
   problem.motion = shift(0.1, -0.9);
   problem.quads = 40;
@@ -185,8 +181,7 @@ TEST_CASE("motion evidence: what one motion explains beside another is where the
   TwoMotions seen(thing, scene);
   const double area = seen.area_of(scene.motion);
   const Config config;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
-  const MotionEvidence evidence(config, offset);
+  const MotionEvidence evidence(config, generated::car_rig());
   const auto beside = [&](const Eigen::Isometry3d& chosen) {
     return evidence.explained_beside(seen.step, chosen, config.pose.inlier_distance);
   };

@@ -54,15 +54,14 @@ class CountingFrontend : public frontend::Frontend {
 struct TwoFrames {
   RenderedScene scene{"room", 200, 125, 2, 3};
   std::unique_ptr<CountingFrontend> frontend;
-  std::unique_ptr<odometry::DisparityOffset> offset;
   std::unique_ptr<odometry::MotionSearch> search;
   odometry::MotionQuery query;
 
   explicit TwoFrames(int global_edges) {
     scene.config.temporal.global_edges = global_edges;
     frontend = std::make_unique<CountingFrontend>(scene.rig, scene.config);
-    offset = std::make_unique<odometry::DisparityOffset>(scene.rig, scene.config.pose);
-    search = std::make_unique<odometry::MotionSearch>(scene.config, *frontend, *offset);
+    search = std::make_unique<odometry::MotionSearch>(scene.config, *frontend, scene.rig);
+    query.rig.disparity_offset_sigma = scene.config.pose.disparity_offset_sigma;
     query.base = frontend->process(scene.frame(0));
     query.current = frontend->process(scene.frame(1));
   }
@@ -118,7 +117,7 @@ TEST_CASE("motion search: at the start few global matches suffice, unless they l
   CHECK(frames.frontend->global_edges == 1000);
   CHECK(frames.frontend->beside == 1);  // what does not follow is searched for another motion all the same
   odometry::MotionStep ambiguous;
-  ambiguous.verdict.refusal = Refusal::none;
+  ambiguous.verdict.refusal = odometry::Refusal::none;
   ambiguous.verdict.ambiguity = {odometry::AmbiguityKind::competing_motion, 0.5};
   frames.search->remember(ambiguous);
   frames.check(std::nullopt);
@@ -144,9 +143,10 @@ TEST_CASE("motion search: verdict, inliers and covariance are those of the motio
     const PoseConfig& limits = frames.scene.config.pose;
     const auto select = [&](double distance) {
       std::vector<std::uint8_t> inlier;
-      pose::select_inliers(step->quads.scoring,
-                           pose::LaterCameras(frames.offset->rig(), step->motion.current_from_previous), distance,
-                           pose::kInlierOrientation, inlier);
+      pose::select_inliers(
+          step->quads.scoring,
+          pose::LaterCameras(corrected_rig(frames.scene.rig, frames.query.rig), step->motion.current_from_previous),
+          distance, pose::kInlierOrientation, inlier);
       return inlier;
     };
     CHECK(select(limits.inlier_distance) == step->motion.inlier);

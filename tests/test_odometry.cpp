@@ -348,7 +348,7 @@ TEST_CASE("odometry: a wrong principal point of the right camera is warned of", 
   double largest = 0;
   for (std::size_t i = 0; i < room().left.size(); ++i) {
     const FrameResult result = odometry.track(room().frame(i));
-    largest = std::max(largest, std::abs(result.disparity_offset));
+    largest = std::max(largest, std::abs(result.rig.disparity_offset));
     for (const Warning& warning : result.warnings) kinds.insert(warning.kind);
   }
   INFO("largest offset " << largest << " px");

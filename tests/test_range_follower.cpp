@@ -54,6 +54,33 @@ TEST_CASE("range follower: a range that suffices is kept", "[frontend]") {
   }
 }
 
+TEST_CASE("range follower: a near wall with few edges widens the range, though little else than probes is found",
+          "[frontend]") {
+  RangeFollower follower(rig_of_30_px(), Config{});
+  constexpr int kFew = 120;
+  const auto wall = [&] {  // 80 to 100 px
+    const DisparityProbe probe = follower.probe(kFew);
+    StereoEdges edges;
+    for (int i = 0; i < kFew; ++i) {
+      const auto disparity = 80 + 20 * static_cast<float>(i) / kFew;
+      const bool is_probe = probe.step > 0 && i % probe.step == 0;
+      if (disparity > (is_probe ? probe.max_disparity : follower.geometry().max_disparity)) continue;
+      edges.left_index.push_back(i);
+      edges.left_x.push_back(400);
+      edges.left_y.push_back(240);
+      edges.right_x.push_back(400 - disparity);
+      edges.right_y.push_back(240);
+    }
+    return edges;
+  };
+  follower.start_frame();
+  REQUIRE(wall().size() == 15);
+  CHECK_FALSE(follower.suffices(wall(), kFew));
+  CHECK(follower.disparity() > 100);
+  CHECK(wall().size() == kFew);
+  CHECK(follower.suffices(wall(), kFew));
+}
+
 TEST_CASE("range follower: near objects widen the range in the frame in which they appear", "[frontend]") {
   RangeFollower follower(rig_of_30_px(), Config{});
   int searches = 0;

@@ -77,7 +77,7 @@ TEST_CASE("rectification follower: what an earlier recording has shown holds fro
   const RectificationError error{0.6, 0.4, -0.3, 0, 3, 0};
   auto earlier = follower(), later = follower();
   next_after(earlier, error, 20);
-  later.start_from(earlier.rows().sums(), {});
+  later.start_from(earlier.rows().sums());
   later.start_frame();
   CHECK((later.error() - error).largest() < 0.1);
   const Image grey(640, 480);

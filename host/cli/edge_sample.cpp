@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "common/corrected_rig.hpp"
 #include "common/matching_constants.hpp"
 #include "common/printed.hpp"
 #include "odometry/latest_frame.hpp"
@@ -36,8 +37,7 @@ void EdgeSample::add(const StereoOdometry& odometry, const FrameResult& result) 
   if (!result.new_key_rig || !result.world_from_left || result.ambiguous_motion) return;
   const auto frame = odometry::LatestFrame::of(odometry);
   if (frame.step == nullptr || !frame.step->ok()) return;
-  StereoRig rig = frame.offset.rig_at(frame.frame_edges->frame);
-  rig.right_error = result.right_error;
+  const StereoRig rig = corrected_rig(odometry.rig(), result.rig);
   const odometry::MotionStep& step = *frame.step;
   const auto& inlier = step.motion.inlier;
   const auto inliers = static_cast<std::size_t>(std::count(inlier.begin(), inlier.end(), 1));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "common/corrected_rig.hpp"
 #include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "quadedge/error.hpp"
 #include "reference/images.hpp"
 #include "report/drawing.hpp"
@@ -58,7 +58,7 @@ PointsOutput::PointsOutput(const PointFiles& files, const Config& config) : file
 void PointsOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   if (!cloud_ || !cloud_->add(frame.view(), result, odometry)) return;
   const StereoRig& rig = odometry.rig();
-  if (cloud_->views().size() == 1) rig_ = odometry::with_disparity_offset(rig, 0);
+  if (cloud_->views().size() == 1) rig_ = corrected_rig(rig, {});
   if (files_.colmap.empty()) return;
   const int number = cloud_->views().back().frame;
   write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);

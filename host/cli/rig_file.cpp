@@ -18,8 +18,6 @@ namespace {
 
 using Numbers = std::vector<double>;
 constexpr const char *kOffset = "pose.disparity_offset", *kSigma = "pose.disparity_offset_sigma";
-constexpr const char* kRightCamera = "right_camera";
-constexpr double kLargestError = 1;  ///< of a right camera [rad], and of its lens
 
 std::string line(const std::string& key, const std::string& value) { return key + " = " + value + "\n"; }
 
@@ -51,6 +49,16 @@ std::map<std::string, Numbers> rows_of(const rig::RowModel::Sums& sums) {
           {"rows.sums", {sums.frames, sums.variance, sums.whole_variance}}};
 }
 
+/// What is wrong in a configuration is how it is used; the content of this file is data.
+template <class Read>
+auto from_file(const Read& read) {
+  try {
+    return read();
+  } catch (const UsageError& error) {
+    throw DataError(error.what());
+  }
+}
+
 bool is_same(double one, double other) { return std::abs(one - other) <= 1e-6 * std::max(1e-3, std::abs(other)); }
 
 }  // namespace
@@ -60,32 +68,24 @@ RigFile::RigFile(const std::string& name, const StereoRig& rig) : name_(name), c
   if (!std::filesystem::exists(name, unreadable) && !unreadable) return;
   std::map<std::string, Numbers> found = cameras_, rows = rows_of({});
   found.merge(rows);
-  std::size_t known = 0, offsets = 0, known_errors = 0;
-  const auto entries = data::read_toml(name);
+  std::size_t known = 0, offsets = 0;
+  const auto entries = from_file([&] { return data::read_toml(name); });
   for (const auto& entry : entries) {
     const bool is_offset = entry.key == kOffset || entry.key == kSigma;
     known += found.count(entry.key);
     offsets += is_offset ? 1 : 0;
     if (is_offset) offset_ += line(entry.key, entry.found);
-    if (entry.key != kRightCamera) continue;
-    ++known_errors;
-    Numbers error(4);
-    data::assign(entry, error);
-    if (!std::all_of(error.begin(), error.end(), [](double of) { return std::abs(of) < kLargestError; }))
-      throw UsageError(name + ": found a right camera that no run has confirmed, expected numbers below 1");
-    right_error_ = {error[0], error[1], error[2], error[3]};
   }
   const bool is_of_release_0_1 = known == 0 && offsets == 2;  // the offset alone
-  if (known + offsets + known_errors != entries.size() || (known != found.size() && !is_of_release_0_1) ||
-      offsets % 2 != 0)
-    throw UsageError(name + ": found another file, expected one that an earlier run with --rig-file has written");
+  if (known + offsets != entries.size() || (known != found.size() && !is_of_release_0_1) || offsets % 2 != 0)
+    throw DataError(name + ": found another file, expected one that an earlier run with --rig-file has written");
   if (is_of_release_0_1) return;
   for (const auto& entry : entries)
-    if (found.count(entry.key) > 0) data::assign(entry, found[entry.key]);
+    if (found.count(entry.key) > 0) from_file([&] { data::assign(entry, found[entry.key]); });
   for (const auto& [key, expected] : cameras_) {
     if (!std::equal(expected.begin(), expected.end(), found[key].begin(), is_same))
-      throw UsageError(name + ": learned with another calibration: found " + key + " = " + data::toml_text(found[key]) +
-                       ", expected " + data::toml_text(expected));
+      throw DataError(name + ": learned with another calibration: found " + key + " = " + data::toml_text(found[key]) +
+                      ", expected " + data::toml_text(expected));
   }
   sums_.frames = found["rows.sums"][0];
   sums_.variance = found["rows.sums"][1];
@@ -95,21 +95,22 @@ RigFile::RigFile(const std::string& name, const StereoRig& rig) : name_(name), c
   sums_.right_side = Eigen::Map<rig::RowModel::Terms>(found["rows.right_side"].data());
   const bool is_sound = sums_.frames == 0 || (sums_.frames > 0 && sums_.normal.llt().info() == Eigen::Success);
   if (!is_sound || sums_.variance < 0 || sums_.whole_variance < 0 || sums_.shared.diagonal().minCoeff() < 0)
-    throw UsageError(name + ": found rows that no run has learned, expected positive variances");
+    throw DataError(name + ": found rows that no run has learned, expected positive variances");
 }
 
-Config RigFile::with_offset(const Config& config) const { return read_config_text(offset_, name_, config); }
+Config RigFile::with_offset(const Config& config) const {
+  return from_file([&] { return read_config_text(offset_, name_, config); });
+}
 
 void RigFile::start(const StereoOdometry& odometry) const {
-  odometry::LatestFrame::of(odometry).frontend.rectification().start_from(sums_, right_error_);
+  odometry::LatestFrame::of(odometry).frontend.rectification().start_from(sums_);
 }
 
 void RigFile::learn(const StereoOdometry& odometry, const FrameResult& result) {
   sums_ = odometry::LatestFrame::of(odometry).frontend.rectification().rows().sums();
-  if (!(result.disparity_offset_sigma > 0)) return;
-  right_error_ = result.right_error;
-  offset_ = line(kOffset, data::toml_text(result.disparity_offset)) +
-            line(kSigma, data::toml_text(result.disparity_offset_sigma));
+  if (!(result.rig.disparity_offset_sigma > 0)) return;
+  offset_ = line(kOffset, data::toml_text(result.rig.disparity_offset)) +
+            line(kSigma, data::toml_text(result.rig.disparity_offset_sigma));
 }
 
 void RigFile::write() const {
@@ -117,9 +118,6 @@ void RigFile::write() const {
   std::string text = "# What `quadedge run --rig-file` has learned of a stereo rig\n";
   for (const auto& [key, numbers] : cameras_) text += line(key, data::toml_text(numbers));
   text += offset_;
-  if (!right_error_.is_zero())
-    text += line(kRightCamera, data::toml_text(Numbers{right_error_.yaw, right_error_.pitch, right_error_.radial_3,
-                                                       right_error_.radial_5}));
   for (const auto& [key, numbers] : rows_of(sums_)) text += line(key, data::toml_text(numbers));
   data::write_atomically(name_, text);
 }

@@ -12,14 +12,14 @@
 
 namespace quadedge::cli {
 
-/// The disparity offset, the rows and the right camera of a rig, in a file.
+/// The disparity offset and the rows of a rig, in a file.
 class RigFile {
  public:
   /// Reads the file if it exists. \param name empty: there is none
-  /// \throws UsageError for another kind of file, or for the file of another calibration
+  /// \throws DataError for another kind of file, or for the file of another calibration
   RigFile(const std::string& name, const StereoRig& rig);
 
-  /// The configuration with the offset of the file. \throws UsageError for one that is out of range
+  /// The configuration with the offset of the file. \throws DataError for one that is out of range
   Config with_offset(const Config& config) const;
   /// Begins with the rows of the file.
   void start(const StereoOdometry& odometry) const;
@@ -33,7 +33,6 @@ class RigFile {
   std::map<std::string, std::vector<double>> cameras_;  ///< by which the file is known
   std::string offset_;                                  ///< two lines of configuration, or none
   rig::RowModel::Sums sums_;
-  RightCameraError right_error_;
 };
 
 }  // namespace quadedge::cli

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "common/corrected_rig.hpp"
 #include "common/matching_constants.hpp"
 #include "odometry/latest_frame.hpp"
 
@@ -30,17 +31,15 @@ void observe_rows(const odometry::LatestFrame& frame, const PinholeCamera& right
   }
 }
 
-/// Adds what the offsets [px] leave with the right camera in error by `error`, each to its map.
-void observe_columns(const odometry::LatestFrame& frame, const RightCameraError& error, const PinholeCamera& right,
+/// Adds what the offsets [px] leave, each to its map.
+void observe_columns(const odometry::LatestFrame& frame, const StereoRig& calibration,
                      std::initializer_list<std::pair<double, report::CellMap*>> offsets) {
   const odometry::MotionStep& step = *frame.step;
   const pose::QuadObservations& quads = step.quads;
   // Measured anew, since measured_edges() would keep them for the next frame, whose latency counts.
   const auto measured = [&](const frontend::FrameEdges& of) {
     pose::MeasuredEdges edges;
-    StereoRig rig = frame.offset.rig_at(of.frame);
-    rig.right_error = error;
-    pose::measure_edges(rig, of.edges, kMinEpipolarAngle, edges);
+    pose::measure_edges(corrected_rig(calibration, step.rig.of(of.rig())), of.edges, kMinEpipolarAngle, edges);
     return edges;
   };
   const pose::MeasuredEdges before = measured(*step.base), after = measured(*frame.frame_edges);
@@ -50,12 +49,12 @@ void observe_columns(const odometry::LatestFrame& frame, const RightCameraError&
     const auto &one = before[static_cast<std::size_t>(step.matches.previous[row])],
                &other = after[static_cast<std::size_t>(step.matches.current[row])];
     if (!one || !other) continue;
-    const double u = static_cast<double>(quads.scoring.right_x[q]) / right.width,
-                 v = static_cast<double>(quads.scoring.right_y[q]) / right.height;
+    const double u = static_cast<double>(quads.scoring.right_x[q]) / calibration.right.width,
+                 v = static_cast<double>(quads.scoring.right_y[q]) / calibration.right.height;
     for (const auto& [offset, map] : offsets)
-      map->add(
-          u, v,
-          beyond_prediction(*one, *other, step.motion.learned.current_from_previous, offset - frame.offset.value()));
+      map->add(u, v,
+               beyond_prediction(*one, *other, step.motion.learned.current_from_previous,
+                                 offset - step.rig.disparity_offset));
   }
 }
 
@@ -73,18 +72,10 @@ void observe_rig(const StereoOdometry& odometry, const FrameResult& result, repo
   if (rectification.is_contradicted()) return;
   observe_rows(frame, odometry.rig().right, maps);
   if (frame.step == nullptr || !frame.step->ok()) return;
-  maps.offset_end = {result.disparity_offset, result.disparity_offset_sigma};
-  maps.right_error = result.right_error;
+  maps.offset_end = {result.rig.disparity_offset, result.rig.disparity_offset_sigma};
   if (!result.new_key_rig) return;
-  const std::pair<double, report::CellMap*> before = {0, &maps.columns_before},
-                                            after = {result.disparity_offset, &maps.columns_after};
-  const PinholeCamera& right = odometry.rig().right;
-  if (result.right_error.is_zero()) {
-    observe_columns(frame, {}, right, {before, after});
-  } else {
-    observe_columns(frame, {}, right, {before});
-    observe_columns(frame, result.right_error, right, {after});
-  }
+  observe_columns(frame, odometry.rig(),
+                  {{0, &maps.columns_before}, {result.rig.disparity_offset, &maps.columns_after}});
 }
 
 }  // namespace quadedge::cli

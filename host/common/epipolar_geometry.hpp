@@ -2,34 +2,12 @@
 /// \file epipolar_geometry.hpp  Epipolar geometry of a general rig: where the counterpart of a left pixel can lie in
 /// the right image, and the common numbering of the epipolar lines of both. doc/method.md sections 1 and 3.
 
-#include <array>
-
 #include "common/layouts.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
+#include "quadedge/rig_estimate.hpp"
 
 namespace quadedge {
-
-/// Distance of a right point from its epipolar line as a polynomial of the second degree in u and v, which range from
-/// -1/2 to 1/2 over the right image [px]. Positive towards (ey, -ex) for a line of direction (ex, ey): downwards on a
-/// rectified rig.
-struct RectificationError {
-  double offset = 0, slope_x = 0, slope_y = 0, bend_xx = 0, bend_xy = 0, bend_yy = 0;
-
-  double at(double u, double v) const;
-  /// Its largest absolute value over the image [px].
-  double largest() const;
-  RectificationError operator-(const RectificationError& other) const {
-    return {offset - other.offset,   slope_x - other.slope_x, slope_y - other.slope_y,
-            bend_xx - other.bend_xx, bend_xy - other.bend_xy, bend_yy - other.bend_yy};
-  }
-  RectificationError operator*(double factor) const {
-    return {factor * offset, factor * slope_x, factor * slope_y, factor * bend_xx, factor * bend_xy, factor * bend_yy};
-  }
-  /// Its coefficients of 1, x, y, xx, xy, yy for an image of this size, x and y in pixels.
-  using Terms = std::array<double, 6>;
-  Terms in_pixels(int width, int height) const;
-};
 
 /// The search is limited by `max_disparity` if positive, otherwise by `min_depth`.
 /// \throws UsageError if neither is given

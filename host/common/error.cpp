@@ -33,7 +33,6 @@ const char* to_string(WarningKind kind) {
     case WarningKind::large_disparity_offset: return "large_disparity_offset";
     case WarningKind::static_region: return "static_region";
     case WarningKind::displaced_images: return "displaced_images";
-    case WarningKind::corrected_right_camera: return "corrected_right_camera";
     case WarningKind::changed_rig: return "changed_rig";
   }
   return "unknown";

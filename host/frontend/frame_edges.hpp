@@ -11,6 +11,7 @@
 #include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/rig_estimate.hpp"
 
 namespace quadedge::frontend {
 
@@ -36,26 +37,32 @@ class FrameEdges {
     const StereoRig& used = own_calibration ? *own_calibration : calibration;
     Arguments arguments;
     arguments << used.left.fx, used.left.fy, used.left.cx, used.left.cy, used.right.fx, used.right.fy, used.right.cx,
-        used.right.cy, min_epipolar_angle, used.right_error.yaw, used.right_error.pitch, used.right_error.radial_3,
-        used.right_error.radial_5, Eigen::Map<const Eigen::Matrix<double, 16, 1>>(used.right_from_left.matrix().data());
+        used.right.cy, min_epipolar_angle,
+        Eigen::Map<const Eigen::Matrix<double, 16, 1>>(used.right_from_left.matrix().data());
     if (arguments != measured_with_) {
       pose::measure_edges(used, edges, min_epipolar_angle, measured_);
       measured_with_ = arguments;
     }
     return measured_;
   }
+  /// The rig with which the frame was measured. A later frame may know more of the offset; the displacement is its own.
+  const RigEstimate& rig() const { return rig_; }
+  /// Once that is known: when the frame's motion is.
+  void set_rig(const RigEstimate& rig) const { rig_ = rig; }
   /// Prepares the edges for another frame; keeps their memory.
   void start(int frame_number) {
     frame = frame_number;
     own_calibration = nullptr;
     hidden = nullptr;
     is_restored = false;
+    rig_ = {};
     measured_with_ = never();
   }
 
  private:
-  using Arguments = Eigen::Matrix<double, 29, 1>;  ///< all that measure() reads
+  using Arguments = Eigen::Matrix<double, 25, 1>;  ///< all that measure() reads
   static Arguments never() { return Arguments::Constant(std::numeric_limits<double>::quiet_NaN()); }
+  mutable RigEstimate rig_;
   mutable pose::MeasuredEdges measured_;
   mutable Arguments measured_with_ = never();
 };

@@ -66,6 +66,7 @@ KeptFrameEdges keep_edges(const FrameEdges& frame_edges, const DescribedRows& de
   KeptFrameEdges kept;
   kept.frame = frame_edges.frame;
   kept.edges_spacing = frame_edges.edges_spacing;
+  kept.rig = frame_edges.rig();
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
     for (std::size_t k = 0; k < count; ++k) to.push_back(from[edge_of(k)]);
   };

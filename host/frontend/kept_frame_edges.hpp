@@ -19,6 +19,7 @@ struct KeptFrameEdges {
   int frame = -1;
   double edges_spacing = 0;                          ///< see FrameEdges
   std::shared_ptr<const StereoRig> own_calibration;  ///< see FrameEdges
+  RigEstimate rig;                                   ///< see FrameEdges
   StereoEdges edges;                                 ///< left_index and right_index count from 0
   std::vector<std::uint8_t> patches;                 ///< kKeptPatchBytes per edge: left, then right
   std::vector<std::uint8_t> wide;                    ///< kKeptWideBytes per edge

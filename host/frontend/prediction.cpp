@@ -35,10 +35,6 @@ void predict_positions(const StereoRig& rig, const StereoEdges& previous, const 
   search.step = step;
   if (!current_from_previous) return;
   pose::predict_edges(rig, measured, *current_from_previous, static_cast<std::size_t>(step), search.left, search.right);
-  if (!rig.right_error.is_zero())
-    for (std::size_t i = 0; i < search.right.size(); i += static_cast<std::size_t>(step))
-      search.right.x[i] += static_cast<float>(rig.right_error.column(rig.right, static_cast<double>(search.right.x[i]),
-                                                                     static_cast<double>(search.right.y[i])));
 }
 
 int count_in_view(const PinholeCamera& camera, const EdgePositions& edges) {

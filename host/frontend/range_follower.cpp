@@ -59,7 +59,7 @@ bool RangeFollower::suffices(const StereoEdges& edges, int left_edges) {
     found_.push_back(disparity);
     if (probes.step > 0 && edges.left_index[i] % probes.step == 0) probed_.push_back(disparity);
   }
-  if (found_.size() < kLeastEdges) return true;
+  // The probes first: of a scene beyond the range, little else is found.
   if (!is_second_search_ && 5 * probed_.size() >= kLeastEdges) {
     const auto beyond = static_cast<float>(
         std::count_if(probed_.begin(), probed_.end(), [&](float disparity) { return disparity > range + 1; }));
@@ -69,6 +69,7 @@ bool RangeFollower::suffices(const StereoEdges& edges, int left_edges) {
       return false;
     }
   }
+  if (found_.size() < kLeastEdges) return true;
   const float largest = quantile(found_, kQuantile), wanted = covering(largest);
   next_ = range;
   if (range < std::min(kLeastReach * largest + kMargin, limit_)) next_ = wanted;

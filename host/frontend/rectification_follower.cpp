@@ -66,8 +66,8 @@ double RectificationFollower::observe(const std::vector<rig::CornerMatch>& match
   return change;
 }
 
-void RectificationFollower::start_from(const rig::RowModel::Sums& known, const RightCameraError& right_error) {
-  rows_ = rig::RowModel(rig_.right, known, right_error);
+void RectificationFollower::start_from(const rig::RowModel::Sums& known) {
+  rows_ = rig::RowModel(rig_.right, known);
   is_settled_ = known.frames > 0;
   next_ = judge(rows_);
 }

@@ -28,7 +28,7 @@ class RectificationFollower {
   double observe(const std::vector<rig::CornerMatch>& matches);
 
   /// Begins with what earlier recordings with the rig have shown.
-  void start_from(const rig::RowModel::Sums& known, const RightCameraError& right_error);
+  void start_from(const rig::RowModel::Sums& known);
   const rig::RowModel& rows() const { return rows_; }
   /// Whether the frame last observed contradicted the earlier ones: its rows are not those of the known rig.
   bool is_contradicted() const { return is_contradicted_; }

@@ -88,6 +88,7 @@ FrameEdgesHandle StagedFrontend::restore(const KeptFrameEdges& kept) {
   restored->edges_spacing = kept.edges_spacing;
   restored->own_calibration = kept.own_calibration;
   restored->is_restored = true;
+  restored->set_rig(kept.rig);
   load(kept, *restored);
   return restored;
 }

@@ -19,20 +19,23 @@ FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& r
       min_edges_(config.pose.min_inliers),
       checks_rig_(!config.is_paper()),
       frontend_(frontend::make_frontend(rig, device, config, &warnings_)),
-      rig_monitor_(rig, config.odometry.auto_mask) {}
+      new_monitor_([&rig, masks = config.odometry.auto_mask] { return std::make_unique<rig::RigMonitor>(rig, masks); }),
+      rig_monitor_(new_monitor_()) {}
 
 /// The previous frame is recycled unless somebody holds it.
-frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame) {
+frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame, RigEstimate rig) {
   current_ = nullptr;
   current_ = frontend_->process(frame);
+  rig.rows = frontend_->rectification().error();
+  current_->set_rig(rig);
   return current_;
 }
 
 rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
   if (!checks_rig_) return {};
   const frontend::FrontendCounts& counts = frontend_->counts();
-  return rig_monitor_.judge(frontend_->searched(frame), current_->edges, counts.edges_left, counts.disparity_range,
-                            counts.epipolar_correction, frontend_->hidden_in_frame());
+  return rig_monitor_->judge(frontend_->searched(frame), current_->edges, counts.edges_left, counts.disparity_range,
+                             current_->rig(), frontend_->hidden_in_frame());
 }
 
 void FramePreparation::adopt(const rig::RigReport& report, const std::optional<Eigen::Isometry3d>& current_from_last) {
@@ -40,10 +43,10 @@ void FramePreparation::adopt(const rig::RigReport& report, const std::optional<E
   const double change = frontend_->observe(*report.matches);
   // A camera that has just turned displaces points once, whatever moves then, which a late camera does with all motion.
   if (current_from_last && !frontend_->rectification().is_contradicted()) {
-    if (const auto late = rig_monitor_.observe_motion(*current_from_last)) warn(rig::warning(*late));
+    if (const auto late = rig_monitor_->observe_motion(*current_from_last)) warn(rig::warning(*late));
   }
   if (change == 0) return;
-  rig_monitor_.forget_motions();
+  rig_monitor_->forget_motions();
   const std::string text = printed(
       "points lie %.1f px beside the lines of the frames before: has a camera turned? the rows are learned anew",
       change);
@@ -61,6 +64,12 @@ std::optional<FrameFault> FramePreparation::fault(const rig::RigReport& report) 
   }
   if (mismatch != nullptr) return FrameFault{FrameStatus::lost_rig_mismatch, rig::warning(*mismatch).text};
   return std::nullopt;
+}
+
+void FramePreparation::restart() {
+  rig_monitor_ = new_monitor_();
+  frontend_->hide({});
+  reported_.clear();
 }
 
 std::vector<Warning> FramePreparation::new_warnings() {

@@ -3,6 +3,7 @@
 /// whether the images fit the rig.
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -37,8 +38,9 @@ class FramePreparation {
 
   /// \throws DataError for images that do not fit the rig
   void check(const StereoFrame& frame) const { recorded_.check(frame); }
-  /// Turns the images into the front end's current frame edges.
-  frontend::FrameEdgesHandle process(const StereoFrame& frame);
+  /// Turns the images into the front end's current frame edges. \param rig as known of earlier frames; its rows are
+  /// those that the front end corrects
+  frontend::FrameEdgesHandle process(const StereoFrame& frame, RigEstimate rig);
   bool has_enough_edges() const { return static_cast<int>(current_->edges.size()) >= min_edges_; }
   /// Compares the images with the calibration; may run beside the search for matches.
   rig::RigReport judge(const StereoFrame& frame);
@@ -50,13 +52,16 @@ class FramePreparation {
   /// Hides pixels of the left image, besides those that the rig masks, from the next frame on.
   void hide(const PixelMask& mask) { frontend_->hide(mask); }
 
+  /// Forgets the frames so far, what they hid, and their warnings; not what the rows are.
+  void restart();
+
   void warn(const Warning& warning) { warnings_.push_back(warning); }
   /// Warnings since the last call, of kinds that no earlier call has returned.
   std::vector<Warning> new_warnings();
 
   frontend::Frontend& frontend() const { return *frontend_; }
   /// Of the frame judged last.
-  const std::vector<rig::CornerMatch>& corner_matches() const { return rig_monitor_.matches(); }
+  const std::vector<rig::CornerMatch>& corner_matches() const { return rig_monitor_->matches(); }
 
  private:
   RecordedImages recorded_;
@@ -65,7 +70,8 @@ class FramePreparation {
   std::vector<Warning> warnings_;
   std::set<WarningKind> reported_;
   std::unique_ptr<frontend::Frontend> frontend_;
-  rig::RigMonitor rig_monitor_;
+  std::function<std::unique_ptr<rig::RigMonitor>()> new_monitor_;
+  std::unique_ptr<rig::RigMonitor> rig_monitor_;
   frontend::FrameEdgesHandle current_;
 };
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "odometry/motion_step.hpp"
 #include "quadedge/odometry.hpp"
 #include "rig/corner_matching.hpp"
@@ -15,8 +14,8 @@ namespace quadedge::odometry {
 struct LatestFrame {
   Device& device;
   frontend::Frontend& frontend;
-  frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame
-  const DisparityOffset& offset;
+  frontend::FrameEdgesHandle frame_edges;               ///< null before the first frame
+  RigEstimate rig;                                      ///< of the next frame, as far as it is known
   const MotionStep* step;                               ///< its motion; null if none was searched for
   const std::vector<rig::CornerMatch>& corner_matches;  ///< what was compared with the calibration
 

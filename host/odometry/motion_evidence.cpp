@@ -11,7 +11,7 @@
 namespace quadedge::odometry {
 
 void MotionEvidence::judge(const EdgePositions& predicted, double min_support, MotionStep& step) {
-  const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
+  const int in_view = frontend::count_in_view(rig_.left, predicted);
   step.verdict.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
   if (step.verdict.support < min_support) step.verdict.refuse(Refusal::little_support);
   if (!step.ok()) return;
@@ -23,13 +23,14 @@ void MotionEvidence::judge(const EdgePositions& predicted, double min_support, M
 
 int MotionEvidence::select(const MotionStep& step, const Eigen::Isometry3d& motion, double distance, double angle,
                            std::vector<std::uint8_t>& inlier) const {
-  return pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), motion), distance, angle, inlier);
+  return pose::select_inliers(step.quads.scoring, pose::LaterCameras(corrected_rig(rig_, step.rig), motion), distance,
+                              angle, inlier);
 }
 
 /// Sets the area, which weights objects by the area that they cover, not by their number of edges, and the moving
 /// ratio.
 void MotionEvidence::measure_area(const EdgePositions& predicted, MotionStep& step) const {
-  step.cells.start(offset_.rig().left, config_.pose.scoring_cell);
+  step.cells.start(rig_.left, config_.pose.scoring_cell);
   for (std::size_t i = 0; i < predicted.x.size(); ++i)
     if (ExplainedCell* cell = step.cells.at(predicted.x[i], predicted.y[i])) cell->edges += 1;
   for (std::size_t q = 0; q < step.quads.size(); ++q) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/corrected_rig.hpp"
 #include "common/filter_limits.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "odometry/motion_step.hpp"
 #include "quadedge/config.hpp"
 
@@ -14,8 +14,8 @@ namespace quadedge::odometry {
 /// The measurements on which the choice between motions rests (motion_selection.hpp).
 class MotionEvidence {
  public:
-  /// Refers to `offset`, which must outlive the object.
-  MotionEvidence(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
+  /// \param rig the calibration
+  MotionEvidence(const Config& config, const StereoRig& rig) : config_(config), rig_(corrected_rig(rig, {})) {}
 
   /// Confirms or refuses the motion of a step whose base's edges were searched for at `predicted` in the left image,
   /// and measures what it explains. A wrong motion also finds some support within the few pixels of the search radius,
@@ -54,7 +54,7 @@ class MotionEvidence {
              std::vector<std::uint8_t>& inlier) const;
 
   Config config_;
-  const DisparityOffset& offset_;
+  StereoRig rig_;                                 ///< as calibrated, without undistortion tables
   std::vector<std::uint8_t> follows_, is_still_;  ///< kept between calls
 };
 

@@ -1,6 +1,7 @@
 #include "odometry/motion_proposals.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/matching_constants.hpp"
 #include "common/timing.hpp"
@@ -36,9 +37,10 @@ void collect_free(const ExplainedCells& cells, const std::vector<float>& x, cons
 
 }  // namespace
 
-StepHandle MotionFits::new_step(const frontend::FrameEdgesHandle& base) {
+StepHandle MotionFits::new_step(const MotionQuery& query, const frontend::FrameEdgesHandle& base) {
   StepHandle step = steps_.acquire();
   step->base = base;
+  step->rig = query.rig;
   return step;
 }
 
@@ -50,29 +52,25 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
     step.quads.current.swap(current_);
   };
   lend_measurements();
-  quad_builder_.build(measured(*step.base), query.current->edges, measured(*query.current), step.matches,
+  quad_builder_.build(measured(*step.base, query), query.current->edges, measured(*query.current, query), step.matches,
                       pose::QuadLimits(), step.quads);
-  correct_columns(calibration(), step.quads.scoring);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
   step.verdict = {};
-  step.verdict.refusal = estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(),
-                                             step.motion, goal);
+  // A displacement that is not known exactly is that of both frames, as one is measured against the other.
+  const double offset = query.rig.disparity_offset_sigma, displacement = step.base->rig().displacement_sigma;
+  const double sigma = offset > 0 ? std::hypot(offset, displacement) : 0;
+  step.verdict.refusal = estimator_.estimate(calibration(query), step.quads, limits, query.seed, initial,
+                                             {sigma * sigma, query.rig.disparity_offset_shared}, step.motion, goal);
   lend_measurements();
   pose_ms_ += milliseconds_since(start);
 }
 
-/// Moves the right points to where a right camera as calibrated would see them.
-void MotionFits::correct_columns(const StereoRig& rig, pose::ScoringArrays& quads) {
-  if (rig.right_error.is_zero()) return;
-  for (std::size_t i = 0; i < quads.size(); ++i)
-    quads.right_x[i] -= static_cast<float>(rig.right_error.column(rig.right, static_cast<double>(quads.right_x[i]),
-                                                                  static_cast<double>(quads.right_y[i])));
-}
-
-const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& frame_edges) const {
-  if (!offset_.has_jumped()) return frame_edges.measured_edges(calibration(), kMinEpipolarAngle);
-  return frame_edges.measured_edges(offset_.rig_at(frame_edges.frame), kMinEpipolarAngle);
+const pose::MeasuredEdges& MotionFits::measured(const frontend::FrameEdges& frame_edges,
+                                                const MotionQuery& query) const {
+  const bool is_current = &frame_edges == query.current.get();
+  const RigEstimate rig = is_current ? query.rig : query.rig.of(frame_edges.rig());
+  return frame_edges.measured_edges(corrected_rig(rig_, rig), kMinEpipolarAngle);
 }
 
 PoseConfig limits_of_proposals(const Config& config) {
@@ -94,24 +92,24 @@ StepHandle MotionProposals::near_prediction(const MotionQuery& query) {
 }
 
 StepHandle MotionProposals::in_large_radius(const MotionQuery& query) {
-  return in_radius(query, kLargeRadiusRatio * fits_.calibration().left.width);
+  return in_radius(query, kLargeRadiusRatio * fits_.calibration(query).left.width);
 }
 
 StepHandle MotionProposals::in_radius(const MotionQuery& query, double radius) {
   const StereoEdges& edges = query.base->edges;
   const int wanted = config_.temporal.coarse_edges;
   const int every = std::max(1, (static_cast<int>(edges.size()) + wanted - 1) / wanted);
-  frontend::predict_positions(fits_.calibration(), edges, fits_.measured(*query.base), query.prediction, radius, every,
-                              search_);
+  frontend::predict_positions(fits_.calibration(query), edges, fits_.measured(*query.base, query), query.prediction,
+                              radius, every, search_);
   search_.coarse = true;
-  StepHandle step = fits_.new_step(query.base);
+  StepHandle step = fits_.new_step(query, query.base);
   frontend_.match(*query.base, *query.current, search_, step->matches);
   fits_.fit(query, limits_, query.prediction, pose::RefinementGoal::pose, *step);
   return step;
 }
 
 StepHandle MotionProposals::still_camera(const MotionQuery& query) {
-  StepHandle step = fits_.new_step(query.base);
+  StepHandle step = fits_.new_step(query, query.base);
   step->motion = {};
   step->verdict.refusal = Refusal::none;
   return step;
@@ -129,7 +127,7 @@ StepHandle MotionProposals::global_matches(const MotionQuery& query) {
 }
 
 StepHandle MotionProposals::matched_globally(const MotionQuery& query, int edges) {
-  StepHandle step = fits_.new_step(query.base);
+  StepHandle step = fits_.new_step(query, query.base);
   frontend_.match_globally(*query.base, *query.current, edges, step->matches);
   fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
   return step;
@@ -156,7 +154,7 @@ StepHandle MotionProposals::rest_of_confirmed(const MotionQuery& query, const Mo
 }
 
 StepHandle MotionProposals::with_rest_of(const MotionQuery& query, const MotionStep& other, const PoseConfig& limits) {
-  StepHandle step = fits_.new_step(other.base);
+  StepHandle step = fits_.new_step(query, other.base);
   for (std::size_t m = 0; m < other.matches.size(); ++m) {
     if (is_rest_[m] == 0) continue;
     step->matches.append(other.matches.previous[m], other.matches.current[m], query.current->edges,
@@ -167,13 +165,13 @@ StepHandle MotionProposals::with_rest_of(const MotionQuery& query, const MotionS
 }
 
 StepHandle MotionProposals::in_free_cells(const MotionQuery& query, const MotionStep& chosen) {
-  frontend::predict_positions(fits_.calibration(), query.base->edges, fits_.measured(*query.base),
+  frontend::predict_positions(fits_.calibration(query), query.base->edges, fits_.measured(*query.base, query),
                               motion_since(query.base, query, chosen), config_.temporal.radius, 1, search_);
   const StereoEdges& current = query.current->edges;
   const int wanted = std::max(1, config_.temporal.global_edges / kFreeCellThinning);
   collect_free(chosen.cells, search_.left.x, search_.left.y, wanted, among_.of_base);
   collect_free(chosen.cells, current.left_x, current.left_y, 2 * wanted, among_.of_current);
-  StepHandle step = fits_.new_step(query.base);
+  StepHandle step = fits_.new_step(query, query.base);
   frontend_.match_globally(*query.base, *query.current, among_, step->matches);
   fits_.fit(query, global_limits_, std::nullopt, pose::RefinementGoal::pose, *step);
   return step;

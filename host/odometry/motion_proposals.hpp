@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/corrected_rig.hpp"
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "odometry/motion_step.hpp"
 #include "pose/motion.hpp"
 #include "pose/quads.hpp"
@@ -19,11 +19,11 @@ namespace quadedge::odometry {
 /// Creates motion steps and estimates the motion that their matches support. It must outlive the steps.
 class MotionFits {
  public:
-  /// Refers to the offset, which must outlive the object.
-  MotionFits(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
+  /// \param rig the calibration
+  MotionFits(const Config& config, const StereoRig& rig) : config_(config), rig_(corrected_rig(rig, {})) {}
 
   /// Returns a step from `base` without matches.
-  StepHandle new_step(const frontend::FrameEdgesHandle& base);
+  StepHandle new_step(const MotionQuery& query, const frontend::FrameEdgesHandle& base);
 
   /// Estimates the motion of the step's matches; covariance and offset only for RefinementGoal::pose_and_covariance,
   /// which a confirmed motion needs. \param initial a hypothesis besides the samples, current_from_base
@@ -32,16 +32,14 @@ class MotionFits {
   /// Time spent in fit() since the last call [ms].
   double take_pose_ms() { return std::exchange(pose_ms_, 0); }
 
-  /// The edges, measured with the calibration of their frame.
-  const pose::MeasuredEdges& measured(const frontend::FrameEdges& frame_edges) const;
-  /// The calibration of the current frame, corrected by the disparity offset estimated so far.
-  const StereoRig& calibration() const { return offset_.rig(); }
+  /// The edges of a frame, measured with its rig: that of the query with its own displacement.
+  const pose::MeasuredEdges& measured(const frontend::FrameEdges& frame_edges, const MotionQuery& query) const;
+  /// The corrected geometry of the current frame.
+  StereoRig calibration(const MotionQuery& query) const { return corrected_rig(rig_, query.rig); }
 
  private:
-  static void correct_columns(const StereoRig& rig, pose::ScoringArrays& quads);
-
   Config config_;
-  const DisparityOffset& offset_;
+  StereoRig rig_;  ///< as calibrated, without undistortion tables
   Pool<MotionStep> steps_;
   pose::QuadBuilder quad_builder_;
   std::vector<pose::StereoMeasurement> previous_, current_;  ///< of the step that is fitted: 350 bytes per quad

@@ -1,11 +1,13 @@
 #include "odometry/motion_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "frontend/prediction.hpp"
 #include "odometry/odometry_constants.hpp"
+#include "rig/rig_constants.hpp"
 
 namespace quadedge::odometry {
 namespace {
@@ -39,18 +41,13 @@ bool cannot_compete(const MotionStep& step, const MotionStep* known) {
 
 }  // namespace
 
-MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
+MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig)
     : config_(config),
       frontend_(frontend),
-      fits_(config, offset),
+      fits_(config, rig),
       proposals_(config, frontend, fits_),
-      evidence_(config, offset),
+      evidence_(config, rig),
       record_(config) {}
-
-MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, DisparityOffset* offset)
-    : MotionSearch(config, frontend, *offset) {
-  jumps_ = offset;
-}
 
 StepHandle MotionSearch::find(const MotionQuery& query) {
   if (StepHandle found = find_by_few_matches(query)) return found;
@@ -72,10 +69,7 @@ bool MotionSearch::advance(State& state) {
   while (state.next_ < hypotheses.size()) {
     const Hypothesis hypothesis = hypotheses[state.next_++];
     attempt(hypothesis, query, candidates);
-    if (hypothesis == Hypothesis::near_prediction) {
-      follow_jump(query, candidates);
-      compare_right_camera(query, candidates);
-    }
+    if (hypothesis == Hypothesis::near_prediction) follow_displacement(state.query, candidates);
     if (hypothesis == Hypothesis::global_matches) return false;
   }
   std::vector<Verdict> verdicts = verdicts_on(candidates, query);
@@ -85,7 +79,7 @@ bool MotionSearch::advance(State& state) {
     state.level_ = needed;
     state.next_ = 0;
   } else if (candidates.empty()) {  // only a motion near a prediction, and there is none
-    state.found = fits_.new_step(query.base);
+    state.found = fits_.new_step(query, query.base);
   } else {
     state.found = std::move(candidates[chosen].outcome());
     state.found->verdict = verdicts[chosen];
@@ -123,39 +117,32 @@ void MotionSearch::check(const MotionQuery& query, MotionStep& found) {
 }
 
 /// If the matches near the prediction show that the right image is displaced, the prediction is tried again with the
-/// displacement, which is kept if more of the image is explained then.
-void MotionSearch::follow_jump(const MotionQuery& query, Candidates& candidates) {
-  if (jumps_ == nullptr || candidates.empty() || jumps_->jump(query.current->frame) != 0) return;
+/// displacement, which the query keeps if so much more of the image is explained then.
+void MotionSearch::follow_displacement(MotionQuery& query, Candidates& candidates) {
+  if (candidates.empty() || query.rig.displacement != 0) return;
   const MotionStep& step = *candidates.front().proposed;
-  const auto jump = jump_meter_.measure(fits_.measured(*step.base), fits_.measured(*query.current), step.matches,
-                                        step.ok() ? step.motion.current_from_previous : *query.prediction);
+  const auto jump =
+      jump_meter_.measure(fits_.measured(*step.base, query), fits_.measured(*query.current, query), step.matches,
+                          step.ok() ? step.motion.current_from_previous : *query.prediction);
   // The base is measured with its own displacement, the current frame without one.
-  if (!jump || !jump->is_certain(jumps_->has_jumped() ? kLaterJump : kFirstJump)) return;
-  jumps_->set_jump(jump->shift);
+  if (!jump || !jump->is_certain(query.displacement.least)) return;
+  MotionQuery with_jump = query;
+  with_jump.rig.displacement = jump->shift;
+  with_jump.rig.displacement_sigma = std::hypot(jump->sigma, rig::kJumpSigma, step.base->rig().displacement_sigma);
   Candidates displaced;
-  attempt(Hypothesis::near_prediction, query, displaced);
-  const auto area = [](const Candidates& of) {
-    return of.front().is_confirmed() ? of.front().confirmed->verdict.area : 0;
-  };
-  if (area(displaced) > area(candidates)) {
-    candidates = std::move(displaced);
-  } else {
-    jumps_->set_jump(0);
+  attempt(Hypothesis::near_prediction, with_jump, displaced);
+  if (!displaced.front().is_confirmed()) return;
+  double without = candidates.front().is_confirmed() ? candidates.front().confirmed->verdict.area : 0;
+  const double area = displaced.front().confirmed->verdict.area;
+  if (query.displacement.gain > 1 &&
+      area > query.displacement.gain * without) {  // a second chance, from a better start
+    const Eigen::Isometry3d motion = motion_since(query.base, query, *displaced.front().confirmed);
+    const StepHandle again = confirm(query, motion, false, nullptr);
+    if (again && again->ok()) without = std::max(without, again->verdict.area);
   }
-}
-
-/// If rows say something of the right camera that is still to be judged, the prediction is tried again with it.
-void MotionSearch::compare_right_camera(const MotionQuery& query, Candidates& candidates) {
-  if (jumps_ == nullptr || candidates.empty() || !jumps_->right_camera().is_open() || jumps_->has_jumped()) return;
-  RightCamera& right = jumps_->right_camera();
-  jumps_->set_right_error(right.claimed());
-  Candidates corrected;
-  attempt(Hypothesis::near_prediction, query, corrected);
-  const Candidate &one = candidates.front(), &other = corrected.front();
-  const bool is_comparable = one.is_confirmed() && other.is_confirmed() && one.confirmed->base == other.confirmed->base;
-  const double gain = is_comparable ? other.confirmed->motion.log_likelihood - one.confirmed->motion.log_likelihood : 0;
-  if (right.weigh(gain)) candidates = std::move(corrected);
-  jumps_->set_right_error(right.error());
+  if (area <= query.displacement.gain * without) return;
+  candidates = std::move(displaced);
+  query = std::move(with_jump);
 }
 
 /// The hypotheses of a level, in an order in which each has what it builds on.
@@ -245,7 +232,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
                                       const PoseConfig& limits, Eigen::Isometry3d current_from_base,
                                       const Others& others) {
   const auto predict = [&](const Eigen::Isometry3d& motion, int every, TemporalSearch& search) {
-    frontend::predict_positions(fits_.calibration(), base->edges, fits_.measured(*base), motion,
+    frontend::predict_positions(fits_.calibration(query), base->edges, fits_.measured(*base, query), motion,
                                 config_.temporal.radius, every, search);
     hide_masked(hidden_, search);
     if (query.current->hidden) hide_masked(*query.current->hidden, search);
@@ -259,7 +246,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
   const auto shift_from_known = [&] {
     return frontend::mean_distance(known_search_.left, next_search_.left, kSettledStep);
   };
-  StepHandle step = fits_.new_step(base);
+  StepHandle step = fits_.new_step(query, base);
   if (known != nullptr && known->base == base) {
     predict(current_from_base, kSettledStep, next_search_);
     if (shift_from_known() < kNearKnown) {

@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
-#include "odometry/image_jump.hpp"
 #include "odometry/motion_evidence.hpp"
 #include "odometry/motion_proposals.hpp"
 #include "odometry/motion_selection.hpp"
 #include "odometry/motion_step.hpp"
 #include "quadedge/config.hpp"
+#include "rig/image_jump.hpp"
 
 namespace quadedge::odometry {
 
@@ -19,10 +18,8 @@ namespace quadedge::odometry {
 /// with all edges; select() chooses among the verdicts and says whether more has to be tried.
 class MotionSearch : public MotionFinder {
  public:
-  /// Refers to the front end and the offset, which must outlive the object.
-  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
-  /// Follows displaced images, too, which are noted in `offset`.
-  MotionSearch(const Config& config, frontend::Frontend& frontend, DisparityOffset* offset);
+  /// Refers to the front end, which must outlive the object. \param rig the calibration
+  MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig);
 
   struct State;
   StepHandle find(const MotionQuery& query) override;
@@ -31,6 +28,10 @@ class MotionSearch : public MotionFinder {
   void remember(const MotionStep& found) override { record_.remember(found); }
   double take_pose_ms() override { return fits_.take_pose_ms(); }
   void hide(const PixelMask& left) override { hidden_ = left; }
+  void restart() override {
+    hidden_ = {};
+    record_ = TrackRecord(config_);
+  }
 
  private:
   enum class Hypothesis {
@@ -62,8 +63,7 @@ class MotionSearch : public MotionFinder {
 
   StepHandle find_by_few_matches(const MotionQuery& query);
   static bool is_close_to_another(Hypothesis hypothesis);
-  void follow_jump(const MotionQuery& query, Candidates& candidates);
-  void compare_right_camera(const MotionQuery& query, Candidates& candidates);
+  void follow_displacement(MotionQuery& query, Candidates& candidates);
   const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
   void check(const MotionQuery& query, MotionStep& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
@@ -82,8 +82,7 @@ class MotionSearch : public MotionFinder {
 
   Config config_;
   frontend::Frontend& frontend_;
-  DisparityOffset* jumps_ = nullptr;  ///< the offset, if displaced images are followed
-  JumpMeter jump_meter_;
+  rig::JumpMeter jump_meter_;
   MotionFits fits_;
   MotionProposals proposals_;
   MotionEvidence evidence_;
@@ -94,7 +93,7 @@ class MotionSearch : public MotionFinder {
 
 /// A search under way, which begins with its query. The MotionSearch that advances it must outlive it.
 struct MotionSearch::State {
-  MotionQuery query;
+  MotionQuery query;           ///< with the displacement of the current right image that was found
   StepHandle found = nullptr;  ///< the motion chosen, which only the last step judges finally
 
   explicit State(MotionQuery asked) : query(std::move(asked)) {}

@@ -13,6 +13,8 @@
 #include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/rig_estimate.hpp"
+#include "rig/image_jump.hpp"
 
 namespace quadedge::odometry {
 
@@ -28,6 +30,8 @@ struct MotionQuery {
   /// Only a motion near the prediction, with more support than chance gives; no global matches.
   bool only_near_prediction = false;
   bool accepts_ambiguous = true;  ///< whether an ambiguous motion is an answer
+  RigEstimate rig;                ///< of the current frame, as known before its motion; of others, the same offset
+  rig::DisplacementLimits displacement;  ///< of the current right image
 };
 
 /// The edges of a base that a motion brings into one cell of the image: how many there are, how many of them were found
@@ -75,6 +79,7 @@ class ExplainedCells {
 /// Quads between an earlier frame and the current one, and the motion that they support.
 struct MotionStep {
   frontend::FrameEdgesHandle base;  ///< the earlier frame
+  RigEstimate rig;                  ///< with which the current frame was measured
   TemporalMatches matches;
   pose::QuadObservations quads;  ///< without measurements except while the motion is estimated
   pose::MotionEstimate motion;
@@ -107,10 +112,12 @@ class MotionFinder {
  public:
   virtual ~MotionFinder() = default;
   /// Returns the motion of the query's current frame, accepted or refused with the reason. The finder must outlive the
-  /// handle. The same query gives the same result until remember() is called.
+  /// handle. The same query gives the same bytes until remember(), hide() or restart() is called.
   virtual StepHandle find(const MotionQuery& query) = 0;
   /// Takes note of the motion that was chosen for a frame.
   virtual void remember(const MotionStep& found) = 0;
+  /// Forgets what was noted, and what is hidden.
+  virtual void restart() = 0;
   /// No edges are detected in these pixels of the left image from the next frame on.
   virtual void hide(const PixelMask&) {}
   /// Time spent on motions since the last call, without the searches for matches [ms].

@@ -21,9 +21,6 @@ constexpr double kFewMatchesRatio = 0.5;
 /// A motion with less support must agree with the global matches.
 constexpr double kConfidentSupport = 0.35;
 
-/// Growth per frame of the standard deviation of the disparity offset [px]: the rig bends with temperature, slowly.
-constexpr double kDisparityOffsetDrift = 0.003;
-
 /// Fraction of the inlier distance that counts as close agreement. In fine texture, edges agree with a wrong position
 /// by chance, less often at a smaller distance. Of two motions that differ by a pixel or two, only one agrees closely.
 constexpr double kCloseAgreement = 1.0 / 3.0;
@@ -120,17 +117,5 @@ constexpr double kSamePlace = 0.05;
 /// A proposal whose predicted positions are this close on average to those of a confirmed motion [px] is fitted to the
 /// quads of that motion first, which lie within temporal.radius of both.
 constexpr double kNearKnown = 1;
-
-/// A right image that is displaced along the epipolar lines (image_jump.cpp): the displacement from which the first one
-/// counts, and later ones of the recording [px], and its standard deviations.
-constexpr double kFirstJump = 0.6, kLaterJump = 0.1, kJumpSigmas = 10;
-/// Median distance of the disparities from the motion that explains them, over the displacement, at most.
-constexpr double kJumpScatter = 0.5;
-constexpr std::size_t kMinJumpMatches = 60;
-constexpr int kJumpRounds = 6;
-constexpr double kLeastJumpScale = 0.05;  ///< of a disparity in the robust fit [px]
-constexpr double kJumpDeviation = 1.5;    ///< standard deviation of normal errors over their median magnitude
-/// Error of a displacement that the disparity offset of the next frames shares [px].
-constexpr double kJumpSigma = 0.05;
 
 }  // namespace quadedge::odometry

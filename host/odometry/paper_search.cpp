@@ -54,18 +54,19 @@ TemporalMatches propagate(const TemporalMatches& from_key, const TemporalMatches
   return result;
 }
 
-StepHandle PaperSearch::new_step(const frontend::FrameEdgesHandle& base) {
+StepHandle PaperSearch::new_step(const MotionQuery& query, const frontend::FrameEdgesHandle& base) {
   StepHandle step = steps_.acquire();
   step->base = base;
+  step->rig = query.rig;
   return step;
 }
 
 StepHandle PaperSearch::find(const MotionQuery& query) {
   current_ = query.current;
-  StepHandle adjacent = new_step(query.base);
+  StepHandle adjacent = new_step(query, query.base);
   frontend_.match(*query.base, *query.current, {}, adjacent->matches);
   if (query.key && query.key->frame == chain_key_ && query.base->frame == chain_end_) {
-    StepHandle by_key = new_step(query.key);
+    StepHandle by_key = new_step(query, query.key);
     by_key->matches = propagate(chain_, adjacent->matches);
     estimate(query.seed, *by_key);
     if (by_key->ok()) return by_key;
@@ -87,9 +88,10 @@ void PaperSearch::estimate(std::uint64_t seed, MotionStep& step) {
   TemporalMatches numbered = step.matches;
   std::iota(numbered.current.begin(), numbered.current.end(), 0);
   pose::MeasuredEdges measured;
-  pose::measure_edges(offset_.rig(), now, kMinEpipolarAngle, measured);
-  quad_builder_.build(step.base->measured_edges(offset_.rig(), kMinEpipolarAngle), now, measured, numbered,
-                      pose::QuadLimits(), step.quads);
+  const StereoRig rig = corrected_rig(rig_, step.rig);
+  pose::measure_edges(rig, now, kMinEpipolarAngle, measured);
+  quad_builder_.build(step.base->measured_edges(rig, kMinEpipolarAngle), now, measured, numbered, pose::QuadLimits(),
+                      step.quads);
   step.quads.scoring.half_length = 0;
   step.motion = {};
   step.verdict.refusal = solve(seed, step);
@@ -100,7 +102,7 @@ Refusal PaperSearch::solve(std::uint64_t seed, MotionStep& step) {
   pose::MotionEstimate& motion = step.motion;
   motion.inlier.assign(step.quads.size(), 0);
   if (step.quads.size() < static_cast<std::size_t>(config_.min_inliers)) return Refusal::too_few_quads;
-  const StereoRig& rig = offset_.rig();
+  const StereoRig rig = corrected_rig(rig_, step.rig);
   paper::PaperConsensus found = paper::find_paper_consensus(step.quads, rig.left, config_, seed);
   motion.hypotheses = found.hypotheses;
   motion.draws = found.draws;
@@ -108,8 +110,9 @@ Refusal PaperSearch::solve(std::uint64_t seed, MotionStep& step) {
   motion.inlier = std::move(found.inlier);
   motion.inliers = found.inliers;
   motion.current_from_previous = motion.learned.current_from_previous = *found.current_from_previous;
-  const bool solved =
-      !config_.refine || pose::refine(step.quads, rig, config_, offset_.variance(), refinement_, motion);
+  const bool solved = !config_.refine || pose::refine(step.quads, rig, config_,
+                                                      step.rig.disparity_offset_sigma * step.rig.disparity_offset_sigma,
+                                                      refinement_, motion);
   if (!solved || !motion.learned.covariance.allFinite()) return Refusal::badly_spread;
   return motion.has_consensus(config_) ? Refusal::none : Refusal::no_consensus;
 }

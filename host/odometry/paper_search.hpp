@@ -2,8 +2,8 @@
 /// \file paper_search.hpp  The motion as the paper finds it (section 6): quads between adjacent frames, propagated to
 /// the key rig through the frames between.
 
+#include "common/corrected_rig.hpp"
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "odometry/motion_step.hpp"
 #include "pose/refinement.hpp"
 #include "quadedge/config.hpp"
@@ -17,16 +17,17 @@ TemporalMatches propagate(const TemporalMatches& from_key, const TemporalMatches
 /// No prediction, no confirmation, and no other hypotheses.
 class PaperSearch : public MotionFinder {
  public:
-  /// Refers to the front end and the offset, which must outlive the object.
-  PaperSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
-      : config_(config.pose), frontend_(frontend), offset_(offset) {}
+  /// Refers to the front end, which must outlive the object. \param rig the calibration
+  PaperSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig)
+      : config_(config.pose), frontend_(frontend), rig_(corrected_rig(rig, {})) {}
 
   StepHandle find(const MotionQuery& query) override;
   void remember(const MotionStep& found) override;
   double take_pose_ms() override { return std::exchange(pose_ms_, 0); }
+  void restart() override { chain_key_ = chain_end_ = -1; }
 
  private:
-  StepHandle new_step(const frontend::FrameEdgesHandle& base);
+  StepHandle new_step(const MotionQuery& query, const frontend::FrameEdgesHandle& base);
   /// The motion of the step's matches, measured at their refined positions.
   void estimate(std::uint64_t seed, MotionStep& step);
   /// Why there is no motion, or the motion.
@@ -34,7 +35,7 @@ class PaperSearch : public MotionFinder {
 
   PoseConfig config_;
   frontend::Frontend& frontend_;
-  const DisparityOffset& offset_;
+  StereoRig rig_;  ///< as calibrated, without undistortion tables
   Pool<MotionStep> steps_;
   pose::QuadBuilder quad_builder_;
   pose::RefinementWorkspace refinement_;

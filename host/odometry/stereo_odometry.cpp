@@ -10,7 +10,6 @@
 #include "common/timing.hpp"
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "odometry/earlier_rigs.hpp"
 #include "odometry/frame_preparation.hpp"
 #include "odometry/latest_frame.hpp"
@@ -25,6 +24,7 @@
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
+#include "rig/learned_rig.hpp"
 
 namespace quadedge {
 namespace {
@@ -50,19 +50,9 @@ void add_message(const std::string& message, FrameResult& result) {
 }
 
 std::unique_ptr<odometry::MotionFinder> make_search(const Config& config, frontend::Frontend& frontend,
-                                                    odometry::DisparityOffset& offset) {
-  if (config.is_paper()) return std::make_unique<odometry::PaperSearch>(config, frontend, offset);
-  return std::make_unique<odometry::MotionSearch>(config, frontend, &offset);
-}
-
-Warning right_camera_warning(const RightCameraError& error, const PinholeCamera& right) {
-  const RightCameraError lens = {0, 0, error.radial_3, error.radial_5};
-  const std::string text = printed(
-      "the right camera is not as calibrated: rows and motions show it turned by %+.3f degrees of yaw and "
-      "%+.3f of pitch, and columns at its right corners moved by %+.1f px by the lens; corrected from here "
-      "on, but a new calibration is better",
-      error.yaw / kDegree, error.pitch / kDegree, lens.column(right, right.width - 1, right.height - 1));
-  return {WarningKind::corrected_right_camera, text};
+                                                    const StereoRig& rig) {
+  if (config.is_paper()) return std::make_unique<odometry::PaperSearch>(config, frontend, rig);
+  return std::make_unique<odometry::MotionSearch>(config, frontend, rig);
 }
 
 /// The configuration, if it and the rig are valid. \throws DataError, UsageError.
@@ -94,8 +84,8 @@ class StereoOdometry::Implementation {
         device_(device),
         config_(config),
         preparation_(rig, rig_, device, config),
-        offset_(rig_, config.pose),
-        motion_search_(make_search(config, preparation_.frontend(), offset_)) {}
+        learned_(config.pose),
+        motion_search_(make_search(config, preparation_.frontend(), rig_)) {}
 
   FrameResult track(const StereoFrame& frame);
   void restart();
@@ -106,8 +96,12 @@ class StereoOdometry::Implementation {
     return current_ ? current_->edges : none;
   }
   odometry::LatestFrame latest_frame() const {
-    return {device_, preparation_.frontend(),   current_,
-            offset_, step_ ? &*step_ : nullptr, preparation_.corner_matches()};
+    return {device_,
+            preparation_.frontend(),
+            current_,
+            learned_.estimate(),
+            step_ ? &*step_ : nullptr,
+            preparation_.corner_matches()};
   }
   const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
@@ -124,7 +118,9 @@ class StereoOdometry::Implementation {
   void adopt(odometry::StepHandle found, FrameResult& result);
   void return_to_earlier(FrameResult& result);
   void start_segment(FrameResult& result);
+  Eigen::Matrix<double, 6, 1> offset_sensitivity(const odometry::MotionStep& step) const;
   void locate(const odometry::MotionStep& step, FrameResult& result);
+  void adopt_rig(const odometry::MotionStep& step);
   void report(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
 
@@ -133,8 +129,7 @@ class StereoOdometry::Implementation {
   Device& device_;
   Config config_;
   odometry::FramePreparation preparation_;
-  odometry::DisparityOffset offset_;
-  bool corrects_right_camera_ = false;  ///< as of the last key rig
+  rig::LearnedRig learned_;
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
@@ -211,6 +206,11 @@ void StereoOdometry::Implementation::restart() {
   velocity_.forget();
   earlier_.clear();
   keeps_key_ = true;
+  learned_.forget_displacements();
+  has_returned_ = was_lost_ = at_start_ = false;
+  current_from_last_ = std::nullopt;
+  motion_search_->restart();
+  preparation_.restart();
   starts_segment_ = starts_segment_ || state_.has_started();
   const odometry::TrackingState before = std::exchange(state_, {});
   state_.segment = before.segment;
@@ -221,13 +221,14 @@ void StereoOdometry::Implementation::restart() {
 void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResult& result) {
   step_ = nullptr;
   current_ = nullptr;
-  current_ = preparation_.process(frame);
+  current_ = preparation_.process(frame, learned_.estimate());
   const frontend::FrontendCounts& counts = frontend().counts();
   result.diagnostics.edge_threshold = counts.edge_threshold;
   result.diagnostics.disparity_range = counts.disparity_range;
   result.counts.edges_left = counts.edges_left;
   result.counts.edges_right = counts.edges_right;
   result.counts.stereo_edges = static_cast<int>(current_->edges.size());
+  result.rig = current_->rig();
   if (frontend().is_smoothed()) add_message("smoothed, as noise hides the edges", result);
   if (counts.dropped_edges == 0) return;
   result.diagnostics.overflow = true;
@@ -263,16 +264,10 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
 /// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
 /// the motion since the lost frame is tried.
 odometry::StepHandle StereoOdometry::Implementation::search() {
-  offset_.start_frame(current_->frame, [&](int frame) {
-    return frame == state_.base.frame_edges->frame || frame == state_.key.frame() ||
-           (state_.lost && frame == state_.lost->frame_edges->frame) || earlier_.holds(frame);
-  });
-  if (!config_.is_paper()) {
-    offset_.right_camera().claim(preparation_.frontend().rectification().rows(), rig_);
-    offset_.set_right_error(offset_.right_camera().error());
-  }
   odometry::MotionQuery query;
   query.current = current_;
+  query.rig = current_->rig();
+  query.displacement = learned_.displacement_limits();
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
   query.base = state_.base.frame_edges;
   query.prediction = velocity_.predict(odometry::TimeStep::between(*state_.base.frame_edges, *current_));
@@ -285,6 +280,7 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
   odometry::StepHandle found = motion_search_->find(query);
   if (found->ok()) return found;
   query.at_start = false;
+  query.rig = found->rig;  // with a displacement, if one explains more of the image
   if (odometry::StepHandle returned = search_earlier(query)) return returned;
   if (!state_.lost) return found;
   query.base = state_.lost->frame_edges;
@@ -361,21 +357,33 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
                                         ", whose place relative to the earlier ones is a prediction"});
 }
 
+/// Adopts what the motion shows of the rig. What is corrected of a displacement is corrected for the frames, too, that
+/// the next ones are measured against.
+void StereoOdometry::Implementation::adopt_rig(const odometry::MotionStep& step) {
+  const RigEstimate now = learned_.anchored(rig::LearnedRig::refined(step.rig, step.base->rig(), step.motion.learned));
+  const double moved = now.displacement - step.rig.displacement;
+  current_->set_rig(now);
+  for (const auto& of : {state_.key.frame_edges(), state_.base_is_key() ? nullptr : state_.base.frame_edges}) {
+    if (!of || of->rig().displacement == 0 || now.displacement == 0) continue;
+    RigEstimate corrected = of->rig();
+    corrected.displacement += moved;
+    corrected.displacement_sigma = std::min(corrected.displacement_sigma, now.displacement_sigma);
+    of->set_rig(corrected);
+  }
+}
+
 /// States what was found of the motion, beside the pose.
 void StereoOdometry::Implementation::report(const odometry::MotionStep& step, FrameResult& result) {
-  const pose::PoseAndOffset& learned = step.motion.learned;
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
-  result.disparity_offset = offset_.value() + learned.offset;
-  result.disparity_offset_sigma = std::sqrt(learned.offset_variance > 0 ? learned.offset_variance : offset_.variance());
-  if (const auto large = rig::judge_disparity_offset(offset_.value() + step.motion.offset))
+  adopt_rig(step);
+  result.rig = current_->rig();
+  if (const auto large = rig::judge_disparity_offset(result.rig.disparity_offset))
     preparation_.warn(rig::warning(*large));
-  result.right_error = offset_.right_camera().error();
-  if (!result.right_error.is_zero()) preparation_.warn(right_camera_warning(result.right_error, rig_.right));
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
-  if (const double jump = offset_.jump(current_->frame); jump != 0) {
-    const std::string text = printed("the right image is displaced by %+.1f px", jump);
+  if (const double displacement = result.rig.displacement; displacement != 0) {
+    const std::string text = printed("the right image is displaced by %+.1f px", displacement);
     add_message(text, result);
     preparation_.warn(
         {WarningKind::displaced_images, text + " along the epipolar lines and followed, also in later frames: do the "
@@ -384,6 +392,14 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
   if (step.verdict.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.verdict.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;
   result.diagnostics.search = step.matches.search;
+}
+
+/// That of the current frame's pose in the key rig, the last column of its sensitivity.
+Eigen::Matrix<double, 6, 1> StereoOdometry::Implementation::offset_sensitivity(const odometry::MotionStep& step) const {
+  pose::UncertainPose found = pose::pose_in_earlier(step.motion.adopted());
+  found.by_rig.rightCols<1>() = pose::offset_sensitivity(found.fixed_from_camera, step.motion.learned.by_offset);
+  if (step.base != state_.key.frame_edges()) found = state_.base.in_key * found;
+  return found.by_rig.rightCols<1>();
 }
 
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
@@ -404,13 +420,13 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   fitness.rotation = Eigen::AngleAxisd(current_from_key.transform.linear()).angle();
   fitness.frames = current_->frame - state_.key.frame();
 
-  const pose::PoseAndOffset& learned = step.motion.learned;
   report(step, result);
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
   result.relative_covariance = pose::in_other_order(current_from_key.covariance);
   pose::UncertainPose key_from_current = pose::pose_in_earlier(current_from_key);
   key_from_current.by_rig = pose::rig_sensitivity(key_from_current.fixed_from_camera, step.mean_inverse_depth());
+  key_from_current.by_rig.rightCols<1>() = offset_sensitivity(step);
   const pose::UncertainPose world_from_current = state_.key.pose() * key_from_current;
   result.diagnostics.rig_sensitivity = key_from_current.by_rig;
   result.diagnostics.covariance_in_reference = pose::whole_covariance(key_from_current, config_.pose);
@@ -424,10 +440,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   if (result.new_key_rig) {
     // All frames located against one key rig share its disparities, so that together they carry no more information
     // than the last, most distant one.
-    offset_.update(learned.offset, learned.offset_variance, fitness.frames);
-    const bool corrects = !offset_.right_camera().error().is_zero();
-    if (std::exchange(corrects_right_camera_, corrects) != corrects)
-      offset_.widen(config_.pose.disparity_offset_sigma * config_.pose.disparity_offset_sigma);
+    learned_.adopt(current_->rig(), fitness.frames);
     if (keeps_key_) earlier_.remember(state_.key, step.mean_inverse_depth());
     keeps_key_ = !step.verdict.ambiguity.exists();
     state_.set_key(current_, world_from_current);
@@ -460,8 +473,10 @@ FrameDetails StereoOdometry::Implementation::details() const {
   details.left_edges = frontend().edges(Side::left);
   details.right_edges = frontend().edges(Side::right);
   details.stereo = current_->edges;
+  details.rig = current_->rig();
   if (!step_) return details;
   details.previous_stereo = step_->base->edges;
+  details.previous_rig = details.rig.of(step_->base->rig());
   details.quads = step_->matches;
   details.quad_inlier.assign(step_->matches.size(), 0);
   for (std::size_t q = 0; q < step_->motion.inlier.size(); ++q)

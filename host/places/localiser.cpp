@@ -18,6 +18,7 @@
 #include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
+#include "rig/learned_rig.hpp"
 #include "rig/rig_monitor.hpp"
 
 namespace quadedge {
@@ -129,8 +130,8 @@ class Localiser::Implementation {
         rig_(with_scale_of(map.rig().left, with_equal_scales(rig))),
         device_(device),
         preparation_(rig, rig_, device, without_auto_mask(config)),
-        offset_(rig_, with_offset_of(map.places(), rig_, config.pose)),
-        search_(config_, frontend(), offset_) {
+        estimate_(rig::LearnedRig(with_offset_of(map.places(), rig_, config.pose)).estimate()),
+        search_(config_, frontend(), rig_) {
     for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(rig::warning(finding));
   }
 
@@ -156,7 +157,7 @@ class Localiser::Implementation {
   StereoRig rig_;  ///< the cameras in which edges are detected
   Device& device_;
   odometry::FramePreparation preparation_;
-  odometry::DisparityOffset offset_;
+  RigEstimate estimate_;
   odometry::MotionSearch search_;
   std::optional<Eigen::Isometry3d> last_;  ///< pose of the previous frame, if that was located
   odometry::ConstantVelocity velocity_;
@@ -171,7 +172,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   result.stamp_ns = frame.stamp_ns;
   since_last_.ns = last_stamp_ns_ ? frame.stamp_ns - *last_stamp_ns_ : 0;
   last_stamp_ns_ = frame.stamp_ns;
-  const frontend::FrameEdgesHandle frame_edges = preparation_.process(frame);
+  const frontend::FrameEdgesHandle frame_edges = preparation_.process(frame, estimate_);
   const rig::RigReport report = preparation_.judge(frame);
   if (const auto fault = preparation_.fault(report)) {
     lose(fault->status == FrameStatus::lost_rig_mismatch ? LocalisationStatus::lost_rig_mismatch
@@ -280,11 +281,13 @@ std::optional<Match> Localiser::Implementation::compare(const places::Place& pla
   query.current = frame_edges;
   query.base = frontend().restore(place.kept);
   query.seed = config_.seed;
+  query.rig = estimate_;
   if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
   const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const odometry::Verdict& verdict = step->verdict;
-  const pose::RelativePose current_from_key = step->motion.adopted();
+  pose::RelativePose current_from_key = step->motion.adopted();
+  current_from_key.covariance += step->motion.learned.by_offset * step->motion.learned.by_offset.transpose();
   const Eigen::Isometry3d found = map_from_key * current_from_key.transform.inverse();
   return Match{
       &place,           current_from_key, found, step->motion.inliers, verdict.support, step->mean_inverse_depth(),

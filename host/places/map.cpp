@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "common/corrected_rig.hpp"
 #include "common/matching_constants.hpp"
 #include "odometry/latest_frame.hpp"
 #include "odometry/motion_search.hpp"
@@ -119,8 +120,7 @@ class Map::Implementation {
         config_(odometry.config()),
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
-        search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend,
-                odometry::LatestFrame::of(odometry).offset) {
+        search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend, odometry.rig()) {
     places::check_map_config(config_);
     if (const auto& latest = odometry::LatestFrame::of(odometry).frame_edges)
       throw UsageError("a map has to see every frame, and the odometry has tracked " +
@@ -244,7 +244,8 @@ bool Map::Implementation::add(const FrameResult& result) {
 /// Mean inverse depth of the current frame's edges [1/m].
 double Map::Implementation::mean_inverse_depth() const {
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
-  const auto& edges = now.frame_edges->measured_edges(now.offset.rig(), kMinEpipolarAngle);
+  const auto& edges =
+      now.frame_edges->measured_edges(corrected_rig(odometry_.rig(), now.frame_edges->rig()), kMinEpipolarAngle);
   double sum = 0, count = 0;
   for (const auto& edge : edges) {
     if (!edge) continue;
@@ -282,7 +283,7 @@ double Map::Implementation::spread(const GraphEdge& motion, double inverse_depth
 
 /// Whether a search near the predicted positions covers the uncertainty of a motion.
 bool Map::Implementation::is_predictable(const GraphEdge& motion, double inverse_depth) const {
-  const double focal = odometry::LatestFrame::of(odometry_).offset.rig().left.fx;
+  const double focal = odometry_.rig().left.fx;
   return focal * spread(motion, inverse_depth) < config_.temporal.coarse_radius;
 }
 
@@ -390,8 +391,10 @@ bool Map::Implementation::finish() {
 Comparison Map::Implementation::begin(const NodeView& view, const places::Place& place, float similarity,
                                       bool near_prediction) {
   odometry::MotionQuery query;
+  const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   query.current = view.edges;
-  query.base = odometry::LatestFrame::of(odometry_).frontend.restore(place.kept);
+  query.base = now.frontend.restore(place.kept);
+  query.rig = now.rig.of(view.edges->rig());
   query.seed = config_.seed + static_cast<std::uint64_t>(view.frame);
   if (near_prediction) {
     query.prediction = graph_.pose(view.node).inverse() * graph_.pose(place.node);
@@ -415,9 +418,10 @@ std::optional<ListedClosure> Map::Implementation::complete(const Comparison& com
   closure.inliers = motion.inliers;
   closure.support = step.verdict.support;
   closure.verdict = step.verdict.ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
-  GraphEdge edge =
-      GraphEdge::of(comparison.place, view.node, frame_from_other,
-                    pose::rig_sensitivity(frame_from_other.transform.inverse(), step.mean_inverse_depth()), true);
+  const Eigen::Isometry3d other_from_frame = frame_from_other.transform.inverse();
+  RigSensitivity by_rig = pose::rig_sensitivity(other_from_frame, step.mean_inverse_depth());
+  by_rig.rightCols<1>() = pose::offset_sensitivity(other_from_frame, motion.learned.by_offset);
+  GraphEdge edge = GraphEdge::of(comparison.place, view.node, frame_from_other, by_rig, true);
   if (is_joined(edge.from, edge.to)) {
     const Eigen::Isometry3d before = graph_.pose(edge.to).inverse() * graph_.pose(edge.from);
     const Eigen::Isometry3d error = frame_from_other.transform * before.inverse();
@@ -525,21 +529,22 @@ std::optional<Eigen::Isometry3d> Map::Implementation::pose(std::size_t frame) co
 SavedMap Map::Implementation::saved() const {
   places::SavedPlaces saved;
   const StereoRig& rig = odometry_.rig();
-  saved.rig = odometry::with_disparity_offset(rig, 0);
+  saved.rig = corrected_rig(rig, {});
   saved.is_undistorted = rig.left_undistortion.empty() && rig.right_undistortion.empty() ? 0 : 1;
-  const odometry::DisparityOffset& offset = odometry::LatestFrame::of(odometry_).offset;
-  saved.offset = offset.value();
-  saved.offset_variance = offset.variance();
+  const RigEstimate learned = odometry::LatestFrame::of(odometry_).rig;
+  saved.offset = learned.disparity_offset;
+  saved.offset_variance = learned.disparity_offset_sigma * learned.disparity_offset_sigma;
   saved.settings = places::descriptor_settings(config_);
   std::vector<places::Place> places;
   const int largest = largest_segment();
   for (const places::Place& place : store_.places()) {
     if (graph_.component(place.node) != largest) continue;
     places.push_back(place);
-    StereoEdges& edges = places.back().kept.edges;  // their own columns are those of a calibrated camera from here on
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      edges.right_x[i] -= static_cast<float>(offset.rig().right_error.column(
-          rig.right, static_cast<double>(edges.right_x[i]), static_cast<double>(edges.right_y[i])));
+    frontend::KeptFrameEdges& kept = places.back().kept;  // its right image is not displaced from here on
+    const Eigen::Vector2d move = -kept.rig.displacement * direction_of_nearer(rig);
+    for (float& x : kept.edges.right_x) x += static_cast<float>(move.x());
+    for (float& y : kept.edges.right_y) y += static_cast<float>(move.y());
+    kept.rig = {};
     saved.poses.push_back(graph_.pose(place.node));
   }
   return {std::move(saved), std::move(places)};

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "common/calibration.hpp"
+#include "common/corrected_rig.hpp"
 #include "common/printed.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "places/place_store.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
@@ -202,7 +202,9 @@ class Check {
 }  // namespace
 
 SavedMap::SavedMap(SavedPlaces header, std::vector<places::Place> places) {
-  const auto calibration = std::make_shared<StereoRig>(odometry::with_disparity_offset(header.rig, header.offset));
+  RigEstimate learned;
+  learned.disparity_offset = header.offset;
+  const auto calibration = std::make_shared<StereoRig>(corrected_rig(header.rig, learned));
   for (places::Place& place : places) {
     place.node = static_cast<int>(header.store.size());
     place.kept.own_calibration = calibration;

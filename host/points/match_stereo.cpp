@@ -4,11 +4,11 @@
 
 #include <limits>
 
+#include "common/corrected_rig.hpp"
 #include "common/images.hpp"
 #include "common/matching_constants.hpp"
 #include "common/undistortion.hpp"
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "points/measured_points.hpp"
 #include "pose/quads.hpp"
 
@@ -49,10 +49,9 @@ StereoRig rectified_images(int width, int height, int right_width, int right_hei
   return rig;
 }
 
-EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, double disparity_offset) {
-  const StereoRig calibration = odometry::with_disparity_offset(rig, disparity_offset);
+EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, const RigEstimate& estimate) {
   pose::MeasuredEdges measured;
-  pose::measure_edges(calibration, edges, kMinEpipolarAngle, measured);
+  pose::measure_edges(corrected_rig(rig, estimate), edges, kMinEpipolarAngle, measured);
   const auto count = static_cast<Eigen::Index>(measured.size());
   EdgePoints points{Eigen::Matrix3Xd::Constant(3, count, std::numeric_limits<double>::quiet_NaN()), {}};
   points.tangent = points.position;

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "odometry/disparity_offset.hpp"
+#include "common/corrected_rig.hpp"
 #include "points/measured_points.hpp"
 #include "pose/oriented_point.hpp"
 #include "quadedge/camera.hpp"
@@ -152,8 +152,7 @@ bool PointCloud::Implementation::add(const StereoFrame& frame, const FrameResult
   const int number_of_frame = frames_++;
   if (!result.new_key_rig || !result.world_from_left || result.ambiguous_motion) return false;
   const StereoEdges& edges = odometry.stereo_edges();
-  StereoRig rig = odometry::with_disparity_offset(odometry.rig(), result.disparity_offset);
-  rig.right_error = result.right_error;
+  StereoRig rig = corrected_rig(odometry.rig(), result.rig);
   rig.left_undistortion = odometry.rig().left_undistortion;
   views_.push_back({number_of_frame, result.stamp_ns, *result.world_from_left});
   const Measured measured = points::measure_points(rig, edges, frame.left, config_);

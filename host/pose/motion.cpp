@@ -31,7 +31,7 @@ double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& in
 
 Refusal MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
                                   std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
-                                  double offset_variance, MotionEstimate& motion, RefinementGoal goal) {
+                                  const OffsetPrior& offset, MotionEstimate& motion, RefinementGoal goal) {
   std::vector<std::uint8_t> inlier = std::move(motion.inlier);
   motion = {};
   motion.inlier = std::move(inlier);
@@ -46,7 +46,7 @@ Refusal MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& 
   motion.current_from_previous = motion.learned.current_from_previous = consensus.current_from_previous;
   bool solved = true;
   if (config.refine) {
-    solved = refine(quads, rig, config, offset_variance, refinement_, motion, goal);
+    solved = refine(quads, rig, config, offset, refinement_, motion, goal);
   } else {
     motion.inliers = select_inliers(quads.scoring, LaterCameras(rig, motion.current_from_previous),
                                     config.inlier_distance, kInlierOrientation, motion.inlier);

@@ -22,11 +22,11 @@ namespace quadedge::pose {
 class MotionEstimator {
  public:
   /// \param initial a hypothesis besides the samples, current_from_previous: a predicted or frame-to-frame pose
-  /// \param offset_variance variance of the disparity offset [px^2]; 0: disparities are assumed exact
+  /// \param offset what is known of the disparity offset, relative to that of `rig`
   /// \param motion is replaced; unless the result is Refusal::none, its pose is the identity and its covariance zero
   /// \returns why there is no motion, or Refusal::none
   Refusal estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                   const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& motion,
+                   const std::optional<Eigen::Isometry3d>& initial, const OffsetPrior& offset, MotionEstimate& motion,
                    RefinementGoal goal = RefinementGoal::pose_and_covariance);
 
  private:

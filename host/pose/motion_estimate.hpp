@@ -24,13 +24,26 @@ enum class Refusal {
   ambiguous        ///< another motion may be the camera's, and nothing was known of the motion
 };
 
+/// What is known of the disparity offset before a fit. Systematic errors of edges that look like an offset are alike in
+/// all frames of a scene: they are one unknown of unit variance, of which each fit sees a multiple, and do not average
+/// out.
+struct OffsetPrior {
+  OffsetPrior(double variance_px2 = 0, double shared_px = 0) : variance(variance_px2), shared(shared_px) {}
+  double variance;  ///< [px^2]; 0: disparities are assumed exact
+  double shared;    ///< covariance with that unknown, which earlier fits have left [px]
+};
+
 /// A pose and the disparity offset, with their uncertainties.
 struct PoseAndOffset {
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
   /// [px], added to every right point along its epipolar line, away from the point at infinity.
   double offset = 0;
-  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose [rad, m]: of a left perturbation in the current left frame
-  double offset_variance = 0;              ///< [px^2], including the prior
+  /// Of the pose [rad, m], of a left perturbation in the current left frame: what the quads leave open.
+  Matrix6d covariance = Matrix6d::Zero();
+  /// Change of the pose by a standard deviation of what was unknown of the offset before, and still is.
+  Vector6d by_offset = Vector6d::Zero();
+  double offset_variance = 0;  ///< [px^2], including the prior
+  double offset_shared = 0;    ///< see OffsetPrior
 };
 
 /// Motion between two rigs, estimated from their quads.
@@ -46,9 +59,6 @@ struct MotionEstimate {
   PoseAndOffset learned;
   std::vector<std::uint8_t> inlier;  ///< one byte per quad
   int inliers = 0;
-  /// Logarithm of the likelihood of the inliers, with the noise assumed, less that of as many outliers. Known if the
-  /// covariance is.
-  double log_likelihood = 0;
   int hypotheses = 0, draws = 0;  ///< numbers of the consensus search, see Consensus
 
   /// inliers / quads

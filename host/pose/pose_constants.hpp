@@ -57,6 +57,10 @@ constexpr double kSmallestScale = 1e-6;
 
 /// Systematic errors of positions and of disparities that may look like an offset of all disparities [px].
 constexpr double kSystematicPosition = 0.02, kSystematicDisparity = 0.02;
+/// Variance of the part of them that is a frame's own, over that of the part that all frames share.
+constexpr double kOwnSystematic = 4;
+/// Deviation of a measured offset from what is known of it, in standard deviations; a larger one has a larger error.
+constexpr double kMostDeviation = 4;
 
 /// Minimum ratio of the pivots of the normal equations, after scaling the diagonal to one.
 constexpr double kSmallestPivot = 1e-12;
@@ -70,8 +74,5 @@ constexpr int kCellSizes = 5, kLeftOut = 2;
 
 /// A cell with more than this fraction of the information cannot be left out.
 constexpr double kLargestRatio = 0.5;
-
-/// Squared Mahalanobis error of a quad at which it is as likely as an outlier.
-constexpr double kOutlierError = 25;
 
 }  // namespace quadedge::pose

@@ -36,22 +36,33 @@ double systematic_ratio(const Matrix7d& information, double focal_length) {
          kSystematicPosition * kSystematicPosition * shift;
 }
 
-/// \param free solution of the equations with a prior of `variance` \param spread see fit_offset()
-PoseAndOffset learned_from(const PoseAndOffset& free, const Matrix7d& information, double variance, double spread,
-                           double focal_length) {
+/// The update of a Kalman filter whose measurement is the offset by the quads alone, free of the prior, with their
+/// error and a multiple of the shared systematic error, which is considered and not estimated (Schmidt's filter).
+/// \param free solution of the equations with the prior \param spread see fit_offset()
+PoseAndOffset learned_from(const PoseAndOffset& free, const Matrix7d& information, const OffsetPrior& prior,
+                           double spread, double focal_length) {
   const Elimination quads(information);
-  const double systematic = systematic_ratio(information, focal_length);
-  const double known = variance * quads.offset;
-  const double gain = known / (1 + systematic + known);
-  const double by_prior = (1 - gain) * (1 - gain) * variance;
+  // All times the information of the quads, which may be 0.
+  const double systematic = systematic_ratio(information, focal_length), known = prior.variance * quads.offset;
+  const double both = prior.shared * std::sqrt(systematic * quads.offset);
+  const double measured = known > 0 ? free.offset * (1 + known) / known : 0, expected = known + 2 * both + systematic;
+  // Of a measurement that contradicts the prior, the two frames' images may be displaced against one another.
+  const double own = std::max(1 + kOwnSystematic * systematic,
+                              measured * measured * quads.offset / (kMostDeviation * kMostDeviation) - expected);
+  const double gain = std::clamp((known + both) / (expected + own), 0.0, 1.0);
+  const double by_prior = (1 - gain) * (1 - gain) * prior.variance;
   const double by_quads = quads.offset > 0 ? gain * gain / quads.offset : 0;
+  const double multiple = quads.offset > 0 ? std::sqrt(systematic / quads.offset) : 0;
+  const double by_both = 2 * (1 - gain) * gain * multiple * -prior.shared;
   PoseAndOffset learned;
-  learned.offset = free.offset * (1 + known) / (1 + systematic + known);
+  learned.offset = gain * measured;
   learned.current_from_previous =
       perturb(quads.pose_by_offset * (learned.offset - free.offset), free.current_from_previous);
-  learned.offset_variance = by_prior + by_quads * (1 + systematic);
-  learned.covariance = spread * quads.pose_given_offset + (by_prior + by_quads * (spread + systematic)) *
+  learned.offset_variance = by_prior + by_both + by_quads * (own + systematic);
+  learned.offset_shared = (1 - gain) * prior.shared - gain * multiple;
+  learned.covariance = spread * quads.pose_given_offset + by_quads * (spread + own - 1 + systematic) *
                                                               quads.pose_by_offset * quads.pose_by_offset.transpose();
+  learned.by_offset = std::sqrt(by_prior + by_both) * quads.pose_by_offset;
   return learned;
 }
 
@@ -110,8 +121,8 @@ class Refinement {
       : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), motion_(motion) {}
 
   /// Returns whether the last fit had a solution.
-  bool run(double offset_variance, RefinementGoal goal) {
-    motion_.offset = motion_.log_likelihood = 0;
+  bool run(const OffsetPrior& offset, RefinementGoal goal) {
+    motion_.offset = 0;
     motion_.learned = {};
     // Every n-th quad is used to find the pose, all quads to refine it.
     const std::size_t every = std::max<std::size_t>(1, quads_.size() / kSelectionQuads);
@@ -120,10 +131,10 @@ class Refinement {
     if (is_measured && every > 1) {
       select(1);
       take_selected();
-      if (!(offset_variance > 0)) fit(true);  // with the offset, the final fit follows
+      if (!(offset.variance > 0)) fit(true);  // with the offset, the final fit follows
     }
-    if (!is_measured || !(offset_variance > 0 && find_offset(offset_variance))) {
-      if (is_measured && offset_variance > 0 && every > 1) fit(true);
+    if (!is_measured || !(offset.variance > 0 && find_offset(offset))) {
+      if (is_measured && offset.variance > 0 && every > 1) fit(true);
       if (is_measured && solved_) motion_.learned.covariance = covariance_at(0).inflated();
       motion_.learned.current_from_previous = motion_.current_from_previous;
     }
@@ -168,13 +179,13 @@ class Refinement {
   }
 
   /// Returns false, with the pose unchanged, if the fit with the offset has no solution.
-  bool find_offset(double variance) {
+  bool find_offset(const OffsetPrior& prior) {
     const auto fit_both = [&](const MeasuredCovariance& covariance) {
       PoseAndOffset free;
       free.current_from_previous = motion_.current_from_previous;
       free.offset = motion_.offset;
       const auto learned =
-          fit_offset(config_, covariance, variance, work_.reprojection_scale, rig_.left.fx, work_.terms, free);
+          fit_offset(config_, covariance, prior, work_.reprojection_scale, rig_.left.fx, work_.terms, free);
       if (!learned) return false;
       motion_.current_from_previous = free.current_from_previous;
       motion_.offset = free.offset;
@@ -185,22 +196,7 @@ class Refinement {
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
     fit_both(covariance_at(motion_.offset));
-    motion_.log_likelihood = log_likelihood();
     return true;
-  }
-
-  /// With a logarithm per product of a hundred factors of at most kOutlierError / dof + 1.
-  double log_likelihood() const {
-    constexpr std::size_t kFactors = 100;
-    const double largest = 1 + kOutlierError / config_.student_dof;
-    double sum = static_cast<double>(work_.terms.size()) * std::log(largest);
-    for (std::size_t first = 0; first < work_.terms.size(); first += kFactors) {
-      double product = 1;
-      for (std::size_t i = first; i < std::min(first + kFactors, work_.terms.size()); ++i)
-        product *= std::min(largest, 1 + work_.terms.error[i] / config_.student_dof);
-      sum -= std::log(product);
-    }
-    return 0.5 * (config_.student_dof + kReprojectionSize) * sum;
   }
 
   MeasuredCovariance covariance_at(double offset) {
@@ -220,9 +216,9 @@ class Refinement {
 
 }  // namespace
 
-std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
-                                        double reprojection_scale, double focal_length, ReprojectionTerms& terms,
-                                        PoseAndOffset& free) {
+std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance,
+                                        const OffsetPrior& prior, double reprojection_scale, double focal_length,
+                                        ReprojectionTerms& terms, PoseAndOffset& free) {
   const double weight = std::max(covariance.small_cell_inflation, 1.0);
   const double spread = std::max(covariance.inflation, 1.0) / weight;
   Normal<7> normal;
@@ -231,21 +227,21 @@ std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const Measured
                                        {reprojection_scale, config.student_dof});
     normal.matrix /= weight;
     normal.gradient /= weight;
-    normal.matrix(6, 6) += 1.0 / variance;
-    normal.gradient(6) += free.offset / variance;
+    normal.matrix(6, 6) += 1.0 / prior.variance;
+    normal.gradient(6) += free.offset / prior.variance;
     Vector7d step;
     if (!solve(normal, step)) return std::nullopt;
     free.current_from_previous = perturb(step.head<6>(), free.current_from_previous);
     free.offset += step(6);
     if (-normal.gradient.dot(step) < kFitTolerance * kFitTolerance) break;
   }
-  normal.matrix(6, 6) -= 1.0 / variance;
-  return learned_from(free, normal.matrix, variance, spread, focal_length);
+  normal.matrix(6, 6) -= 1.0 / prior.variance;
+  return learned_from(free, normal.matrix, prior, spread, focal_length);
 }
 
-bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, double offset_variance,
+bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, const OffsetPrior& offset,
             RefinementWorkspace& workspace, MotionEstimate& motion, RefinementGoal goal) {
-  return Refinement(quads, rig, config, workspace, motion).run(offset_variance, goal);
+  return Refinement(quads, rig, config, workspace, motion).run(offset, goal);
 }
 
 }  // namespace quadedge::pose

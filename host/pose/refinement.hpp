@@ -15,7 +15,7 @@
 namespace quadedge::pose {
 
 /// Continues a fit of `terms` with one more unknown: the common offset of all disparities left by rectification, with a
-/// zero-mean prior of variance `variance` [px^2]. Edges at all depths separate it from a motion along the optical axis;
+/// zero-mean prior [px]. Edges at all depths separate it from a motion along the optical axis;
 /// a stationary camera leaves the prior unchanged.
 /// \param covariance the information of the quads is reduced by small_cell_inflation relative to the prior; the
 /// covariance of the result is that of a fit with these weights, with errors that scatter by `inflation`
@@ -23,9 +23,9 @@ namespace quadedge::pose {
 /// \param focal_length of the left camera [px]
 /// \param free in: initial pose and offset; out: the solution of the equations, without its uncertainties
 /// \returns what is worth learning from it, see MotionEstimate::learned; nothing if the equations have no solution
-std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
-                                        double reprojection_scale, double focal_length, ReprojectionTerms& terms,
-                                        PoseAndOffset& free);
+std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance,
+                                        const OffsetPrior& prior, double reprojection_scale, double focal_length,
+                                        ReprojectionTerms& terms, PoseAndOffset& free);
 
 /// Buffers of refine(), kept between calls so that steady-state operation allocates nothing.
 struct RefinementWorkspace {
@@ -41,13 +41,13 @@ enum class RefinementGoal { pose, pose_and_covariance };
 
 /// Alternates between selecting inliers and Gauss-Newton with Student-t weights over their positions, until the
 /// selection hardly changes; the variance of the errors is measured in each step. All inliers are then used in
-/// fit_offset() with a prior of `offset_variance` [px^2], or in one more fit if that is 0. With RefinementGoal::pose,
+/// fit_offset() with the prior `offset`, or in one more fit if its variance is 0. With RefinementGoal::pose,
 /// neither offset nor covariance is computed. The true depth of each quad is eliminated in closed form, which is the
 /// Schur complement of a bundle adjustment of the two rigs and removes the scale bias of plain PnP. Directions are not
 /// used: the errors of slopes are correlated with the directions that they are compared with.
 /// \param motion in: the initial pose; out: pose, offset, what is learned, and the inliers at the pose
 /// \returns false if the last fit had no solution; the pose is that before it and the covariance zero
-bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, double offset_variance,
+bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, const OffsetPrior& offset,
             RefinementWorkspace& workspace, MotionEstimate& motion,
             RefinementGoal goal = RefinementGoal::pose_and_covariance);
 

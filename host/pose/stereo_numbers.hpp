@@ -91,13 +91,11 @@ struct RigNumbers {
         left_from_right(rig.right_from_left.linear().transpose()),
         translation(numbers_of(rig.right_from_left.translation())),
         baseline(numbers_of(rig.right_from_left.linear().transpose() * rig.right_from_left.translation())),
-        right_error(rig.right_error),
         min_sine(std::sin(min_epipolar_angle)) {}
 
   CameraNumbers left, right;
   RotationNumbers right_from_left, left_from_right;
   Vector3 translation, baseline;
-  RightCameraError right_error;
   double min_sine;
 };
 
@@ -128,8 +126,7 @@ struct MeasuredNumbers {
                            right.fy * (translation.y * at_infinity.z - at_infinity.y * translation.z), 0.0};
   const double line_norm = norm(towards);
   const Vector3 line = over(towards, line_norm);
-  const double right_x = edge.right_x - rig.right_error.column(right, edge.right_x, edge.right_y);
-  const double position = line.x * (right_x - right.cx) + line.y * (edge.right_y - right.cy);
+  const double position = line.x * (edge.right_x - right.cx) + line.y * (edge.right_y - right.cy);
   const Vector3 weights = {line.x * right.fx, line.y * right.fy, -position};
   result.inverse_depth = -dot(weights, at_infinity) / dot(weights, translation);
   const Vector3 in_right = plus(at_infinity, result.inverse_depth * translation);
@@ -148,7 +145,7 @@ struct MeasuredNumbers {
   const Vector3 left_normal = cross(result.direction, result.ray);
   result.left_normal = over(left_normal, norm(left_normal));
 
-  const Vector3 right_ray = right.ray(right_x, edge.right_y);
+  const Vector3 right_ray = right.ray(edge.right_x, edge.right_y);
   const Vector3 normal = rig.left_from_right * cross(right.step(edge.right_cos, edge.right_sin), right_ray);
   const Vector3 normal_turn = rig.left_from_right * cross(right.step(-edge.right_sin, edge.right_cos), right_ray);
   result.right_normal = over(normal, norm(normal));

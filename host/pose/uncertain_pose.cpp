@@ -83,10 +83,18 @@ RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, doubl
   return result;
 }
 
+Eigen::Matrix<double, 6, 1> offset_sensitivity(const Eigen::Isometry3d& fixed_from_camera,
+                                               const Eigen::Matrix<double, 6, 1>& by_offset) {
+  const Eigen::Matrix3d turn = fixed_from_camera.linear();
+  Eigen::Matrix<double, 6, 1> result;
+  result << -turn * by_offset.tail<3>(), -turn * by_offset.head<3>();
+  return result;
+}
+
 Eigen::Matrix<double, kRigErrors, 1> rig_sigmas(const PoseConfig& config) {
   Eigen::Matrix<double, kRigErrors, 1> sigmas;
   sigmas << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
-      Eigen::Matrix<double, 6, 1>::Constant(config.rig_sigma_lens);
+      Eigen::Matrix<double, 6, 1>::Constant(config.rig_sigma_lens), 1;
   return sigmas;
 }
 

@@ -54,7 +54,13 @@ UncertainPose inverse(const UncertainPose& fixed_from_camera);
 /// \param fixed_from_camera a single motion, between two frames or since a key rig
 RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth);
 
-/// Standard deviations of the calibration errors, `pose.rig_sigma_*`; the errors are independent of each other.
+/// The last column of the sensitivity of such a pose, not set by rig_sensitivity(). \param by_offset change of the
+/// motion current_from_earlier by a standard deviation of the disparity offset: rotation, translation [rad, m]
+Eigen::Matrix<double, 6, 1> offset_sensitivity(const Eigen::Isometry3d& fixed_from_camera,
+                                               const Eigen::Matrix<double, 6, 1>& by_offset);
+
+/// Standard deviations of the calibration errors, `pose.rig_sigma_*`, and 1 for the offset; the errors are independent
+/// of each other.
 Eigen::Matrix<double, kRigErrors, 1> rig_sigmas(const PoseConfig& config);
 
 /// Covariance due to calibration errors.

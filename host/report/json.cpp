@@ -59,12 +59,7 @@ Json rig_json(const RigMaps& maps) {
           {"row_correction_px", maps.row_correction},
           {"width", maps.width},
           {"height", maps.height},
-          {"disparity_offset", {{"start", offset(maps.offset_start)}, {"end", offset(maps.offset_end)}}},
-          {"right_camera",
-           {{"yaw_deg", maps.right_error.yaw / kDegree},
-            {"pitch_deg", maps.right_error.pitch / kDegree},
-            {"radial_3", maps.right_error.radial_3},
-            {"radial_5", maps.right_error.radial_5}}}};
+          {"disparity_offset", {{"start", offset(maps.offset_start)}, {"end", offset(maps.offset_end)}}}};
 }
 
 Json loops_json(const LoopFacts& loops) {

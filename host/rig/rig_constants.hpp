@@ -37,17 +37,13 @@ constexpr double kCoarseWidth = 320;
 // The fit of their distances from the lines (corner_matching.cpp).
 
 constexpr std::size_t kMinFitCorners = 12;
-constexpr int kFitRounds = 8;
 constexpr double kMinScale = 0.02;  ///< px
 
 // What all frames show of the rows (row_model.cpp).
 
-constexpr double kRowMemory = 100;             ///< frames
-constexpr double kFewestFrames = 2.5;          ///< before which rows say nothing of the camera
-constexpr double kSufficientFrames = 20;       ///< from which earlier recordings say nothing of it
-constexpr double kTermSigmas = 4;              ///< standard deviations below which a term counts as 0
-constexpr double kMeanSquare = 1.0 / 12;       ///< of a coordinate from -1/2 to 1/2
-constexpr double kDeviationOfMedian = 1.4826;  ///< standard deviation of normal errors over their median magnitude
+constexpr double kRowMemory = 100;        ///< frames
+constexpr double kTermSigmas = 4;         ///< standard deviations below which a term counts as 0
+constexpr double kMeanSquare = 1.0 / 12;  ///< of a coordinate from -1/2 to 1/2
 /// By how much rows differ between recordings with one rig, as a standard deviation, in the middle and over half the
 /// image [px]: EuRoC's MH_01 and V1_01 by 0.2.
 constexpr double kRowFloor = 0.05;
@@ -83,8 +79,33 @@ constexpr double kReliableMatchedRatio = 0.65;
 /// The fit is not believed if more of the edges than the last number are matched and this fraction of the corners lies
 /// within kOnLine of the lines where the fit says kOffLine or more [px].
 constexpr double kOnLine = 1, kOffLine = 2, kContradictingRatio = 0.1, kCertainMatchedRatio = 0.75;
+/// Searches over which the ratio of negative disparities is averaged, at least.
+constexpr int kNegativeSearches = 3;
 /// Learned disparity offset. [px]
 constexpr double kMaxOffset = 1.5;
+
+// The disparity offset and displaced images (learned_rig.cpp, image_jump.cpp).
+
+/// Growth per frame of the standard deviation of the disparity offset [px]: the rig bends with temperature, slowly.
+constexpr double kDisparityOffsetDrift = 0.003;
+
+/// A right image that is displaced along the epipolar lines: the displacement from which the first kDisplacedFrames of
+/// a recording count, and later ones [px], and its standard deviations.
+constexpr double kFirstJump = 0.6, kLaterJump = 0.1, kJumpSigmas = 10;
+constexpr int kDisplacedFrames = 2;
+/// Ratio of the areas explained with and without a displacement, for the first ones. The differences of two frames of
+/// KITTI, whose rig is rigid, resemble displacements up to 0.7 px, with ratios up to 1.8.
+constexpr double kFirstGain = 3;
+/// Standard deviation of a displacement measured against another frame's [px], beside that of its fit: what the matches
+/// of a frame share.
+constexpr double kJumpSigma = 0.1;
+/// Standard deviation of the displacements of a recording before they are known [px], the frames for which this counts,
+/// and those that count.
+constexpr double kSwing = 1, kSwingFrames = 5, kSwingMemory = 100;
+/// Median distance of the disparities from the motion that explains them, over the displacement, at most.
+constexpr double kJumpScatter = 0.5;
+constexpr std::size_t kMinJumpMatches = 60;
+constexpr double kLeastJumpScale = 0.05;  ///< of a disparity in the robust fit [px]
 
 // Parts of the image that do not move (static_region.cpp).
 

@@ -32,15 +32,22 @@ ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, doub
   return ImageTurn::none;
 }
 
+/// By how much farther along its line a match lies than rows and disparity offset predict of a point at infinity [px].
+double disparity_of(const CornerMatch& match, const StereoRig& rig, const RigEstimate& known) {
+  const double roll = known.rows.slope_x / rig.right.width;
+  return match.along + known.added_disparity() - roll * (match.right.y() - rig.right.cy);
+}
+
 /// Adds the results of a search to the evidence.
-void add_search_results(const CornerSearch& search, const EpipolarFit& fit, RigEvidence& evidence) {
+void add_search_results(const CornerSearch& search, const EpipolarFit& fit, const StereoRig& rig,
+                        const RigEstimate& known, RigEvidence& evidence) {
   if (search.searched == 0) return;
   evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
   evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
   if (search.found.empty()) return;
   int aligned = 0, on_line = 0, negative = 0, beyond = 0;
   for (const CornerMatch& match : search.found) {
-    negative += match.along < -1 - 2 * match.sigma ? 1 : 0;
+    negative += disparity_of(match, rig, known) < -1 - 2 * match.sigma ? 1 : 0;
     beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
     aligned += match.is_aligned ? 1 : 0;
     on_line += match.is_aligned && std::abs(match.across) < kOnLine ? 1 : 0;
@@ -111,8 +118,8 @@ std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarF
 
 /// Adds a search for every `every`-th corner and its findings to the report. \returns the number of corners found
 std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const StereoFrame& frame,
-                             double max_disparity, const HiddenPixels& hidden, RigReport& report,
-                             std::size_t every = 1) {
+                             double max_disparity, const RigEstimate& known, const HiddenPixels& hidden,
+                             RigReport& report, std::size_t every = 1) {
   const CornerSearch search = matcher.search(frame, max_disparity, ImageTurn::none, every, hidden);
   // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
@@ -123,7 +130,7 @@ std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig,
     fit = fit_across(search.found, rig.left.width, rig.left.height);
     fit.is_coarse = true;
   }
-  add_search_results(search, fit, report.evidence);
+  add_search_results(search, fit, rig, known, report.evidence);
   const ImageTurn turn =
       finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity, hidden) : ImageTurn::none;
   report.findings = judge_search(search, fit, report.evidence, turn, rig.left);
@@ -205,16 +212,27 @@ std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& fr
 }
 
 bool RigMonitor::needs_search(const RigEvidence& evidence) const {
-  if (!searched_ || !fits_ || frames_since_search_ >= kSearchPeriod) return true;
+  const bool is_suspicious = searches_ < kNegativeSearches && negative_ratios_ > kWarningRatio * searches_;
+  if (!searched_ || !fits_ || is_suspicious || frames_since_search_ >= kSearchPeriod) return true;
   return evidence.matched_ratio < kMatchedDecrease * searched_->matched_ratio ||
          evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease;
 }
 
+void RigMonitor::confirm_negative_disparities(RigReport& report) {
+  if (!(report.evidence.negative_ratio >= 0)) return;
+  ++searches_;
+  negative_ratios_ += report.evidence.negative_ratio;
+  if (searches_ >= kNegativeSearches && negative_ratios_ > kWarningRatio * searches_) return;
+  const auto is_doubtful = [](const RigFinding& of) { return of.kind == RigFindingKind::some_negative_disparities; };
+  report.findings.erase(std::remove_if(report.findings.begin(), report.findings.end(), is_doubtful),
+                        report.findings.end());
+}
+
 RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
-                            double correction, const HiddenPixels& hidden) {
+                            const RigEstimate& rig, const HiddenPixels& hidden) {
   RigReport report;
   RigEvidence& evidence = report.evidence;
-  evidence.epipolar_correction = correction;
+  evidence.epipolar_correction = rig.rows.largest();
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
   corner_matcher_.align(frame, edges, corner_matches_);
   report.matches = &corner_matches_;
@@ -232,13 +250,14 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   if (!is_frozen && left_edges > 0 && needs_search(evidence)) {
     // If the rig was right before, a third of the corners suffices to see that it still is.
     const bool is_right = searched_ && fits_ &&
-                          search_and_judge(corner_matcher_, rig_, frame, max_disparity, hidden, report,
+                          search_and_judge(corner_matcher_, rig_, frame, max_disparity, rig, hidden, report,
                                            kSparseCorners) >= kMinSparseMatches &&
                           report.findings.empty();
-    if (!is_right) search_and_judge(corner_matcher_, rig_, frame, max_disparity, hidden, report);
+    if (!is_right) search_and_judge(corner_matcher_, rig_, frame, max_disparity, rig, hidden, report);
     frames_since_search_ = 0;
     searched_ = evidence;
     fits_ = report.mismatch() == nullptr;
+    confirm_negative_disparities(report);
   }
   if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
   if (!is_interlaced_ && frames_++ % kCombPeriod == 0) is_interlaced_ = judge_rows(frame.left, report);
@@ -271,7 +290,7 @@ std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& cu
 
 RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
   RigReport report;
-  search_and_judge(CornerMatcher(rig), rig, frame, max_disparity, {}, report);
+  search_and_judge(CornerMatcher(rig), rig, frame, max_disparity, {}, {}, report);
   judge_rows(frame.left, report);
   return report;
 }

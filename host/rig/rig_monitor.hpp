@@ -10,6 +10,7 @@
 #include "common/frame_mask.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
+#include "quadedge/rig_estimate.hpp"
 #include "rig/corner_matching.hpp"
 #include "rig/rig_finding.hpp"
 #include "rig/static_region.hpp"
@@ -56,9 +57,9 @@ class RigMonitor {
   /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
   /// \param edges its stereo edges \param left_edges number of edges in its left image
   /// \param max_disparity up to which they were searched, in the middle of the left image [px]
-  /// \param correction see RigEvidence::epipolar_correction \param hidden what the masks of the frame hide
+  /// \param rig as far as it is known from earlier frames \param hidden what the masks of the frame hide
   RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
-                  double correction = 0, const HiddenPixels& hidden = {});
+                  const RigEstimate& rig = {}, const HiddenPixels& hidden = {});
 
   /// Adds the image motion of the frame passed to judge() since the last one; reports a camera that seems to lag.
   std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);
@@ -75,6 +76,8 @@ class RigMonitor {
   /// Reports images that are identical to the previous ones: of one camera, or of both.
   std::optional<RigFinding> find_repeated_images(const StereoFrame& frame);
   bool needs_search(const RigEvidence& evidence) const;
+  /// Drops negative disparities from the findings of a search unless they are more in the mean of several.
+  void confirm_negative_disparities(RigReport& report);
 
   const StereoRig& rig_;
   bool auto_mask_;
@@ -85,6 +88,8 @@ class RigMonitor {
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration
   int frames_since_search_ = 0, frames_ = 0;
+  int searches_ = 0;            ///< that found something
+  double negative_ratios_ = 0;  ///< sum over these
   bool is_interlaced_ = false;
   std::optional<std::uint64_t> last_left_, last_right_;  ///< fingerprints of the previous images
 };

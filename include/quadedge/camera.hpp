@@ -58,23 +58,6 @@ struct PixelMask {
   bool empty() const { return hidden.empty(); }
 };
 
-/// How the right camera differs from its calibration in ways that shift the columns of its image: turned about its own
-/// axes, and with another lens. doc/method.md section 7.
-struct RightCameraError {
-  double yaw = 0, pitch = 0;  ///< about its y and its x axis [rad]
-  /// Points lie farther from the axis by radial_3 r^3 + radial_5 r^5, r being the tangent of their angle from it.
-  double radial_3 = 0, radial_5 = 0;
-
-  bool is_zero() const { return yaw == 0 && pitch == 0 && radial_3 == 0 && radial_5 == 0; }
-  /// By how many pixels a point recorded at (x, y) lies farther right than the calibration says, beyond what it does at
-  /// the principal point. \tparam Camera with fx, fy, cx, cy [px]
-  template <class Camera>
-  double column(const Camera& right, double x, double y) const {
-    const double u = (x - right.cx) / right.fx, v = (y - right.cy) / right.fy, square = u * u + v * v;
-    return right.fx * u * (pitch * v - yaw * u + (radial_3 + radial_5 * square) * square);
-  }
-};
-
 /// Two cameras in a fixed relative pose. Image sizes may differ, and the images need not be rectified.
 struct StereoRig {
   PinholeCamera left, right;
@@ -83,8 +66,6 @@ struct StereoRig {
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   UndistortionTable left_undistortion, right_undistortion;  ///< empty if the recorded images are pinhole images
   PixelMask left_mask, right_mask;  ///< no edges within edges.margin of masked pixels; empty: none
-
-  RightCameraError right_error;  ///< that the columns of right edges are corrected by when their depth is measured
 
   int max_value = 255;  ///< largest pixel value of the recorded images, see ImageView
 

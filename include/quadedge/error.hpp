@@ -62,7 +62,6 @@ enum class WarningKind {
   large_disparity_offset,   ///< the disparities have a larger common offset than rectification leaves
   static_region,            ///< a part of the image does not move while the rest does, such as a vehicle's bonnet
   displaced_images,         ///< single right images are displaced along the epipolar lines
-  corrected_right_camera,   ///< rows and columns agree that the right camera is not as calibrated; it is corrected
   changed_rig,              ///< one of the cameras has turned since the recording began
 };
 /// The name of the enumerator.

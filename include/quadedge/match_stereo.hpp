@@ -29,8 +29,8 @@ struct EdgePoints {
 };
 
 /// Triangulates stereo edges (doc/method.md section 5). `rig`: the cameras in which the edges were found,
-/// StereoOdometry::rig(). `disparity_offset`: estimated rectification error, FrameResult::disparity_offset [px].
-EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, double disparity_offset = 0);
+/// StereoOdometry::rig(). `estimate`: what is known of the rig, FrameResult::rig.
+EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, const RigEstimate& estimate = {});
 
 /// Result of match_stereo().
 struct StereoMatches {

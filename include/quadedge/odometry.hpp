@@ -15,6 +15,7 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/rig_estimate.hpp"
 #include "quadedge/rig_evidence.hpp"
 #include "quadedge/trajectory.hpp"
 
@@ -98,11 +99,10 @@ struct FrameResult {
   /// Covariance of current_from_reference due to edge errors alone, in the order of PoseCovariance, as a left
   /// perturbation in the current left camera frame. Empty for a lost frame.
   std::optional<PoseCovariance> relative_covariance;
-  int reference_frame = 0;            ///< number of the frame that was the key rig; -1 before the first
-  bool new_key_rig = false;           ///< whether this frame becomes the key rig of the following frames
-  double disparity_offset = 0;        ///< estimated so far, added to every disparity [px]
-  double disparity_offset_sigma = 0;  ///< its standard deviation [px]
-  RightCameraError right_error;  ///< what rows and motions have shown of the right camera so far, beside the offset
+  int reference_frame = 0;   ///< number of the frame that was the key rig; -1 before the first
+  bool new_key_rig = false;  ///< whether this frame becomes the key rig of the following frames
+  /// With which the frame was measured; the disparity offset as estimated so far.
+  RigEstimate rig;
   /// Another motion explains nearly as much of the image, or what moves may be the scene: see `message`.
   bool ambiguous_motion = false;
   FrameCounts counts;
@@ -124,6 +124,7 @@ struct FrameDetails {
   StereoEdges previous_stereo, stereo;    ///< of the frame that this one was matched with, if any, and of this frame
   TemporalMatches quads;                  ///< indices into previous_stereo and stereo
   std::vector<std::uint8_t> quad_inlier;  ///< one per quad
+  RigEstimate previous_rig, rig;          ///< with which previous_stereo and stereo were measured
 };
 
 class Tap;
@@ -149,8 +150,9 @@ class StereoOdometry {
   /// DeviceError.
   FrameResult track(const StereoFrame& frame);
 
-  /// Forgets all earlier frames: the next one may have any stamp, and starts a new segment at the last pose, which is
-  /// no measurement. For clocks that were set, and recordings that were joined.
+  /// Forgets all earlier frames, masks and warnings: the next frame may have any stamp, and starts a new segment at the
+  /// last pose, which is no measurement. The rig's rows and disparity offset stay as learned. For clocks that were set,
+  /// and recordings that were joined.
   void restart();
 
   /// Details of the frame tracked last, read back from the device; empty before the first frame.

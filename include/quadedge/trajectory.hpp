@@ -52,7 +52,8 @@ using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 /// and residual lens distortion, per motion of the image [rad], which is path length x inverse depth + rotation:
 ///   5, 6, 7  a rotation about x, y, z [rad]
 ///   8, 9, 10 a translation along x, y, z, relative to the depth, per rotation only
-constexpr int kRigErrors = 11;
+/// and, last, what was not known of the disparity offset when the motion was measured, in its standard deviations then.
+constexpr int kRigErrors = 12;
 
 /// Derivative of the error of a pose in a fixed frame, in the order and about the axes of PoseCovariance, with respect
 /// to each of these errors.

@@ -51,8 +51,6 @@ class Odometry {
   MappedResult track(const StereoFrame& frame) {
     const std::lock_guard<std::mutex> alone(in_use_);
     MappedResult result{running().odometry.track(frame), std::nullopt};
-    disparity_offset_ = result.disparity_offset;
-    rig_.right_error = result.right_error;
     if (std::optional<Map>& map = running().map) {
       map->add(result);
       result.map_from_odometry = map->map_from_odometry();
@@ -82,15 +80,16 @@ class Odometry {
   }
   StereoEdgesInSpace edges() {
     const std::lock_guard<std::mutex> alone(in_use_);
-    return in_space(running().odometry.details().stereo);
+    FrameDetails found = running().odometry.details();
+    return in_space(std::move(found.stereo), found.rig);
   }
   Details details() {
     const std::lock_guard<std::mutex> alone(in_use_);
     FrameDetails found = running().odometry.details();
     return {std::move(found.left_edges),
             std::move(found.right_edges),
-            in_space(std::move(found.stereo)),
-            in_space(std::move(found.previous_stereo)),
+            in_space(std::move(found.stereo), found.rig),
+            in_space(std::move(found.previous_stereo), found.previous_rig),
             {std::move(found.quads), std::move(found.quad_inlier)}};
   }
   void close() {
@@ -131,8 +130,8 @@ class Odometry {
     running().map->finish();
     return *running().map;
   }
-  StereoEdgesInSpace in_space(StereoEdges edges) const {
-    EdgePoints points = edge_points(edges, rig_, disparity_offset_);
+  StereoEdgesInSpace in_space(StereoEdges edges, const RigEstimate& estimate) const {
+    EdgePoints points = edge_points(edges, rig_, estimate);
     return {std::move(edges), std::move(points)};
   }
 
@@ -140,7 +139,6 @@ class Odometry {
   std::unique_ptr<Running> running_;
   Config config_;
   StereoRig rig_;
-  double disparity_offset_ = 0;
   std::mutex in_use_;
 };
 
@@ -184,7 +182,7 @@ void bind_warning(nb::module_& module) {
           "kind", [](const Self& self) { return to_string(self.kind); },
           "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
           "negative_disparities, unsynchronised_cameras, unknown_motion, repeated_images,\n"
-          "large_disparity_offset, static_region, displaced_images, corrected_right_camera or changed_rig.")
+          "large_disparity_offset, static_region, displaced_images or changed_rig.")
       .def_ro("text", &Self::text, "The warning in one sentence.")
       .def("__str__", [](const Self& self) { return self.text; })
       .def("__repr__", [](const Self& self) {
@@ -227,7 +225,7 @@ void bind_diagnostics(nb::module_& module) {
       .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
       .def_prop_ro(
           "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
-          "(6, 11) float64: derivative of the pose in the frame of the key rig with respect to the calibration errors\n"
+          "(6, 12) float64: derivative of the pose in the frame of the key rig with respect to the calibration errors\n"
           "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
   def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,
                "(6, 6) float64: covariance, in the convention of ROS's PoseWithCovariance (x, y, z [m], then rotation\n"
@@ -290,8 +288,16 @@ void bind_result(nb::module_& module) {
       .def_ro("reference_frame", &Self::reference_frame,
               "Number of the key rig's frame, counted from 0; -1 before the first one.")
       .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")
-      .def_ro("disparity_offset", &Self::disparity_offset, "Offset estimated so far and added to every disparity [px].")
-      .def_ro("disparity_offset_sigma", &Self::disparity_offset_sigma, "Its standard deviation [px].")
+      .def_prop_ro(
+          "disparity_offset", [](const Self& self) { return self.rig.disparity_offset; },
+          "Offset of all disparities estimated so far, which is added to them [px].")
+      .def_prop_ro(
+          "disparity_offset_sigma", [](const Self& self) { return self.rig.disparity_offset_sigma; },
+          "Its standard deviation [px].")
+      .def_prop_ro(
+          "displacement", [](const Self& self) { return self.rig.displacement; },
+          "By how much the right image of this frame alone is displaced along the epipolar lines, so that its\n"
+          "disparities are larger [px]; 0 for most frames.")
       .def_ro("ambiguous_motion", &Self::ambiguous_motion,
               "True if a second motion explains nearly as much of the image as the estimated one.")
       .def_ro("counts", &Self::counts, "Numbers of edges and quads, a FrameCounts.")

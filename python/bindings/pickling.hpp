@@ -71,11 +71,20 @@ auto members(Self& self, const FrameDiagnostics&) {
                   self.moving_ratio, self.rig_evidence, self.covariance_in_reference, self.rig_sensitivity);
 }
 template <class Self>
+auto members(Self& self, const RectificationError&) {
+  return std::tie(self.offset, self.slope_x, self.slope_y, self.bend_xx, self.bend_xy, self.bend_yy);
+}
+template <class Self>
+auto members(Self& self, const RigEstimate&) {
+  return std::tie(self.rows, self.disparity_offset, self.disparity_offset_sigma, self.disparity_offset_shared,
+                  self.displacement, self.displacement_sigma);
+}
+template <class Self>
 auto members(Self& self, const FrameResult&) {
   return std::tie(self.stamp_ns, self.status, self.segment, self.world_from_left, self.predicted_world_from_left,
                   self.covariance, self.current_from_reference, self.relative_covariance, self.reference_frame,
-                  self.new_key_rig, self.disparity_offset, self.disparity_offset_sigma, self.ambiguous_motion,
-                  self.counts, self.message, self.warnings, self.timing, self.diagnostics);
+                  self.new_key_rig, self.rig, self.ambiguous_motion, self.counts, self.message, self.warnings,
+                  self.timing, self.diagnostics);
 }
 
 template <class T>

@@ -82,10 +82,7 @@ void bind_search(nb::module_& module) {
 
 }  // namespace
 
-void PythonTap::watch(const StereoRig& rig) {
-  rig_ = rig;
-  rig_.right_error = {};
-}
+void PythonTap::watch(const StereoRig& rig) { rig_ = rig; }
 void PythonTap::edges(const EdgeSet& left, const EdgeSet& right) { call(*this, "edges", left, right); }
 void PythonTap::stereo_filter(StereoFilter filter, const CandidateLists& candidates) {
   call(*this, "stereo_filter", filter, candidates);

@@ -164,8 +164,7 @@ REPORT = {
     "device?": dict.fromkeys(("name", "platform", "opencl", "driver"), str),
     "memory_mb?": {"host_peak": (int, float), "device_peak": (int, float)},
     "rig?": {"rows": MAPS, "columns": MAPS, "row_correction_px": NUMBER, "width": int, "height": int,
-             "disparity_offset": {"start": OFFSET, "end": OFFSET},
-             "right_camera?": dict.fromkeys(("yaw_deg", "pitch_deg", "radial_3", "radial_5"), NUMBER)},
+             "disparity_offset": {"start": OFFSET, "end": OFFSET}},
     "stages_ms?": STAGES, "kernels_ms?": STAGES, "config?": dict, "config_changed?": dict,
     "accuracy?": ACCURACY | {"segments?": [ACCURACY | {"segment": int}], "truth_file?": str,
                              "normalised_error_squared?": NORMALISED | {"poses": int}, "consistency?": [LENGTHS]}}

@@ -54,21 +54,10 @@ def columns_text(rig: dict) -> str:
     start, end = (f"{round(value['px'], 2) + 0.0:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
     text = (f"Columns: a common offset of all disparities is estimated, {start} at the start, {end} at the end. "
-            f"{right_camera_text(rig.get('right_camera', {}))}The maps show measured minus predicted disparity at new "
-            "key rigs; the prediction uses the points of the previous key rig and the estimated motion. Errors of the "
-            "calibration that both key rigs share cancel, so only those that depend on depth or image position show.")
+            "The maps show measured minus predicted disparity at new key rigs; the prediction uses the points of the "
+            "previous key rig and the estimated motion. Errors of the calibration that both key rigs share cancel, so "
+            "only those that depend on depth or image position show.")
     return text + (" No errors above the noise level." if is_noise(rig["columns"]["after"]) else "")
-
-
-def right_camera_text(error: dict) -> str:
-    """By what the columns are corrected, if rows and motions agree that the right camera is not as calibrated."""
-    if not any(error.values()):
-        return ""
-    return ("Vertical residuals and motions agree that the right camera is turned by "
-            f"{error['yaw_deg']:+.3f} degrees of yaw and {error['pitch_deg']:+.3f} of pitch "
-            "against its calibration, and its lens moves points outwards by "
-            f"{1e3 * error['radial_3']:+.1f} r^3 {1e3 * error['radial_5']:+.1f} r^5 thousandths of the focal length "
-            "more (r: tangent of the angle from the axis); disparities are corrected by this. ")
 
 
 def rig_figures(run: Run) -> list[Figure]:

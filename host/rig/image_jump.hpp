@@ -3,13 +3,15 @@
 /// swing against one another, or by a line that is read late. doc/method.md section 7.
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "common/robust_fit.hpp"
 #include "pose/quads.hpp"
 #include "quadedge/edges.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::rig {
 
 /// By how much all disparities have grown beyond what a motion of the camera explains, and how certain that is [px].
 struct ImageJump {
@@ -18,6 +20,12 @@ struct ImageJump {
 
   /// Whether the shift reaches `least` and is neither noise nor an average of different shifts.
   bool is_certain(double least) const;
+};
+
+/// When an image counts as displaced.
+struct DisplacementLimits {
+  double least = std::numeric_limits<double>::infinity();  ///< displacement [px]; infinity: never
+  double gain = 1;  ///< ratio of the image's area that is explained with it to that without
 };
 
 /// Compares the disparities of matched edges with those that a motion predicts, up to small errors of the motion, which
@@ -29,16 +37,11 @@ class JumpMeter {
                                    const TemporalMatches& matches, const Eigen::Isometry3d& now_from_before);
 
  private:
-  /// A disparity less the predicted one [px], and its change by the shift, by a turn of the camera about x and about y,
-  /// and by a step along z.
-  struct Row {
-    double difference;
-    Eigen::Vector4d terms;
-  };
-  double median_distance(const Eigen::Vector4d& values);
-
-  std::vector<Row> rows_;  ///< both kept for their memory
-  std::vector<double> scratch_;
+  /// Disparities less the predicted ones [px], by the shift, by a turn of the camera about x and about y, and by a step
+  /// along z.
+  using Fit = RobustFit<4>;
+  std::vector<Fit::Row> rows_;  ///< kept for its memory, as is the fit
+  Fit fit_;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig

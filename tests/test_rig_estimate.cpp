@@ -1,0 +1,250 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/corrected_rig.hpp"
+#include "common/numeric.hpp"
+#include "frontends.hpp"
+#include "generated_quads.hpp"
+#include "odometry/latest_frame.hpp"
+#include "odometry/motion_search.hpp"
+#include "pose/oriented_point.hpp"
+#include "quadedge/localiser.hpp"
+#include "quadedge/map.hpp"
+#include "quadedge/match_stereo.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/point_cloud.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+/// Frames of the room, rendered once.
+const RenderedScene& room() {
+  static const RenderedScene scene("room", 240, 150, 8);
+  return scene;
+}
+
+/// The image as a camera sees it that is displaced: contents lie farther left by some columns.
+Image displaced(const Image& from, int columns) {
+  Image to = from;
+  for (int y = 0; y < from.height; ++y)
+    for (int x = 0; x < from.width; ++x)
+      to.set(x, y, from.pixels[static_cast<std::size_t>(y * from.width + std::clamp(x + columns, 0, from.width - 1))]);
+  return to;
+}
+
+StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
+  frame.stamp_ns = stamp_ns;
+  return frame;
+}
+
+double median_depth(const Eigen::Matrix3Xd& points) {
+  std::vector<double> depths;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points(2, i) > 0) depths.push_back(points(2, i));
+  return upper_median(depths);
+}
+
+/// Points of the frame tracked last, as they are written.
+double median_depth(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+  PointCloudOptions options;
+  options.min_views = 1;
+  PointCloud cloud(odometry.config(), options);
+  REQUIRE(cloud.add(frame, result, odometry));
+  std::vector<double> depths;
+  for (const CloudPoint& point : cloud.points())
+    depths.push_back((result.world_from_left->inverse() * point.position).z());
+  return upper_median(depths);
+}
+
+}  // namespace
+
+TEST_CASE("rig estimate: the corrected rig reconstructs points nearer by what is added to disparities", "[rig]") {
+  RigEstimate estimate;
+  estimate.disparity_offset = 0.5;
+  estimate.displacement = 0.3;
+  CHECK(estimate.added_disparity() == Approx(0.2));
+  for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
+    const pose::OrientedPoint point{{0.1, -0.05, 6}, Eigen::Vector3d(0.5, 0.8, 0.2).normalized()};
+    const auto seen = generated::observe(rig, point);
+    const auto before = pose::measure(rig, seen, 0.05), after = pose::measure(corrected_rig(rig, estimate), seen, 0.05);
+    REQUIRE((before && after));
+    CHECK(after->inverse_depth - before->inverse_depth == Approx(0.2 * before->inverse_depth_per_pixel).epsilon(0.02));
+  }
+}
+
+TEST_CASE("rig estimate: a known offset holds for the first frame and for the first after a restart", "[rig][device]") {
+  // A calibration whose right principal point is 0.8 px off, which is known.
+  StereoRig off = room().rig;
+  off.right.cx += 0.8;
+  Config known = room().config;
+  known.pose.disparity_offset = -0.8;
+  known.pose.disparity_offset_sigma = 0;
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry right(room().rig, device, room().config), odometry(off, device, known);
+  const double truth = median_depth(room().frame(0), right.track(room().frame(0)), right);
+  for (int part = 0; part < 2; ++part) {
+    const FrameResult first = odometry.track(at(0, room().frame(0)));
+    REQUIRE(first.status == FrameStatus::first);
+    CHECK(first.rig.disparity_offset == -0.8);
+    CHECK(median_depth(room().frame(0), first, odometry) == Approx(truth).epsilon(1e-3));
+    const FrameDetails details = odometry.details();
+    CHECK(median_depth(edge_points(details.stereo, odometry.rig(), details.rig).position) ==
+          Approx(median_depth(edge_points(right.stereo_edges(), right.rig()).position)).epsilon(1e-3));
+    CHECK(odometry.track(at(1, room().frame(1))).status == FrameStatus::tracked);
+    odometry.restart();
+  }
+}
+
+TEST_CASE("rig estimate: the points and the kept edges of a displaced key rig are those of its rig", "[rig][device]") {
+  Config config = room().config;
+  config.odometry.key_rig = false;  // every frame becomes one
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, config), sound(room().rig, device, config);
+  Map map(odometry);
+  FrameResult result, undisturbed;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Image right = displaced(room().right[i], i == 3 ? 3 : 0);
+    result = odometry.track({room().frame(i).stamp_ns, room().left[i].view(), right.view()});
+    undisturbed = sound.track(room().frame(i));
+    map.add(result);
+  }
+  REQUIRE(result.new_key_rig);
+  CHECK(result.rig.displacement == Approx(3).margin(0.3));
+  CHECK(result.rig.displacement_sigma > 0);
+  const double truth = median_depth(edge_points(sound.stereo_edges(), sound.rig(), undisturbed.rig).position);
+  const FrameDetails details = odometry.details();
+  CHECK(details.rig.displacement == result.rig.displacement);
+  CHECK(details.previous_rig.displacement == 0);
+  CHECK(median_depth(edge_points(details.stereo, odometry.rig(), details.rig).position) == Approx(truth).epsilon(0.02));
+  CHECK(std::abs(median_depth(edge_points(details.stereo, odometry.rig()).position) / truth - 1) > 0.05);
+  const double seen = median_depth(room().frame(3), undisturbed, sound);
+  CHECK(median_depth({0, room().left[3].view(), room().right[3].view()}, result, odometry) ==
+        Approx(seen).epsilon(0.02));
+  // What a map keeps of it.
+  const auto latest = odometry::LatestFrame::of(odometry);
+  const frontend::KeptFrameEdges kept = latest.frontend.keep();
+  CHECK(kept.rig.displacement == result.rig.displacement);
+  CHECK(latest.frontend.restore(kept)->rig().displacement == result.rig.displacement);
+}
+
+TEST_CASE("rig estimate: a saved map of displaced key rigs locates images that are not displaced", "[rig][device]") {
+  Config config = room().config;
+  config.odometry.key_rig = false;
+  config.map.min_gap = 1;
+  config.pose.disparity_offset_sigma = 0;
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, config);
+  Map map(odometry);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Image right = displaced(room().right[i], i == 0 ? 0 : 3);
+    const FrameResult result = odometry.track({room().frame(i).stamp_ns, room().left[i].view(), right.view()});
+    CHECK((result.rig.displacement != 0) == (i > 0));
+    map.add(result);
+  }
+  Localiser localiser(map.saved(), room().rig, device, config);
+  for (const std::size_t i : {3, 5, 7}) {
+    const Localisation found = localiser.locate(room().frame(i));
+    REQUIRE(found.map_from_left);
+    const Eigen::Isometry3d truth = room().world_from_left[0].inverse() * room().world_from_left[i];
+    CHECK((found.map_from_left->translation() - truth.translation()).norm() < 0.03);
+  }
+}
+
+TEST_CASE("rig estimate: a search is a function, whatever it finds of the rig", "[rig][odometry][device]") {
+  Device device(all_devices().front(), kept_programs());
+  const auto frontend = frontend::make_frontend(room().rig, device, room().config);
+  odometry::MotionSearch search(room().config, *frontend, room().rig);
+  odometry::MotionQuery query;
+  query.base = frontend->process(room().frame(0));
+  const Image right = displaced(room().right[1], 3);
+  query.current = frontend->process({1, room().left[1].view(), right.view()});
+  query.prediction = room().world_from_left[1].inverse() * room().world_from_left[0];
+  query.displacement = {0.6, 3};
+  query.rig.disparity_offset_sigma = 0.3;
+  const auto once = search.find(query);
+  REQUIRE(once->ok());
+  CHECK(once->rig.displacement == Approx(3).margin(0.3));
+  CHECK(query.current->rig().displacement == 0);  // nobody has adopted it
+  const auto twice = search.find(query);
+  CHECK(twice->rig.displacement == once->rig.displacement);
+  CHECK(twice->motion.current_from_previous.matrix() == once->motion.current_from_previous.matrix());
+  CHECK(twice->motion.learned.offset == once->motion.learned.offset);
+  CHECK(twice->motion.learned.covariance == once->motion.learned.covariance);
+  CHECK(twice->motion.inlier == once->motion.inlier);
+  // The same question about a rig that is known to be rigid has another answer.
+  query.displacement = {};
+  CHECK(search.find(query)->rig.displacement == 0);
+}
+
+TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig][odometry][device]") {
+  Config config = room().config;
+  config.pose.disparity_offset_sigma = 0;  // the offset learned is the rig's, and stays
+  Device device(all_devices().front(), kept_programs());
+  struct Ending {
+    const char* name;
+    std::vector<std::pair<Image, Image>> frames;
+    bool (*is_reached)(const FrameResult&);
+  };
+  const auto shown = [](std::size_t i) { return i % 14 < 8 ? i % 14 : 14 - i % 14; };  // to and fro
+  std::vector<Ending> endings(3);
+  endings[0] = {"displaced", {}, [](const FrameResult& result) { return result.rig.displacement != 0; }};
+  for (std::size_t i = 0; i < 5; ++i)
+    endings[0].frames.emplace_back(room().left[i], displaced(room().right[i], i == 4 ? 3 : 0));
+  // The right half of both images moves on its own.
+  endings[1] = {"ambiguous", {}, [](const FrameResult& result) { return result.ambiguous_motion; }};
+  for (std::size_t i = 0; i < 7; ++i) {
+    Image left = room().left[i], right = room().right[i];
+    for (int y = 0; y < left.height; ++y) {
+      for (int x = left.width / 2; x < left.width; ++x) {
+        const auto pixel = static_cast<std::size_t>(y * left.width + x);
+        left.pixels[pixel] = room().left[7 - i].pixels[pixel];
+        right.pixels[pixel] = room().right[7 - i].pixels[pixel];
+      }
+    }
+    endings[1].frames.emplace_back(left, right);
+  }
+  // Near dirt on the lens, until it is masked.
+  endings[2] = {"masked", {}, [](const FrameResult& result) {
+                  return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Warning& warning) {
+                    return warning.text.find("masked") != std::string::npos;
+                  });
+                }};
+  for (std::size_t i = 0; i < 24; ++i) {
+    Image left = room().left[shown(i)], right = room().right[shown(i)];
+    for (int y = 40; y < 110; ++y) {
+      for (int x = 60; x < 150; ++x) {
+        const auto grey = static_cast<std::uint8_t>(40 + 150 * ((x * 7919 + y * 104729) / 97 % 2));
+        left.set(x, y, grey);
+        right.set(x - 40, y, grey);
+      }
+    }
+    endings[2].frames.emplace_back(left, right);
+  }
+  for (const Ending& ending : endings) {
+    INFO(ending.name);
+    StereoOdometry fresh(room().rig, device, config), restarted(room().rig, device, config);
+    bool is_reached = false;
+    for (std::size_t i = 0; i < ending.frames.size(); ++i) {
+      const auto& [left, right] = ending.frames[i];
+      const FrameResult result = restarted.track({static_cast<std::int64_t>(i), left.view(), right.view()});
+      is_reached = is_reached || ending.is_reached(result);
+    }
+    REQUIRE(is_reached);
+    restarted.restart();
+    for (std::size_t i = 0; i < 8; ++i) {
+      CAPTURE(i);
+      const auto expected = fresh.track(at(static_cast<std::int64_t>(i), room().frame(i))),
+                 result = restarted.track(at(static_cast<std::int64_t>(i), room().frame(i)));
+      CHECK(result.status == expected.status);
+      CHECK(result.current_from_reference->matrix() == expected.current_from_reference->matrix());
+      CHECK(result.relative_covariance == expected.relative_covariance);
+      CHECK(result.counts.inliers == expected.counts.inliers);
+      CHECK(result.ambiguous_motion == expected.ambiguous_motion);
+      CHECK(result.rig.displacement == 0);
+      CHECK(result.warnings.size() == expected.warnings.size());
+    }
+  }
+}
