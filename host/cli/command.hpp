@@ -75,6 +75,7 @@ std::unique_ptr<Command> make_demo_command();
 std::unique_ptr<Command> make_edges_command();
 std::unique_ptr<Command> make_match_command();
 std::unique_ptr<Command> make_check_command();
+std::unique_ptr<Command> make_calibrate_command();
 std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_report_command();
 std::unique_ptr<Command> make_bench_command();

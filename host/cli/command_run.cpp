@@ -1,6 +1,7 @@
 /// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/rig_learning.hpp"
 #include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
 #include "quadedge/error.hpp"
@@ -38,6 +39,10 @@ class RunCommand : public Command {
     options.output("--rig-file", run_.rig_file,
                    "rows and disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the "
                    "end");
+    options.flag(
+        "--calibrate", calibrates_,
+        "learn the calibration from the start of the recording, as `quadedge calibrate` does, and track all of "
+        "it with the better of the given and the learned one");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.points.declare(options);
@@ -59,9 +64,14 @@ class RunCommand : public Command {
     Dataset dataset = source_.open(dataset_);
     if (run_.profile && dataset.format == "pipe")
       throw UsageError("--profile reads the recording twice, which a pipe does not allow");
+    if (calibrates_ && dataset.format == "pipe")
+      throw UsageError(
+          "--calibrate reads the recording twice, which a pipe does not allow; `quadedge calibrate -` "
+          "learns from a pipe as it passes, for --calibration");
     if (!name_.empty()) dataset.name = name_;
     if (run_.output.empty()) run_.output = report::default_output_folder(dataset.name);
     const Interruption interruption;
+    if (calibrates_) calibrate(dataset, interruption);
     FrameSource source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());
     if (run_.draw_every == 0 && run_.thumbnails == 0) {
@@ -74,7 +84,17 @@ class RunCommand : public Command {
   }
 
  private:
+  /// Tracks with the better calibration, and says so.
+  void calibrate(Dataset& dataset, const Interruption& interruption) {
+    constexpr int kEnoughPairs = 100;
+    run_.learned = learn_rig(dataset, {0, kEnoughPairs}, run_.quiet, interruption);
+    if (run_.learned->verdict == CalibrationVerdict::better)
+      source_.replace_calibration(dataset, run_.learned->calibration);
+    note(run_.learned->text());
+  }
+
   std::string frames_, name_;
+  bool calibrates_ = false;
   SourceOptions source_;
   DatasetOptions dataset_;
   SequenceRunOptions run_;

@@ -39,11 +39,11 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is a write that fails, like a full disk
   try {
     std::vector<std::unique_ptr<cli::Command>> commands;
-    for (const auto make :
-         {cli::make_run_command, cli::make_localise_command, cli::make_demo_command, cli::make_batch_command,
-          cli::make_report_command, cli::make_edges_command, cli::make_match_command,
-          cli::make_evaluate_trajectory_command, cli::make_bench_command, cli::make_compare_command,
-          cli::make_synth_command, cli::make_check_command, cli::make_devices_command, cli::make_variants_command})
+    for (const auto make : {cli::make_run_command, cli::make_localise_command, cli::make_demo_command,
+                            cli::make_batch_command, cli::make_report_command, cli::make_edges_command,
+                            cli::make_match_command, cli::make_evaluate_trajectory_command, cli::make_bench_command,
+                            cli::make_compare_command, cli::make_synth_command, cli::make_check_command,
+                            cli::make_calibrate_command, cli::make_devices_command, cli::make_variants_command})
       commands.push_back(make());
     const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
     if (parsed.command == nullptr) return parsed.exit_code;

@@ -18,6 +18,7 @@
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "reference/images.hpp"
+#include "report/calibration_report.hpp"
 #include "report/config_toml.hpp"
 #include "report/drawing.hpp"
 #include "report/json.hpp"
@@ -139,6 +140,11 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     note("warning: rendered frames are not cached: " + source.rendered()->cache_error());
   end_if_interrupted(interruption, source);  // OUT has no results yet, so the next start needs no --force
   data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
+  if (options.learned) {
+    write_calibration(options.output + "/rig.yaml", options.learned->calibration);
+    data::write_atomically(options.output + "/rig.json", report::calibration_json(*options.learned, run.command));
+    report::draw_displacements(options.output + "/pictures/rig.png", *options.learned);
+  }
   report::GrowingFiles files(options.output);
   const auto start = Clock::now();
   Progress progress(options.quiet, "frames");

@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
 #include "cli/points_output.hpp"
 #include "cli/processes.hpp"
+#include "quadedge/drive_calibration.hpp"
 #include "quadedge/error.hpp"
 #include "report/run_record.hpp"
 
@@ -28,7 +30,8 @@ struct SequenceRunOptions {
   std::string saved_map;  ///< file for the places of the recording, which need `loops`; empty: none
   bool loops = false;     ///< recognise places, and write the corrected trajectory and the closures
   std::string rig_file;   ///< what is learned of the rig: read if it exists, written at the end; empty: none
-  int thumbnails = 0;     ///< number of quad thumbnails, spread evenly over the frames after the first
+  std::optional<DriveCalibration> learned;  ///< what the rig was learned to be, if it was; written beside the results
+  int thumbnails = 0;  ///< number of quad thumbnails, spread evenly over the frames after the first
 };
 
 /// Tracks all frames, writing every finished one at once, then the accuracy, the pictures and the report. After a

@@ -122,6 +122,15 @@ Dataset SourceOptions::open_own_camera(const DatasetOptions& options) const {
   return dataset;
 }
 
+void SourceOptions::replace_calibration(Dataset& dataset, const StereoCalibration& calibration) const {
+  StereoRig rig = make_rig(calibration, own_.fov);
+  rig.max_value = dataset.rig.max_value;
+  rig.max_disparity = dataset.rig.max_disparity;
+  if (!own_.mask.empty()) mask_rig(rig, own_.mask);
+  dataset.rig = std::move(rig);
+  dataset.calibration = calibration;
+}
+
 void SourceOptions::refuse_all() const {
   layout({});
   if (has_camera_options()) throw UsageError("--calibration, --fov and --mask are not used for single image files");

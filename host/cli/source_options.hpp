@@ -61,6 +61,8 @@ class SourceOptions {
   /// Opens what is given. `options`: format, sequence and range of frames; only the range applies to own cameras.
   /// \throws UsageError where nothing or too much is given, and as open_dataset() and open_stereo_source() do.
   Dataset open(const DatasetOptions& options = {}) const;
+  /// Takes another calibration for a dataset that was opened, with the same field of view and masks.
+  void replace_calibration(Dataset& dataset, const StereoCalibration& calibration) const;
   /// Opens what is given and reads one pair. \throws UsageError for a number that it does not have.
   PairOfSource pair(int number) const;
 

@@ -234,7 +234,7 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
                                   *position};
     return outcome;
   };
-  auto corners = find_corners(views.left);
+  auto corners = find_corners(views.left, kCell);
   corners.erase(std::remove_if(corners.begin(), corners.end(),
                                [&](const Eigen::Vector2i& corner) {
                                  const Eigen::Vector2d at = views.in_left(corner.cast<double>());

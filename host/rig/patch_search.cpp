@@ -79,7 +79,7 @@ void measure_patches(GreyPlane& plane) {
   }
 }
 
-std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane) {
+std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane, int cell) {
   const int width = plane.width, height = plane.height;
   std::vector<double> xx(plane.grey.size(), 0.0), xy = xx, yy = xx;
   for (int y = 1; y + 1 < height; ++y) {
@@ -98,12 +98,12 @@ std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane) {
   yy = box_sums(yy, width, height, kCornerHalf);
   constexpr double kLimit = kMinCorner * (2 * kCornerHalf + 1) * (2 * kCornerHalf + 1);
   std::vector<Eigen::Vector2i> corners;
-  for (int top = kPatchHalf; top < height - kPatchHalf; top += kCell) {
-    for (int left = kPatchHalf; left < width - kPatchHalf; left += kCell) {
+  for (int top = kPatchHalf; top < height - kPatchHalf; top += cell) {
+    for (int left = kPatchHalf; left < width - kPatchHalf; left += cell) {
       double strongest = kLimit;
       Eigen::Vector2i position(-1, -1);
-      for (int y = top; y < std::min(top + kCell, height - kPatchHalf); ++y) {
-        for (int x = left; x < std::min(left + kCell, width - kPatchHalf); ++x) {
+      for (int y = top; y < std::min(top + cell, height - kPatchHalf); ++y) {
+        for (int x = left; x < std::min(left + cell, width - kPatchHalf); ++x) {
           const auto i = plane.index(x, y);
           const double half = 0.5 * (xx[i] + yy[i]);
           const double smaller = half - std::sqrt(std::max(0.0, half * half - (xx[i] * yy[i] - xy[i] * xy[i])));

@@ -41,8 +41,9 @@ GreyPlane sample_plane(int width, int height, const Value& value) {
   return plane;
 }
 
-/// The strongest corner of every image cell that has one (Shi and Tomasi, Good features to track, 1994).
-std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane);
+/// The strongest corner of every image cell of `cell` x `cell` px that has one (Shi and Tomasi, Good features to track,
+/// 1994).
+std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane, int cell);
 
 /// Extent of the search to both sides [px].
 struct SearchBox {

@@ -7,6 +7,9 @@
 namespace quadedge::rig {
 namespace {
 
+/// What mends what a finding doubts.
+constexpr const char* kMends = " `quadedge calibrate` learns the calibration from a drive";
+
 std::string number(double value, int decimals) { return printed("%.*f", decimals, value); }
 
 std::string percent(double ratio) { return number(100 * ratio, 0) + " %"; }
@@ -107,7 +110,8 @@ Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
     case RigFindingKind::frozen_camera: return {WarningKind::doubtful_calibration, frozen(finding.camera)};
     case RigFindingKind::off_lines:
       return {WarningKind::doubtful_calibration, "the calibration is doubtful: " + matched(finding.evidence) +
-                                                     seen_across(finding.fit) + "; " + cause_across(finding.fit)};
+                                                     seen_across(finding.fit) + "; " + cause_across(finding.fit) +
+                                                     kMends};
     case RigFindingKind::beyond_range:
       return {WarningKind::small_disparity_range,
               percent(finding.evidence.beyond_ratio) + " of the corners exceed the maximum disparity, " +
@@ -131,7 +135,8 @@ Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
           WarningKind::large_disparity_offset,
           "all disparities seem to be off by " + number(finding.disparity_offset, 1) +
               " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
-              "wrong?"};
+              "wrong?" +
+              kMends};
     case RigFindingKind::interlaced: return {WarningKind::unsynchronised_cameras, interlaced(finding.combed_ratio)};
     case RigFindingKind::static_region:
     case RigFindingKind::masked_region: return {WarningKind::static_region, static_text(finding)};

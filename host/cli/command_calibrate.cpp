@@ -1,0 +1,70 @@
+/// \file command_calibrate.cpp  quadedge calibrate: the calibration of a rig, learned from a recording with it.
+#include <cstdio>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/rig_learning.hpp"
+#include "cli/source_options.hpp"
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
+#include "report/calibration_report.hpp"
+#include "report/output_folder.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+class CalibrateCommand : public Command {
+ public:
+  CalibrateCommand()
+      : Command("calibrate", "learn the calibration of a stereo rig from a recording of a moving camera",
+                "  quadedge calibrate kitti/sequences/06 -o rig.yaml\n"
+                "  quadedge calibrate --left left --right right --calibration camchain.yaml --fps 20 -o rig.yaml") {}
+  void declare(Options& options) override {
+    source_.declare_path(options, "folder of a recorded sequence");
+    options.output("-o,--output", output_,
+                   "file for the better of the given and the learned calibration, in the program's own format, for "
+                   "--calibration");
+    options.output("--picture", picture_, "draw by how much pixels of both images are displaced (PNG)");
+    options.output("--json", json_, "write judgement, numbers and covariance");
+    auto formats = dataset_formats();
+    formats.insert(formats.begin(), "auto");
+    options.choice("--format", dataset_.format, formats, "dataset layout; auto: recognised");
+    options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
+    options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
+    options.number("--most-frames", limits_.frames, "frames to learn from; of longer recordings, evenly spread ones");
+    options.flag("--force", force_, "replace the files");
+    options.flag("--quiet", quiet_, "hide progress and the table; the judgement remains");
+    source_.declare(options);
+    source_.declare_restarts(options);
+  }
+  int run() override {
+    if (limits_.frames < 2)
+      throw UsageError("--most-frames " + std::to_string(limits_.frames) + ": expected 2 or more");
+    set_frames(dataset_, frames_);
+    for (const std::string& file : {output_, picture_, json_}) report::check_output_file(file, force_);
+    const Dataset dataset = source_.open(dataset_);
+    const Interruption interruption;
+    const DriveCalibration result = learn_rig(dataset, limits_, quiet_, interruption);
+    if (!output_.empty()) write_calibration(output_, result.calibration);
+    if (!picture_.empty()) report::draw_displacements(picture_, result);
+    if (!json_.empty()) data::write_atomically(json_, report::calibration_json(result, command_line()));
+    if (!quiet_) std::printf("%s\n", report::calibration_table(result).c_str());
+    std::printf("%s\n", result.text().c_str());
+    if (!output_.empty() && result.verdict != CalibrationVerdict::better)
+      std::printf("%s holds the given calibration\n", output_.c_str());
+    return 0;
+  }
+
+ private:
+  std::string output_, picture_, json_, frames_;
+  SourceOptions source_;
+  DatasetOptions dataset_;
+  LearningLimits limits_;
+  bool force_ = false, quiet_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_calibrate_command() { return std::make_unique<CalibrateCommand>(); }
+
+}  // namespace quadedge::cli

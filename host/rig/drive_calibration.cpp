@@ -1,0 +1,195 @@
+#include "quadedge/drive_calibration.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "common/calibration.hpp"
+#include "common/lens_mapping.hpp"
+#include "quadedge/error.hpp"
+#include "rig/pair_adjustment.hpp"
+#include "rig/pair_collection.hpp"
+#include "rig/rig_change.hpp"
+#include "rig/rig_unknowns.hpp"
+
+namespace quadedge {
+namespace {
+
+using Pairs = std::vector<const rig::FramePair*>;
+
+// A learned calibration is better if the recording contradicts the given one by more than this (sound rigs: up to 7;
+// KITTI's: 200 to 7,000), and distances in frames that were not learned from fall below this part in both cameras.
+constexpr double kMinContradiction = 15, kMaxUnseenRatio = 0.98;
+constexpr std::size_t kFewestPairs = 10;
+constexpr int kFewestPoints = 500;
+
+/// Whether a pixel of a recorded image is masked in the pinhole image.
+bool is_masked(const LensMapping& lens, const PinholeCamera& camera, const PixelMask& mask, const Eigen::Vector2d& at) {
+  if (mask.empty()) return false;
+  const auto ray = lens.ray(at);
+  if (!ray || !(ray->z() > 0)) return true;
+  const Eigen::Vector2d pinhole = camera.project(*ray).array().round();
+  if (pinhole.x() < 0 || pinhole.y() < 0 || pinhole.x() > mask.width - 1 || pinhole.y() > mask.height - 1) return false;
+  return mask.hidden[static_cast<std::size_t>(pinhole.y()) * static_cast<std::size_t>(mask.width) +
+                     static_cast<std::size_t>(pinhole.x())] != 0;
+}
+
+}  // namespace
+
+class DriveCalibrator::Implementation {
+ public:
+  Implementation(const StereoCalibration& given, const StereoRig& rig, int most_pairs)
+      : given_(given),
+        unknowns_(given),
+        lenses_{LensMapping(given.left), LensMapping(given.right)},
+        cameras_{rig.left, rig.right},
+        masks_{rig.left_mask, rig.right_mask},
+        most_pairs_(static_cast<std::size_t>(most_pairs)),
+        collector_(unknowns_, rig.disparity_range(), [this](Side side, const Eigen::Vector2d& at) {
+          const int s = index_of(side);
+          return is_masked(lenses_[s], cameras_[s], masks_[s], at);
+        }) {}
+
+  void see(const StereoFrame& frame) {
+    check(frame.left, given_.left.camera, "left");
+    check(frame.right, given_.right.camera, "right");
+    auto pair = collector_.see(frame, frames_++);
+    if (!pair || found_++ % every_ != 0) return;
+    pairs_.push_back(std::move(*pair));
+    if (pairs_.size() < 2 * most_pairs_) return;
+    for (std::size_t i = 0; i < most_pairs_; ++i) pairs_[i] = std::move(pairs_[2 * i]);
+    pairs_.resize(most_pairs_);
+    every_ *= 2;
+  }
+  void restart() { collector_.restart(); }
+  int pairs() const { return static_cast<int>(pairs_.size()); }
+  DriveCalibration finish() const;
+
+ private:
+  void judge_unseen(DriveCalibration& result) const;
+  void learn(DriveCalibration& result) const;
+  static void check(const ImageView& image, const PinholeCamera& camera, const char* side) {
+    if (image.width == camera.width && image.height == camera.height) return;
+    throw DataError("found a " + std::string(side) + " image of " + std::to_string(image.width) + " x " +
+                    std::to_string(image.height) + " pixels, expected " + std::to_string(camera.width) + " x " +
+                    std::to_string(camera.height) + " as the calibration says");
+  }
+  std::array<double, 2> unseen(const Pairs& pairs, const Eigen::VectorXd& values) const {
+    rig::PairAdjustment adjustment(unknowns_, pairs);
+    adjustment.fit(values);
+    return adjustment.residuals();
+  }
+
+  StereoCalibration given_;
+  rig::RigUnknowns unknowns_;
+  LensMapping lenses_[2];
+  PinholeCamera cameras_[2];
+  PixelMask masks_[2];
+  std::size_t most_pairs_;
+  rig::PairCollector collector_;
+  std::vector<rig::FramePair> pairs_;
+  int frames_ = 0;
+  std::size_t found_ = 0, every_ = 1;
+};
+
+/// Learns from the first and the third of four stretches and judges by the others, then the other way round.
+void DriveCalibrator::Implementation::judge_unseen(DriveCalibration& result) const {
+  Pairs halves[2];
+  for (std::size_t i = 0; i < pairs_.size(); ++i) halves[4 * i / pairs_.size() % 2].push_back(&pairs_[i]);
+  for (int half = 0; half < 2; ++half) {
+    const Eigen::VectorXd values = rig::PairAdjustment(unknowns_, halves[half]).learn();
+    const auto given = unseen(halves[1 - half], Eigen::VectorXd::Zero(unknowns_.count())),
+               learned = unseen(halves[1 - half], values);
+    for (std::size_t side = 0; side < 2; ++side) {
+      result.unseen_given[side] += given[side] / 2;
+      result.unseen_learned[side] += learned[side] / 2;
+    }
+  }
+}
+
+void DriveCalibrator::Implementation::learn(DriveCalibration& result) const {
+  Pairs all;
+  for (const rig::FramePair& pair : pairs_) all.push_back(&pair);
+  rig::PairAdjustment adjustment(unknowns_, all);
+  const Eigen::VectorXd values = adjustment.learn();
+  Eigen::MatrixXd information = adjustment.evidence().information;
+  result.points = adjustment.points();
+  result.contradiction = values.dot(information * values);
+  information.diagonal() += unknowns_.priors().cwiseAbs2().cwiseInverse();
+  result.covariance = information.inverse();
+  for (int i = 0; i < unknowns_.count(); ++i)
+    result.numbers.push_back(
+        {unknowns_[i].name, unknowns_[i].unit, values[i], std::sqrt(result.covariance(i, i)), unknowns_[i].prior});
+  result.learned = unknowns_.at(values);
+  result.learned.right_from_left = rounded_transform(result.learned.right_from_left);
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> seen;
+  for (const rig::FramePair& pair : pairs_)
+    for (const rig::SeenPoint& point : pair.points)
+      seen.emplace_back(point.at[rig::kLeftFirst], point.at[rig::kRightFirst]);
+  result.change = rig::change_of(given_, result.learned, seen);
+}
+
+DriveCalibration DriveCalibrator::Implementation::finish() const {
+  DriveCalibration result;
+  result.given = result.calibration = result.learned = given_;
+  result.frames = frames_;
+  result.pairs = pairs();
+  if (pairs_.size() < kFewestPairs) return result;
+  judge_unseen(result);
+  learn(result);
+  const bool falls = std::equal(result.unseen_learned.begin(), result.unseen_learned.end(), result.unseen_given.begin(),
+                                [](double learned, double given) { return learned < kMaxUnseenRatio * given; });
+  if (falls && result.contradiction > kMinContradiction) {
+    result.verdict = CalibrationVerdict::better;
+    result.calibration = result.learned;
+  } else if (result.points >= kFewestPoints) {
+    result.verdict = CalibrationVerdict::as_good;
+  }
+  return result;
+}
+
+DriveCalibrator::DriveCalibrator(const StereoCalibration& given, const StereoRig& rig, int most_pairs)
+    : implementation_(std::make_unique<Implementation>(given, rig, most_pairs)) {}
+DriveCalibrator::~DriveCalibrator() = default;
+DriveCalibrator::DriveCalibrator(DriveCalibrator&&) noexcept = default;
+void DriveCalibrator::see(const StereoFrame& frame) { implementation_->see(frame); }
+void DriveCalibrator::restart() { implementation_->restart(); }
+int DriveCalibrator::pairs() const { return implementation_->pairs(); }
+DriveCalibration DriveCalibrator::finish() const { return implementation_->finish(); }
+
+std::string DriveCalibration::text() const {
+  char facts[240] = "";
+  if (!numbers.empty())
+    std::snprintf(facts, sizeof facts,
+                  "points of frames that were not learned from lie %.3f px (left) and %.3f px (right) from where the "
+                  "given calibration predicts them, %.3f and %.3f px from where the learned one does",
+                  unseen_given[0], unseen_given[1], unseen_learned[0], unseen_learned[1]);
+  const std::string learned_from = std::to_string(pairs) + " pairs of " + std::to_string(frames) + " frames";
+  std::string open;
+  for (const LearnedNumber& number : numbers)
+    if (number.is_open()) open += (open.empty() ? "" : "; ") + number.name;
+  if (!open.empty()) open = "; as uncertain as before: " + open;
+  switch (verdict) {
+    case CalibrationVerdict::better:
+      return "the calibration is off; learned a better one from " + learned_from + ": " + facts + open;
+    case CalibrationVerdict::as_good:
+      return "the calibration is as good as given, by " + learned_from + ": " + facts + open;
+    case CalibrationVerdict::cannot_show: break;
+  }
+  return "this recording cannot show it (" + learned_from + " show a motion, at least " + std::to_string(kFewestPairs) +
+         " are needed): drive past near and far things, turn both ways" + open;
+}
+
+const char* to_string(CalibrationVerdict verdict) {
+  switch (verdict) {
+    case CalibrationVerdict::better: return "better";
+    case CalibrationVerdict::as_good: return "as_good";
+    case CalibrationVerdict::cannot_show: return "cannot_show";
+  }
+  return "";
+}
+
+}  // namespace quadedge

@@ -1,0 +1,101 @@
+#pragma once
+/// \file pair_adjustment.hpp  Pairs of stereo frames and what they tell of the rig: motions, points and the numbers of
+/// the calibration by robust least squares, of which motions and points are eliminated.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "rig/rig_unknowns.hpp"
+
+namespace quadedge::rig {
+
+/// The views of a point: of the left and the right camera, in the first and in the second frame of a pair.
+enum View { kLeftFirst, kRightFirst, kLeftSecond, kRightSecond, kViews };
+
+/// A corner where the recorded images of a pair show it [px].
+struct SeenPoint {
+  std::array<Eigen::Vector2d, kViews> at;
+  std::array<bool, kViews> is_seen{};
+};
+
+/// Two stereo frames of a recording with a moving camera.
+struct FramePair {
+  int first = 0, second = 0;                                            ///< numbers of the frames
+  Eigen::Isometry3d second_from_first = Eigen::Isometry3d::Identity();  ///< of the left camera, as far as known
+  std::vector<SeenPoint> points;
+};
+
+/// Points of a pair and their motion, in terms of one calibration.
+class PairAdjustment {
+ public:
+  /// The sum of what all pairs tell of the calibration.
+  struct Evidence {
+    Eigen::MatrixXd information;  ///< of the unknowns, motions and points eliminated; no priors
+    Eigen::VectorXd slope;        ///< half the derivative of the cost
+  };
+
+  /// \param unknowns, pairs must outlive the object
+  PairAdjustment(const RigUnknowns& unknowns, const std::vector<const FramePair*>& pairs);
+
+  /// Learns the unknowns, or with `fixed` values only motions and points. \returns the values
+  Eigen::VectorXd learn();
+  void fit(const Eigen::VectorXd& fixed);
+  /// The motion of the only pair by the given calibration, from a start that may be far off; points() then agree.
+  Eigen::Isometry3d find_motion();
+
+  /// Of the last learn(): what the pairs alone tell, at the values.
+  const Evidence& evidence() const { return evidence_; }
+  /// Median distances of the points from where they are seen, of the left and the right camera [px]; of all points
+  /// within a limit, so that two calibrations are compared by the same ones.
+  std::array<double, 2> residuals() const;
+  /// A residual of a view, for reports.
+  struct Residual {
+    View view;
+    Eigen::Vector2d at, error;  ///< px
+    double inverse_depth;       ///< 1/m
+  };
+  std::vector<Residual> all_residuals() const;
+  int points() const;  ///< that take part
+  /// The motion of a pair.
+  const Eigen::Isometry3d& motion(std::size_t pair) const { return pairs_[pair].motion; }
+
+ private:
+  struct Point {
+    bool is_valid = false;               ///< whether the lens shows it
+    Eigen::Vector3d ray;                 ///< of the left camera in the first frame, unit length
+    Eigen::Matrix<double, 3, 2> beside;  ///< its tangents
+    double inverse_depth = 0;            ///< 1/m
+    bool is_alive = false;               ///< whether it takes part
+  };
+  struct Pair {
+    const FramePair* seen = nullptr;
+    Eigen::Isometry3d motion;
+    std::vector<Point> points;
+  };
+  struct Cameras;
+  struct Terms;
+  struct Step;
+
+  void start(const Eigen::VectorXd& values);
+  void settle_points(const Eigen::VectorXd& values, int rounds);
+  void cull(const Eigen::VectorXd& values, double limit);
+  void optimise(Eigen::VectorXd& values, bool learns, const std::vector<std::pair<int, double>>& culls);
+  std::vector<Pair> stepped(const Eigen::VectorXd& values, bool learns, double damping, Eigen::VectorXd& change,
+                            Evidence& evidence) const;
+  double cost(const std::vector<Pair>& pairs, const Eigen::VectorXd& values) const;
+
+  const RigUnknowns& unknowns_;
+  std::vector<Pair> pairs_;
+  Eigen::VectorXd values_;
+  Evidence evidence_;
+  double scale_;  ///< distance from which views count less [px]
+};
+
+/// Estimates the motion of a pair by its points and the given calibration; starts from that of the pair.
+/// \returns the part of the points that agree with it
+double find_motion(const RigUnknowns& unknowns, FramePair& pair);
+
+}  // namespace quadedge::rig

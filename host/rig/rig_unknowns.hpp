@@ -1,0 +1,66 @@
+#pragma once
+/// \file rig_unknowns.hpp  A calibration as a few numbers that may be wrong, and how wrong they usually are.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "quadedge/calibration.hpp"
+
+namespace quadedge::rig {
+
+/// The numbers of a calibration that a drive can tell: two lenses, their focal lengths and principal points, the
+/// rotation of the right camera and the direction of the baseline. The length of the baseline stays as given.
+class RigUnknowns {
+ public:
+  /// One number; 0 is the given calibration.
+  struct Unknown {
+    std::string name;  ///< for users and files
+    std::string unit;
+    double prior = 0;  ///< standard deviation of what calibrations leave
+  };
+  /// Derivative of a pixel by all unknowns.
+  using PixelByUnknowns = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 32>;
+
+  /// \param focal_prior standard deviation of the common focal length, relative
+  explicit RigUnknowns(StereoCalibration given, double focal_prior = kFocalPrior);
+
+  static constexpr double kFocalPrior = 1.0 / 985;
+
+  int count() const { return static_cast<int>(unknowns_.size()); }
+  const Unknown& operator[](int i) const { return unknowns_[static_cast<std::size_t>(i)]; }
+  const StereoCalibration& given() const { return given_; }
+  Eigen::VectorXd priors() const;
+  StereoCalibration at(const Eigen::VectorXd& values) const;
+
+  /// A number of one camera, and how it depends on the unknowns. Focal lengths are relative.
+  enum CameraNumber { kFocalX, kFocalY, kCentreX, kCentreY, kFirstLensParameter };
+  /// Rows: CameraNumber, then the lens parameters in lens_parameters().
+  const Eigen::MatrixXd& by_unknowns(Side side) const { return by_unknowns_[index_of(side)]; }
+  /// Indices of the parameters of the lens that are unknown.
+  const std::vector<int>& lens_parameters(Side side) const { return lens_parameters_[index_of(side)]; }
+  int first_rotation() const { return first_rotation_; }  ///< of three unknowns, then two of the baseline's direction
+  /// Axes of the right camera that the three rotations turn it about, in columns.
+  const Eigen::Matrix3d& rotation_axes() const { return rotation_axes_; }
+  /// Derivative of the baseline's vector by its two directions, at given values.
+  Eigen::Matrix<double, 3, 2> baseline_slope(const Eigen::VectorXd& values) const;
+
+ private:
+  int add(std::string name, std::string unit, double prior);
+  void add_cameras();
+  void add_lens(Side side);
+  void add_pose();
+  Eigen::Vector3d moved_baseline(const Eigen::VectorXd& values) const;
+
+  StereoCalibration given_;
+  double focal_prior_;
+  std::vector<Unknown> unknowns_;
+  Eigen::MatrixXd by_unknowns_[2];
+  std::vector<int> lens_parameters_[2];
+  Eigen::Matrix3d rotation_axes_;
+  Eigen::Matrix<double, 3, 2> baseline_axes_;
+  int first_rotation_ = 0;
+  bool is_horizontal_ = true;  ///< whether the baseline lies along the rows
+};
+
+}  // namespace quadedge::rig

@@ -1,0 +1,242 @@
+/// \file test_drive_calibration.cpp  A rig learned from a drive: from made-up points with every lens model, from
+/// rendered frames, and by the commands.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "common/calibration.hpp"
+#include "common/lens_mapping.hpp"
+#include "matching.hpp"
+#include "program.hpp"
+#include "quadedge/drive_calibration.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/synthetic.hpp"
+#include "rig/corner_flow.hpp"
+#include "rig/pair_adjustment.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+namespace {
+
+StereoCalibration made_up_rig(LensModel model, const std::vector<double>& parameters, double focal = 450) {
+  StereoCalibration rig;
+  rig.left.model = rig.right.model = model;
+  rig.left.camera = rig.right.camera = {focal, focal, 320, 200, 640, 400};
+  rig.left.parameters = rig.right.parameters = parameters;
+  rig.right_from_left.linear() = rotation_by({0.002, -0.01, 0.004});
+  rig.right_from_left.translation() = Eigen::Vector3d(-0.2, 0.002, 0.001);
+  return rig;
+}
+
+/// Pairs of frames of a camera that drives and turns past points at 1 to 40 m, seen with a little noise.
+std::vector<rig::FramePair> made_up_pairs(const StereoCalibration& rig, int count, double noise) {
+  matching::Random random(7);
+  const LensMapping lenses[] = {LensMapping(rig.left), LensMapping(rig.right)};
+  std::vector<rig::FramePair> pairs;
+  for (int p = 0; p < count; ++p) {
+    rig::FramePair pair{p, p + 1, Eigen::Isometry3d::Identity(), {}};
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    motion.linear() = rotation_by({random(-0.02, 0.02), random(-0.06, 0.06), random(-0.02, 0.02)});
+    motion.translation() = Eigen::Vector3d(random(-0.1, 0.1), random(-0.05, 0.05), random(-0.5, -0.3));
+    pair.second_from_first.translation() = motion.translation();  // as far as known
+    while (pair.points.size() < 120) {
+      const auto ray = lenses[0].ray({random(5, 635), random(5, 395)});
+      if (!ray || !(ray->z() > 0.05)) continue;
+      const Eigen::Vector3d first = *ray / random(0.025, 1), second = motion * first;
+      const Eigen::Vector3d places[] = {first, rig.right_from_left * first, second, rig.right_from_left * second};
+      rig::SeenPoint point;
+      for (std::size_t view = 0; view < rig::kViews; ++view) {
+        const auto seen = lenses[view % 2].project(places[view]);
+        point.is_seen[view] = seen && seen->minCoeff() > 0 && seen->x() < 639 && seen->y() < 399;
+        point.at[view] =
+            seen.value_or(Eigen::Vector2d::Zero()) + Eigen::Vector2d(random(-noise, noise), random(-noise, noise));
+      }
+      if (point.is_seen[0] && point.is_seen[1] && point.is_seen[2]) pair.points.push_back(point);
+    }
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+std::vector<const rig::FramePair*> pointers_to(const std::vector<rig::FramePair>& pairs) {
+  std::vector<const rig::FramePair*> all;
+  for (const auto& pair : pairs) all.push_back(&pair);
+  return all;
+}
+
+/// The largest displacement() over the middle of both images.
+double largest_displacement(const StereoCalibration& one, const StereoCalibration& other) {
+  double largest = 0;
+  for (const Side side : kSides)
+    for (int y = 50; y <= 350; y += 50)
+      for (int x = 50; x <= 590; x += 60)
+        largest = std::max(largest, displacement(one, other, side, Eigen::Vector2d(x, y)).norm());
+  return largest;
+}
+
+/// The room from every fifth place of the path, small.
+const std::vector<StereoPair>& room_frames() {
+  static const std::vector<StereoPair> frames = [] {
+    SyntheticOptions options;
+    options.width = 400;
+    options.height = 208;
+    options.focal = 230;
+    options.supersampling = 2;
+    options.frames = 64;
+    const SyntheticSequence sequence(options);
+    std::vector<StereoPair> rendered;
+    for (int i = 0; i < options.frames; i += 5) rendered.push_back(sequence.pair(i));
+    return rendered;
+  }();
+  return frames;
+}
+
+StereoCalibration room_calibration() {
+  SyntheticOptions options;
+  options.width = 400;
+  options.height = 208;
+  options.focal = 230;
+  options.frames = 1;
+  return SyntheticSequence(options).calibration();
+}
+
+DriveCalibration learned_in_room(const StereoCalibration& given) {
+  DriveCalibrator calibrator(given, make_rig(given));
+  for (const StereoPair& pair : room_frames()) calibrator.see(pair.view());
+  return calibrator.finish();
+}
+
+}  // namespace
+
+TEST_CASE("drive calibration: every lens model learns what is wrong with it", "[rig]") {
+  const auto [model, sound, change] = GENERATE(table<LensModel, std::vector<double>, std::vector<double>>({
+      {LensModel::radial_tangential, {}, {0.02, 0, 0, 0, 0}},
+      {LensModel::radial_tangential, {-0.28, 0.07, 0.0002, 0.0001}, {0.01, 0, 0.0003, 0, 0}},
+      {LensModel::radial_tangential, {0.5, 0.1, 0, 0, 0.01, 0.8, 0.2, 0.01}, {0.01, 0, 0, 0, 0, 0, 0, 0}},
+      {LensModel::equidistant, {-0.01, 0.02, -0.01, 0.003}, {0.01, 0, 0, 0}},
+      {LensModel::field_of_view, {0.9}, {0.01}},
+      {LensModel::double_sphere, {-0.2, 0.55}, {0, 0.01}},
+      {LensModel::extended_unified, {0.6, 1.1}, {0.01, 0}},
+      {LensModel::omnidirectional, {0.8, -0.1, 0.02, 0, 0}, {0, 0.05, 0, 0, 0}},
+  }));
+  INFO(to_string(model) << " with " << sound.size() << " parameters");
+  const StereoCalibration truth = made_up_rig(model, sound);
+  StereoCalibration given = truth;
+  given.right.parameters = change;
+  for (std::size_t k = 0; k < sound.size(); ++k) given.right.parameters[k] += sound[k];
+  given.right_from_left.linear() = rotation_by({0.001, 0.002, -0.0005}) * truth.right_from_left.linear();
+  const auto pairs = made_up_pairs(truth, 16, 0.05);
+  const rig::RigUnknowns unknowns(given);
+  rig::PairAdjustment adjustment(unknowns, pointers_to(pairs));
+  const Eigen::VectorXd values = adjustment.learn();
+  const double before = largest_displacement(truth, given), after = largest_displacement(truth, unknowns.at(values));
+  CHECK(before > 0.8);
+  CHECK(after < 0.25 * before);
+  CHECK(values.dot(adjustment.evidence().information * values) > 15);
+  // What is right already stays.
+  const rig::RigUnknowns right(truth);
+  rig::PairAdjustment nothing(right, pointers_to(pairs));
+  const Eigen::VectorXd none = nothing.learn();
+  CHECK(none.dot(nothing.evidence().information * none) < 1);
+}
+
+TEST_CASE("drive calibration: the motion of a pair is found from far away", "[rig]") {
+  const StereoCalibration truth = made_up_rig(LensModel::radial_tangential, {});
+  const rig::RigUnknowns unknowns(truth);
+  auto pairs = made_up_pairs(truth, 1, 0.05);
+  const Eigen::Vector3d true_translation = pairs[0].second_from_first.translation();
+  pairs[0].second_from_first.setIdentity();
+  CHECK(rig::find_motion(unknowns, pairs[0]) > 0.99);
+  CHECK((pairs[0].second_from_first.translation() - true_translation).norm() < 0.01);
+}
+
+TEST_CASE("corner flow: a shifted image is found to a few hundredths of a pixel", "[rig]") {
+  Image from(200, 160), to(200, 160);
+  const double shift_x = 7.3, shift_y = -2.6;
+  const auto grey = [](double x, double y) {
+    return static_cast<int>(std::lround(128 + 50 * std::sin(0.31 * x + 0.1 * y) + 40 * std::sin(0.27 * y - 0.05 * x) +
+                                        25 * std::sin(0.11 * x * 0.9 + 0.13 * y)));
+  };
+  for (int y = 0; y < 160; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      from.set(x, y, grey(x, y));
+      to.set(x, y, grey(x - shift_x, y - shift_y) / 2 + 40);  // and half the contrast
+    }
+  }
+  const rig::FlowImage one(from.view()), other(to.view());
+  int found = 0;
+  for (const Eigen::Vector2d& corner : rig::flow_corners(from.view(), 40)) {
+    const bool is_inside = corner.x() > 45 && corner.y() > 45 && corner.x() < 155 && corner.y() < 115;
+    const auto match = rig::follow(one, other, corner, corner);
+    if (!match || !is_inside) continue;  // brightness is compared within the image
+    ++found;
+    CHECK((match->at - corner - Eigen::Vector2d(shift_x, shift_y)).norm() < 0.06);
+  }
+  CHECK(found > 4);
+}
+
+TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a sound one stays", "[rig]") {
+  const StereoCalibration truth = room_calibration();
+  const DriveCalibration sound = learned_in_room(truth);
+  CHECK(sound.verdict == CalibrationVerdict::as_good);
+  CHECK(sound.contradiction < 1);
+  CHECK(sound.calibration.right_from_left.matrix() == truth.right_from_left.matrix());
+  CHECK(sound.calibration.left.parameters == truth.left.parameters);
+  CHECK_THAT(sound.text(), Contains("as good as given"));
+
+  StereoCalibration wrong = truth;
+  wrong.right_from_left.linear() = rotation_by(Eigen::Vector3d(0.1, 0.2, 0.05) * kDegree);
+  wrong.right.camera.cy += 0.5;
+  wrong.right.parameters = {0.01, 0, 0, 0};
+  const DriveCalibration mended = learned_in_room(wrong);
+  CHECK(mended.verdict == CalibrationVerdict::better);
+  CHECK(mended.unseen_learned[0] < 0.7 * mended.unseen_given[0]);
+  CHECK(mended.unseen_learned[1] < 0.7 * mended.unseen_given[1]);
+  CHECK(rounded_rotation(mended.calibration.right_from_left).cwiseAbs().maxCoeff() < 0.06 * kDegree + 0.5 / 230);
+  REQUIRE(mended.change.depths.size() == 5);
+  CHECK(mended.change.depths[4].error > 0.1);  // 0.2 degrees of yaw are 0.8 px: half the disparity at 50 m and more
+  CHECK(mended.change.sampson_learned < 0.6 * mended.change.sampson_given);
+  CHECK_THAT(mended.text(), Contains("the calibration is off"));
+  // The same frames give the same bytes.
+  const DriveCalibration again = learned_in_room(wrong);
+  CHECK(again.covariance == mended.covariance);
+  CHECK(again.learned.right_from_left.matrix() == mended.learned.right_from_left.matrix());
+  CHECK(again.text() == mended.text());
+}
+
+TEST_CASE("drive calibration: a camera that stands shows nothing, and says what to do", "[rig]") {
+  const StereoCalibration truth = room_calibration();
+  DriveCalibrator calibrator(truth, make_rig(truth));
+  for (int i = 0; i < 20; ++i) calibrator.see(room_frames()[0].view());
+  const DriveCalibration result = calibrator.finish();
+  CHECK(result.verdict == CalibrationVerdict::cannot_show);
+  CHECK(result.pairs == 0);
+  CHECK_THAT(result.text(), Contains("drive past near and far things, turn both ways"));
+  const Image small(100, 80);
+  CHECK_THROWS_AS(calibrator.see({0, small.view(), small.view()}), DataError);
+}
+
+TEST_CASE("calibrate: files, judgement and errors", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string rig = folder / "rig.yaml";
+  const auto short_one = run_program({"calibrate", small_sequence(), "-o", rig, "--json", folder / "rig.json"});
+  CHECK(short_one.code == 0);
+  CHECK_THAT(short_one.out, Contains("this recording cannot show it") && Contains("holds the given calibration"));
+  CHECK_THAT(read_text(folder / "rig.json"), Contains("\"verdict\": \"cannot_show\""));
+  REQUIRE(run_program({"check", small_sequence(), "--quiet", "--write-calibration", folder / "given.yaml"}).code == 0);
+  CHECK(read_text(rig) == read_text(folder / "given.yaml"));
+  CHECK(run_program({"calibrate", small_sequence(), "-o", rig}).code == 2);  // --force
+  CHECK(run_program({"calibrate", small_sequence(), "-o", rig, "--force", "--quiet"}).code == 0);
+  CHECK(run_program({"calibrate"}).code == 2);
+  CHECK(run_program({"calibrate", folder / "absent"}).code == 3);
+  CHECK(run_program({"calibrate", small_sequence(), "--most-frames", "1"}).code == 2);
+}
+
+TEST_CASE("run: --calibrate says what it learned and leaves it beside the results", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto run = run_program({"run", small_sequence(), "-o", folder / "out", "--calibrate", "--quiet"});
+  CHECK(run.code == 0);
+  CHECK_THAT(run.err, Contains("this recording cannot show it"));
+  CHECK_THAT(read_text(folder / "out/rig.json"), Contains("cannot_show"));
+  CHECK_THAT(read_text(folder / "out/rig.yaml"), Contains("left_model: radtan"));
+}
