@@ -10,6 +10,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "rig/corner_matching.hpp"
+#include "rig/image_delay.hpp"
 #include "rig/rig_finding.hpp"
 #include "rig/static_region.hpp"
 
@@ -74,16 +75,21 @@ class RigMonitor {
   /// Reports images that are identical to the previous ones: of one camera, or of both.
   std::optional<RigFinding> find_repeated_images(const StereoFrame& frame);
   bool needs_search(const RigEvidence& evidence) const;
+  bool doubts_partners(const RigReport& report) const;
+  void judge_delay(const StereoFrame& frame, double max_disparity, RigReport& report);
 
   const StereoRig& rig_;
   bool auto_mask_;
   CornerMatcher corner_matcher_;
   Synchronisation synchronisation_;
   StaticRegionDetector static_region_;
+  ImageDelayFinder delays_;
+  DelayVotes delay_votes_;
+  std::optional<RigFinding> held_;           ///< distances from the lines, until neighbours in time were looked at
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration
-  int frames_since_search_ = 0, frames_ = 0;
+  int frames_since_search_ = 0, frames_since_delays_ = 0, frames_ = 0;
   bool is_interlaced_ = false;
   std::optional<std::uint64_t> last_left_, last_right_;  ///< fingerprints of the previous images
 };

@@ -64,6 +64,7 @@ enum class WarningKind {
   displaced_images,         ///< single right images are displaced along the epipolar lines
   corrected_right_camera,   ///< rows and columns agree that the right camera is not as calibrated; it is corrected
   changed_rig,              ///< one of the cameras has turned since the recording began
+  poor_images,              ///< saturated, unequally exposed or strongly compressed images
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);
