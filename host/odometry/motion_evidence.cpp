@@ -45,6 +45,10 @@ void MotionEvidence::measure_area(const EdgePositions& predicted, MotionStep& st
   step.verdict.inliers = step.motion.inliers;
   step.verdict.followed = step.cells.count(true);
   const MovingCells moving = find_moving_cells(step.cells);
+  step.verdict.moving_cells = moving.count;
+  if (moving.count > 0)
+    step.verdict.moving_box.emplace() << moving.largest.min().x(), moving.largest.min().y(), moving.largest.max().x(),
+        moving.largest.max().y();
   const double all = step.verdict.followed + step.cells.count(false);
   if (moving.spread > kSurroundingSpread * step.cells.spread()) step.verdict.around_ratio = moving.count / all;
 }

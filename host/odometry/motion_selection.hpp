@@ -54,7 +54,9 @@ struct Verdict {
   double still_ratio = 0;   ///< fraction of the quads that are static as the motion would have them
   double around_ratio = 0;  ///< fraction of the image cells that move, beyond noise, if they lie on all sides; else 0
   int inliers = 0;
-  int followed = 0;  ///< number of image cells that follow the motion
+  int followed = 0;                                ///< number of image cells that follow the motion
+  int moving_cells = 0;                            ///< number of those that move, beyond noise
+  std::optional<Eigen::Vector4d> moving_box = {};  ///< of the largest group of these: left, top, right, bottom [px]
 
   bool has_all_inliers = true;  ///< false: confirmed with close agreement, which uses fewer quads than there are
   bool agrees_globally = true;  ///< with the global matches, if there are any

@@ -371,6 +371,8 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
   if (!result.right_error.is_zero()) preparation_.warn(right_camera_warning(result.right_error, rig_.right));
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
+  result.diagnostics.moving_cells = step.verdict.moving_cells;
+  result.diagnostics.moving_box = step.verdict.moving_box;
   if (const double jump = offset_.jump(current_->frame); jump != 0) {
     const std::string text = printed("the right image is displaced by %+.1f px", jump);
     add_message(text, result);

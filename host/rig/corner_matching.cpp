@@ -122,7 +122,6 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
   const double reach = (kAlignedHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
   const Eigen::Vector2d start = position;
   Alignment sums;
-  double brightness = 1;
   for (int step = 0; step < kAlignmentSteps; ++step) {
     if (!right.holds(position, reach) || (position - start).norm() > kMaxShift) return std::nullopt;
     const Samples found = cut(right, position, steps);
@@ -130,7 +129,6 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
     const Level found_level = level_of(found);
     if (!(wanted_level.norm > 0 && found_level.norm > 0)) return std::nullopt;
     sums = compare(wanted, wanted_level, found, found_level);
-    brightness = static_cast<double>(found_level.mean / std::max(wanted_level.mean, 1.0F));
     const double determinant = sums.normal.determinant(), trace = sums.normal.trace();
     if (!(determinant > kMinRoundness * trace * trace)) return std::nullopt;  // an edge, not a corner
     const Eigen::Vector2d move = steps * sums.normal.inverse() * sums.right_side;
@@ -151,8 +149,7 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
                      epipolar->normal,
                      epipolar->inverse_depth(along, t_),
                      -1,
-                     position,
-                     brightness};
+                     position};
 }
 
 void CornerMatcher::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& matches) const {
@@ -200,6 +197,26 @@ CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, 
           })};
 }
 
+namespace {
+
+/// Light of the pixels of a plane that are not black, as those outside the image are.
+struct Light {
+  double mean = 0, saturated = 0;
+};
+
+Light light_of(const GreyPlane& plane) {
+  double sum = 0, saturated = 0, count = 0;
+  for (std::size_t i = 0; i < plane.mean.size(); ++i) {
+    if (!(plane.grey[i] > 0)) continue;
+    count += 1;
+    sum += static_cast<double>(plane.grey[i]);
+    saturated += plane.grey[i] >= kSaturated ? 1 : 0;
+  }
+  return {sum / std::max(1.0, count), saturated / std::max(1.0, count)};
+}
+
+}  // namespace
+
 CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn,
                                    std::size_t every) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
@@ -208,6 +225,9 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
   const double scale = views.scale;
   CornerSearch result;
   result.max_disparity = max_disparity;
+  const Light light_left = light_of(views.left), light_right = light_of(views.right);
+  result.brightness = light_right.mean / std::max(1.0, light_left.mean);
+  result.more_saturated = std::abs(light_right.saturated - light_left.saturated);
   const double along = std::min(0.5 * rig_.left.width, std::max(kSearchAlong * rig_.left.width, 1.25 * max_disparity)),
                across = kSearchAcross * rig_.left.height;
   const auto seek = [&](const Eigen::Vector2i& corner) {

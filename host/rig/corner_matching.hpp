@@ -26,7 +26,6 @@ struct CornerMatch {
   double inverse_depth = 0;                           ///< in the left camera, by `along` [1/m]
   int edge = -1;                                      ///< index of the stereo edge, if it is one
   Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< where it was found [px]
-  double brightness = 1;  ///< mean grey level of the patch in the right image over that in the left one
 };
 
 /// Transformations of the right image relative to the calibration that a search can assume.
@@ -37,6 +36,8 @@ struct CornerSearch {
   int searched = 0;                ///< corners searched for
   std::vector<CornerMatch> found;  ///< found in the right image and, from there, again in the left one
   int saturated = 0;               ///< further corners, beside saturated pixels, which are none of the scene's
+  double brightness = 1;           ///< mean grey level of the right view over that of the left one
+  double more_saturated = 0;       ///< difference between the fractions of saturated pixels of the views
   int negative = 0;                ///< matches whose right patch is the negative of the left one
   double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
 };

@@ -12,8 +12,8 @@ struct OnLines {
   int searched = 0, aligned = 0, on_line = 0;
 
   /// Whether the images are of one moment, as far as their corners say.
-  bool fits() const {
-    return aligned >= kMinMatches && on_line > kFittingOnLine * aligned && on_line > kFittingFound * searched;
+  bool fits(double least = kFittingOnLine) const {
+    return aligned >= kMinMatches && on_line > least * aligned && on_line > kFittingFound * searched;
   }
   double ratio() const { return searched > 0 ? static_cast<double>(on_line) / searched : 0; }
 };
@@ -31,7 +31,7 @@ OnLines count(const CornerMatcher& matcher, const StereoFrame& frame, double max
 
 /// The delay, if its corners are clearly more often on their lines than those of the images as paired.
 std::optional<ImageDelay> judged(int delay, const OnLines& there, const OnLines& here) {
-  if (!there.fits() || here.on_line > kLeftLines * there.on_line) return std::nullopt;
+  if (!there.fits(kPartnerOnLine) || here.on_line > kLeftLines * there.on_line) return std::nullopt;
   return ImageDelay{delay, there.ratio(), here.ratio()};
 }
 
@@ -64,7 +64,9 @@ std::optional<ImageDelay> ImageDelayFinder::measure(const CornerMatcher& matcher
                                                     double max_disparity, int delay) const {
   const auto pair = delayed(frame, delay);
   if (!pair) return std::nullopt;
-  return judged(delay, count(matcher, *pair, max_disparity), count(matcher, frame, max_disparity));
+  const OnLines here = count(matcher, frame, max_disparity), there = count(matcher, *pair, max_disparity);
+  if (here.fits() && here.on_line > kLeftLines * there.on_line) return std::nullopt;
+  return ImageDelay{delay, there.ratio(), here.ratio()};
 }
 
 std::optional<StereoFrame> ImageDelayFinder::delayed(const StereoFrame& frame, int delay) const {

@@ -32,7 +32,8 @@ class ImageDelayFinder {
   /// Looks for a partner of the images of the next frame. \returns the delay with which this frame's corners lie on
   /// their lines while they do not as they are paired; nothing if no delay clearly fits better
   std::optional<ImageDelay> find(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity) const;
-  /// How well this frame fits with a delay that is known; nothing while too few frames are kept.
+  /// How well this frame fits with a delay that is known; nothing if it fits as paired, as it does at rest, and while
+  /// too few frames are kept.
   std::optional<ImageDelay> measure(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
                                     int delay) const;
   /// Keeps copies of the frame's images, in place of the oldest ones.

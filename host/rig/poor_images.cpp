@@ -2,24 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "common/numeric.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
-namespace {
-
-/// Median brightness of the right patches over the left ones; 1 without aligned corners.
-double brightness_of_right(const CornerSearch& search) {
-  std::vector<double> ratios;
-  for (const CornerMatch& match : search.found)
-    if (match.is_aligned) ratios.push_back(match.brightness);
-  return ratios.size() < kMinFitCorners ? 1 : upper_median(ratios);
-}
-
-}  // namespace
-
 double blockiness(const ImageView& image) {
   double between = 0, inside = 0;
   long borders = 0, others = 0;
@@ -35,6 +21,14 @@ double blockiness(const ImageView& image) {
   return between / static_cast<double>(borders) / (inside / static_cast<double>(others));
 }
 
+bool is_uneven(const CornerSearch& search) {
+  return std::max(search.brightness, 1 / std::max(search.brightness, 1e-3)) > kUnevenBrightness;
+}
+
+bool hides_corners(const CornerSearch& search) {
+  return is_uneven(search) && search.more_saturated > kUnevenSaturation;
+}
+
 std::optional<RigFinding> find_poor_images(const CornerSearch& search, const StereoFrame& frame) {
   const auto finding = [](RigFindingKind kind, double figure) {
     RigFinding found{kind};
@@ -45,10 +39,7 @@ std::optional<RigFinding> find_poor_images(const CornerSearch& search, const Ste
   if (saturated > kSaturatedRatio) return finding(RigFindingKind::saturated_images, saturated);
   const double blocks = std::min(blockiness(frame.left), blockiness(frame.right));
   if (blocks > kBlockiness) return finding(RigFindingKind::compressed_images, blocks);
-  const double brightness = brightness_of_right(search);
-  if (std::max(brightness, 1 / brightness) > kUnevenBrightness)
-    return finding(RigFindingKind::uneven_images, brightness);
-  return std::nullopt;
+  return is_uneven(search) ? std::optional(finding(RigFindingKind::uneven_images, search.brightness)) : std::nullopt;
 }
 
 }  // namespace quadedge::rig

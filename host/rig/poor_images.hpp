@@ -13,6 +13,11 @@ namespace quadedge::rig {
 /// in a recorded image: near 1, more in JPEG images of low quality.
 double blockiness(const ImageView& image);
 
+/// Whether one image is much brighter than the other.
+bool is_uneven(const CornerSearch& search);
+/// Whether one is so much brighter that corners are not found again where it is saturated.
+bool hides_corners(const CornerSearch& search);
+
 /// Why corners leave their lines, if the images are to blame: one of saturated_images, compressed_images and
 /// uneven_images, with its figure. \param search what was found in the frame
 std::optional<RigFinding> find_poor_images(const CornerSearch& search, const StereoFrame& frame);

@@ -92,6 +92,8 @@ constexpr double kMaxOffset = 1.5;
 /// Images are of one moment if more than the first ratio of their aligned corners lies on the lines, and more than the
 /// second of those searched: sound recordings reach 0.77 and 0.4, neighbours in time 0.5 and 0.2 where the image moves.
 constexpr double kFittingOnLine = 0.7, kFittingFound = 0.3;
+/// The first of these for partners that are looked for, whose rows may be off by as much as a rectification leaves.
+constexpr double kPartnerOnLine = 0.6;
 /// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
 constexpr double kLeftLines = 0.6;
 /// Frames that have to agree before every frame is measured.
@@ -112,8 +114,9 @@ constexpr double kSaturatedRatio = 0.3;
 /// compressed.
 constexpr double kBlockiness = 1.3;
 constexpr int kBlock = 8;  ///< side of a block [px]
-/// Brightness of the right image over the left one's, or the other way round, from which they are unevenly lit.
-constexpr double kUnevenBrightness = 1.5;
+/// Brightness of the right image over the left one's, or the other way round, from which they are unevenly lit, and the
+/// difference of their saturated parts that hides corners.
+constexpr double kUnevenBrightness = 1.5, kUnevenSaturation = 0.15;
 
 // Parts of the image that do not move (static_region.cpp).
 

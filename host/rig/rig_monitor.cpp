@@ -113,7 +113,8 @@ std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarF
 /// Names the images in place of the calibration where they are to blame.
 void blame_images(const CornerSearch& search, const StereoFrame& frame, std::vector<RigFinding>& findings) {
   for (RigFinding& finding : findings) {
-    if (finding.kind != RigFindingKind::off_lines) continue;
+    const bool is_unseen = finding.kind == RigFindingKind::no_common_scene && hides_corners(search);
+    if (finding.kind != RigFindingKind::off_lines && !is_unseen) continue;
     auto poor = find_poor_images(search, frame);
     if (!poor) continue;
     poor->fit = finding.fit;
