@@ -89,6 +89,11 @@ TEST_CASE("image delay: images of one moment have none", "[rig]") {
   const Judged judged = judge(flight(), 0);
   for (const int delay : judged.delays) CHECK(delay == 0);
   CHECK(judged.false_causes == 0);
+  for (const char* name : {"cables", "facade"}) {
+    INFO(name);
+    const RenderedScene scene(name, 320, 200, 9, 3);
+    for (const int delay : judge({scene.rig, scene.left, scene.right}, 0).delays) CHECK(delay == 0);
+  }
 }
 
 TEST_CASE("image delay: a camera that is one, two or seven frames late is refused with its delay", "[rig]") {
