@@ -3,11 +3,15 @@
 
     disturb_recording.py alter RECORDING OUT --board 0.4 --photo IMAGE [--speed 4] [--sequence 06] [--frames 40:100]
     disturb_recording.py alter RECORDING OUT --bonnet
+    disturb_recording.py alter RECORDING OUT --late 1 | --gain 1.4 | --right-gain 2.2 | --exposures 8 | --jpeg 20 | --drops 45 | --lamp
     disturb_recording.py judge RUN TRUTH [--translation 0.01 0.1] [--rotation 0.3]
 
 `alter` takes recordings in KITTI's and EuRoC's layout. A board shows a photograph with camera noise and covers a part
 of both images, as a plane at one depth in front of the left camera does: --speed moves it by so many pixels per frame
 to the left, 0 fixes it to the camera. With --bonnet the lower half of both images is the first frame's, with noise.
+--late takes right images of so many frames earlier, as a camera does that is late (the left one's if negative). --gain and
+--right-gain multiply grey levels, which are clipped at 255; --exposures divides those of every second frame. --jpeg
+stores images at that quality, --drops puts drops on both lenses, each its own, and --lamp lights the middle of the view.
 `judge` compares the steps of RUN/trajectory.txt with those of TRUTH, a trajectory in TUM's format, such as that of the
 undisturbed recording, and prints the numbers of steps that are right, lost, wrong and told (a frame of the step is
 marked ambiguous), and wrong in silence. A step is wrong beyond a length plus a ratio of its length, or an angle.
@@ -16,6 +20,7 @@ Needs NumPy, Pillow and the package quadedge. Exit code: 0 done, 2 wrong usage.
 
 import argparse
 import csv
+import io
 import re
 import shutil
 from pathlib import Path
@@ -121,16 +126,58 @@ def sample(photo, u, v):
             b * ((1 - a) * photo[r + 1, c] + a * photo[r + 1, c + 1]))
 
 
+def drops_of(count, shape, random):
+    """Circles on a lens: centre, radius."""
+    return [(random.uniform(0, shape[1]), random.uniform(0, shape[0]), random.uniform(0.01, 0.03) * shape[1])
+            for _ in range(count)]
+
+
+def with_drops(image, drops):
+    """In a drop, the view is a blurred, mirrored, darker one."""
+    v, u = np.mgrid[:image.shape[0], :image.shape[1]]
+    result = image.copy()
+    for x, y, radius in drops:
+        inside = (u - x) ** 2 + (v - y) ** 2 < radius ** 2
+        result[inside] = 0.5 * image[inside].mean() + 0.2 * image[inside][::-1] if inside.any() else 0
+    return result
+
+
+def with_lamp(image):
+    """A lamp beside the camera lights the middle of the view and leaves its border in the dark."""
+    height, width = image.shape
+    v, u = np.mgrid[:height, :width]
+    distance = ((u - width / 2) / width) ** 2 + ((v - height / 2) / height) ** 2
+    return image * (0.3 + 2.2 * np.exp(-distance / 0.04))
+
+
+def compressed(image, quality):
+    memory = io.BytesIO()
+    Image.fromarray(image).save(memory, "JPEG", quality=quality)
+    return np.asarray(Image.open(memory).convert("L"))
+
+
+def exposed(image, args, side, number):
+    """Grey levels of another exposure, before they are clipped."""
+    factor = args.gain * (args.right_gain if side == 1 else 1) / (args.exposures if number % 2 else 1)
+    return image * factor if factor != 1 else image
+
+
 def alter(args):
     recording = (Kitti if (args.recording / "sequences").exists() else Euroc)(args.recording, args.sequence)
     frames = slice(*(int(x) if x else None for x in args.frames.split(":")))
+    chosen = range(len(files(recording, 0)))[frames]
+    frames = slice(chosen.start, chosen.stop - abs(args.late))
     photo = np.asarray(Image.open(args.photo).convert("L"), float) if args.board else None
     recording.start(args.out, frames)
     random = np.random.default_rng(args.seed)
     for side, part in enumerate(recording.parts):
-        still = places = None
-        for number, file in enumerate(files(recording, side)[frames]):
-            image = np.asarray(Image.open(file).convert("L"), float).copy()
+        still = places = drops = None
+        taken = files(recording, side)
+        for number, file in enumerate(taken[frames]):
+            source = taken[frames.start + number + max(args.late if side == 0 else -args.late, 0)]
+            image = np.asarray(Image.open(source).convert("L"), float).copy()
+            if drops is None:
+                drops = drops_of(args.drops, image.shape, random)
             if still is None:
                 still = image.copy()
                 places = on_board(recording, side, image.shape) if args.board else None
@@ -142,11 +189,15 @@ def alter(args):
                 over = sample(photo, places[0] + args.speed * number + 50, places[1] + 70)
             else:
                 shown, over = np.zeros(image.shape, bool), still
-                shown[image.shape[0] // 2:] = True
+                shown[image.shape[0] // 2:] = args.bonnet
             noisy = over + random.normal(0, NOISE, image.shape)
             image[shown] = noisy[shown]
+            image = exposed(with_drops(with_lamp(image) if args.lamp else image, drops), args, side, number)
             name = file.name if isinstance(recording, Euroc) else f"{number:06d}.png"
-            Image.fromarray(np.clip(np.rint(image), 0, 255).astype(np.uint8)).save(args.out / part / name)
+            stored = np.clip(np.rint(image), 0, 255).astype(np.uint8)
+            if args.jpeg:
+                stored = compressed(stored, args.jpeg)
+            Image.fromarray(stored).save(args.out / part / name)
 
 
 def poses(path):
@@ -186,6 +237,13 @@ def main():
     kind = command.add_mutually_exclusive_group(required=True)
     kind.add_argument("--board", type=float, help="ratio of the image that it covers")
     kind.add_argument("--bonnet", action="store_true")
+    kind.add_argument("--late", type=int, default=0, help="frames by which the right camera is late")
+    kind.add_argument("--gain", type=float, default=1, help="factor on the grey levels of both cameras")
+    kind.add_argument("--right-gain", type=float, default=1, help="the same of the right camera")
+    kind.add_argument("--exposures", type=float, default=1, help="ratio of the exposures of successive frames")
+    kind.add_argument("--jpeg", type=int, default=0, help="quality")
+    kind.add_argument("--drops", type=int, default=0, help="on each lens")
+    kind.add_argument("--lamp", action="store_true")
     command.add_argument("--photo", type=Path, help="shown by the board")
     command.add_argument("--speed", type=float, default=0, help="of the board [px per frame]")
     command.add_argument("--centre", type=float, default=0, help="of the board, from the optical axis [image widths]")

@@ -66,6 +66,37 @@ def check_bonnet(root):
     assert np.array_equal(later[:30], grey(root / "plain/sequences/00/image_0/000002.png")[:30])
 
 
+def check_late_camera(root):
+    """The right images are those of one frame earlier than the left ones."""
+    run("alter", root / "plain", root / "delayed", "--late", 1)
+    for side, shift in ((0, 1), (1, 0)):
+        for frame in (0, 1):
+            assert np.array_equal(grey(root / f"delayed/sequences/00/image_{side}/{frame:06d}.png"),
+                                  grey(root / f"plain/sequences/00/image_{side}/{frame + shift:06d}.png"))
+    assert len(list((root / "delayed/sequences/00/image_0").iterdir())) == 2
+
+
+def check_light(root):
+    def altered(name, *options):
+        run("alter", root / "plain", root / name, *options)
+        return [grey(root / name / f"sequences/00/image_{side}/{frame:06d}.png") for side in (0, 1) for frame in (0, 1)]
+
+    plain = [grey(root / f"plain/sequences/00/image_{side}/{frame:06d}.png") for side in (0, 1) for frame in (0, 1)]
+    for image, before in zip(altered("gain", "--gain", 1.4), plain):
+        assert np.array_equal(image, np.minimum(np.rint(1.4 * before), 255))
+    right = altered("right", "--right-gain", 2.2)
+    assert np.array_equal(right[0], plain[0]) and np.mean(right[2] == 255) > 0.5
+    turns = altered("turns", "--exposures", 4)
+    assert np.array_equal(turns[0], plain[0]) and np.abs(4 * turns[1] - plain[1]).max() <= 2
+    lamp = altered("lamp", "--lamp")[0]
+    assert lamp[30, 80] > plain[0][30, 80] and lamp[0, 0] <= plain[0][0, 0]
+    drops = altered("drops", "--drops", 10)
+    changed = [np.mean(image != before) for image, before in zip(drops, plain)]
+    assert 0 < changed[0] < 0.5 and np.array_equal(drops[0] != plain[0], drops[1] != plain[1])
+    jpeg = altered("jpeg", "--jpeg", 20)[0]
+    assert 1 < np.abs(jpeg - plain[0]).mean() < 60
+
+
 def check_judge(root):
     def trajectory(name, positions):
         (root / name).mkdir(exist_ok=True)
@@ -89,5 +120,7 @@ with tempfile.TemporaryDirectory() as name:
     check_board(folder, folder / "photo.png")
     check_late_board(folder, folder / "photo.png")
     check_bonnet(folder)
+    check_late_camera(folder)
+    check_light(folder)
     check_judge(folder)
 print("fine")

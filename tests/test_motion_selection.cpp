@@ -139,7 +139,7 @@ TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry
   CHECK_FALSE(ambiguity({found(0.5), found(0.19)}).exists());
   CHECK_FALSE(ambiguity({found(0.5), found(0.3)}, {0, 0}).exists());
   CHECK(ambiguity({found(0), found(0)}).kind == AmbiguityKind::competing_motion);
-  const Ambiguity other_part = ambiguity_of({0.2, 0.5, 0.4}, false);
+  const Ambiguity other_part = ambiguity_of({0.2, 0.5, 0.4, 0.6}, false);
   CHECK(other_part.kind == AmbiguityKind::other_part);
   CHECK(other_part.ratio == 0.2);
   std::set<std::string> texts;
@@ -187,13 +187,53 @@ TEST_CASE("motion selection: edges of distant views that are not found again are
 TEST_CASE("motion selection: another part of the image counts by its area, a smaller one if it is on all sides",
           "[odometry]") {
   CHECK_FALSE(ambiguity_of(OtherPart(), false).exists());
-  CHECK(ambiguity_of({0.1, 0.2, 0.1}, false).exists());
-  CHECK_FALSE(ambiguity_of({0.05, 0.2, 0.1}, false).exists());  // an object
-  CHECK(ambiguity_of({0.05, 0.2, 0.9}, false).exists());
-  CHECK_FALSE(ambiguity_of({0.01, 0.2, 0.9}, false).exists());
-  CHECK(ambiguity_of({0.01, 0.05, 0.1}, true).exists());  // after an ambiguous motion
-  CHECK_FALSE(ambiguity_of({0.005, 0.05, 0.9}, true).exists());
-  CHECK_FALSE(ambiguity_of({0.1, 0.05, 0.9}, false).exists());  // most of what was searched does not follow
+  CHECK(ambiguity_of({0.1, 0.5, 0.1, 0.5}, false).exists());
+  CHECK_FALSE(ambiguity_of({0.05, 0.5, 0.1, 0.5}, false).exists());  // an object
+  CHECK(ambiguity_of({0.05, 0.5, 0.9, 0.8}, false).exists());
+  CHECK_FALSE(ambiguity_of({0.01, 0.5, 0.9, 0.8}, false).exists());
+  CHECK(ambiguity_of({0.05, 0.4, 0.1, 0.5}, true).exists());  // after an ambiguous motion
+  CHECK_FALSE(ambiguity_of({0.005, 0.5, 0.9, 0.8}, true).exists());
+  CHECK_FALSE(ambiguity_of({0.1, 0.05, 0.9, 0.5}, false).exists());  // most of what was searched does not follow
+}
+
+TEST_CASE("motion selection: a car that passes is no doubt, even after a doubt", "[odometry]") {
+  // 9 % of the image, seven tenths of what does not follow the camera's motion, which 75 % follow.
+  CHECK_FALSE(ambiguity_of({0.09, 0.7, 0.3, 0.75}, false).exists());
+  CHECK_FALSE(ambiguity_of({0.04, 0.7, 0.3, 0.75}, true).exists());
+  // Two cars, one on either side, at the same height of the image.
+  CHECK_FALSE(ambiguity_of({0.08, 0.7, 0.4, 0.75}, false).exists());
+  // The same area of the scene, beside a bus that fills most of the image.
+  CHECK(ambiguity_of({0.09, 0.7, 0.3, 0.45}, false).exists());
+}
+
+TEST_CASE("motion selection: what a motion between distant views leaves at near edges is no other motion",
+          "[odometry]") {
+  // As between key rigs 2 m apart in a street: few of the cells that do not follow, and next to no matches.
+  OtherPart part{0.102, 0.175, 1.0, 0.42};
+  part.balance = 0.03;
+  CHECK_FALSE(ambiguity_of(part, false).exists());
+  CHECK_FALSE(ambiguity_of(part, true).exists());
+  part.balance = 0.25;  // the matches follow it
+  CHECK(ambiguity_of(part, false).exists());
+}
+
+TEST_CASE("motion selection: a rare motion does not win against the prediction and four times the evidence",
+          "[odometry]") {
+  // Of two equal posters one appears in the place of the other: the jump fits nearly all that it leaves in view.
+  const auto of = [](double area, int inliers, int followed) {
+    Verdict verdict = moving(found(area), 0.55);
+    verdict.inliers = inliers;
+    verdict.followed = followed;
+    return verdict;
+  };
+  const Verdict true_motion = of(0.4, 7360, 180), jump = of(0.7, 1631, 60);
+  const Choice choice = choose({true_motion, jump}, kPredicted);
+  CHECK(choice.chosen == 0);
+  CHECK(choice.ambiguity.exists());
+  CHECK(choose({true_motion, jump}, kUnpredicted).chosen == 1);              // nothing is known of the motion
+  CHECK(choose({true_motion, of(0.7, 1900, 60)}, kPredicted).chosen == 1);   // nearly as much evidence
+  CHECK(choose({true_motion, of(0.7, 1631, 200)}, kPredicted).chosen == 1);  // fewer edges, over more of the image
+  CHECK(choose({kFailure, jump}, kPredicted).chosen == 1);
 }
 
 TEST_CASE("motion selection: another motion on all sides counts if more matches follow it than the chosen one",
@@ -207,9 +247,11 @@ TEST_CASE("motion selection: another motion on all sides counts if more matches 
   };
   CHECK(is_doubtful(1.2, 0.7, true, false));
   CHECK_FALSE(is_doubtful(0.9, 0.7, true, false));
-  CHECK_FALSE(is_doubtful(1.2, 0.5, true, false));   // an object
+  CHECK_FALSE(is_doubtful(1.2, 0.5, true, false));  // an object
+  CHECK(is_doubtful(0.3, 0.5, true, true));         // after an ambiguous motion
+  CHECK_FALSE(is_doubtful(0.5, 0.1, true, true));
   CHECK_FALSE(is_doubtful(1.2, 0.7, false, false));  // in too few places
-  OtherPart rest{0.2, 0.5, 0.9};
+  OtherPart rest{0.2, 0.5, 0.9, 0.5};
   CHECK(ambiguity_of(rest, false).exists());
   rest.is_rest = true;  // has to prevail: its area alone is no evidence
   CHECK_FALSE(ambiguity_of(rest, false).exists());

@@ -34,6 +34,7 @@ const char* to_string(WarningKind kind) {
     case WarningKind::static_region: return "static_region";
     case WarningKind::displaced_images: return "displaced_images";
     case WarningKind::changed_rig: return "changed_rig";
+    case WarningKind::poor_images: return "poor_images";
   }
   return "unknown";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frontend/prediction.hpp"
+#include "odometry/moving_cells.hpp"
 #include "odometry/odometry_constants.hpp"
 #include "pose/pose_constants.hpp"
 #include "pose/scoring.hpp"
@@ -42,8 +43,15 @@ void MotionEvidence::measure_area(const EdgePositions& predicted, MotionStep& st
   }
   step.verdict.area = step.cells.explained_area();
   step.verdict.moving_ratio = step.cells.moving_ratio();
-  const double others = step.cells.count(false), all = others + step.cells.count(true);
-  if (step.cells.spread(false) > kSurroundingSpread * step.cells.spread()) step.verdict.around_ratio = others / all;
+  step.verdict.inliers = step.motion.inliers;
+  step.verdict.followed = step.cells.count(true);
+  const MovingCells moving = find_moving_cells(step.cells);
+  step.verdict.moving_cells = moving.count;
+  if (moving.count > 0)
+    step.verdict.moving_box.emplace() << moving.largest.min().x(), moving.largest.min().y(), moving.largest.max().x(),
+        moving.largest.max().y();
+  const double all = step.verdict.followed + step.cells.count(false);
+  if (moving.spread > kSurroundingSpread * step.cells.spread()) step.verdict.around_ratio = moving.count / all;
 }
 
 /// Sets the ratios of quads that are static. Edges are not static by chance, and distant edges agree with the motion as

@@ -342,11 +342,11 @@ OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const Mo
   if (!other->ok()) return part;
   const Eigen::Isometry3d by_chosen = motion_since(query.base, query, chosen);
   const ExplainedCells cells = evidence_.explained_beside(*other, by_chosen, config_.pose.inlier_distance);
-  const int searched = chosen.cells.count(false), following = cells.count(true);
-  const double count = following;
-  part.area = count / std::max(1, searched + chosen.cells.count(true));
-  part.ratio = count / std::max(1, searched);
-  part.spread = cells.spread(true) / std::max(1e-9, chosen.cells.spread());
+  const double searched = chosen.cells.count(false), followed = chosen.cells.count(true), count = cells.count(true);
+  part.area = count / std::max(1.0, searched + followed);
+  part.chosen_area = followed / std::max(1.0, searched + followed);
+  part.ratio = count / std::max(1.0, searched);
+  part.spread = (cells.spreads(true) / chosen.cells.spreads().max(1e-9)).minCoeff();
   evidence_.compare_globally(matches, other->motion.current_from_previous, chosen, by_chosen, part);
   return part;
 }

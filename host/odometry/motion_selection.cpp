@@ -10,12 +10,22 @@
 namespace quadedge::odometry {
 namespace {
 
-/// The motion that explains the largest area. Of equal ones, such as two failures, one that does not rely on the
-/// prediction takes precedence, then the first.
+/// Whether a motion is too rare to be the camera's beside one that the prediction proposed.
+bool is_rare(const Verdict& verdict, const Verdict& predicted) {
+  return kRareMotion * verdict.inliers <= predicted.inliers && verdict.followed <= predicted.followed;
+}
+
+/// The motion that explains the largest area, unless it is a rare one beside the prediction's. Of equal ones, such as
+/// two failures, one that does not rely on the prediction takes precedence, then the first.
 std::size_t largest(const std::vector<Verdict>& verdicts, const std::optional<std::size_t>& predicted) {
+  const Verdict* const expected = predicted && verdicts[*predicted].is_confirmed() && verdicts[*predicted].inliers > 0
+                                      ? &verdicts[*predicted]
+                                      : nullptr;
+  const auto may_win = [&](const Verdict& of) { return expected == nullptr || !is_rare(of, *expected); };
   const auto beats = [&](std::size_t one, std::size_t other) {
     const Verdict &its = verdicts[one], &others = verdicts[other];
     if (its.is_confirmed() != others.is_confirmed()) return its.is_confirmed();
+    if (its.is_confirmed() && may_win(its) != may_win(others)) return may_win(its);
     if (its.is_confirmed() && its.area != others.area) return its.area > others.area;
     return predicted == other;
   };
@@ -129,14 +139,17 @@ void decide(bool accepts_ambiguous, const Ambiguity& later, Verdict& chosen) {
 }
 
 Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous) {
-  const double factor = was_ambiguous ? kRepeatedOtherPart : 1;
+  const double factor = was_ambiguous ? kRepeatedOtherPart : 1, share = was_ambiguous ? kRepeatedShare : kRivalShare;
   const auto exceeds = [&](double area, double ratio) {
     return !part.is_rest && part.area > factor * area && part.ratio > factor * ratio;
   };
-  const auto is_around = [&](double spread) { return was_ambiguous || spread > kSurroundingSpread; };
-  const bool is_large = exceeds(kOtherPartArea, kOtherPartRatio);
-  const bool surrounds = exceeds(kSurroundingArea, kSurroundingRatio) && is_around(part.spread);
-  const bool prevails = part.agrees_globally && part.balance > factor && is_around(part.match_spread);
+  const bool is_coherent = part.ratio > kCoherentRatio || part.balance > kPromisingBalance;
+  const bool is_comparable = part.area > share * part.chosen_area;
+  const bool is_large = exceeds(kOtherPartArea, kOtherPartRatio) && is_comparable && is_coherent;
+  const bool surrounds =
+      exceeds(kSurroundingArea, kSurroundingRatio) && part.spread > kSurroundingSpread && is_coherent;
+  const double least_spread = was_ambiguous ? kRepeatedSpread : kSurroundingSpread;
+  const bool prevails = part.agrees_globally && part.balance > factor && part.match_spread > least_spread;
   return is_large || surrounds || prevails ? Ambiguity{AmbiguityKind::other_part, part.area} : Ambiguity{};
 }
 

@@ -52,7 +52,11 @@ struct Verdict {
   double moving_ratio = 0;  ///< fraction of the edges in view in cells that hardly follow the motion
   double static_ratio = 0;  ///< fraction of the quads that are static although the motion would have moved them
   double still_ratio = 0;   ///< fraction of the quads that are static as the motion would have them
-  double around_ratio = 0;  ///< fraction of the image cells that do not follow, if they lie on all sides; else 0
+  double around_ratio = 0;  ///< fraction of the image cells that move, beyond noise, if they lie on all sides; else 0
+  int inliers = 0;
+  int followed = 0;                                ///< number of image cells that follow the motion
+  int moving_cells = 0;                            ///< number of those that move, beyond noise
+  std::optional<Eigen::Vector4d> moving_box = {};  ///< of the largest group of these: left, top, right, bottom [px]
 
   bool has_all_inliers = true;  ///< false: confirmed with close agreement, which uses fewer quads than there are
   bool agrees_globally = true;  ///< with the global matches, if there are any
@@ -101,9 +105,10 @@ void decide(bool accepts_ambiguous, const Ambiguity& later, Verdict& chosen);
 
 /// A motion found in the image cells that do not follow the chosen motion.
 struct OtherPart {
-  double area = 0;    ///< fraction of all cells that follow it
-  double ratio = 0;   ///< fraction of the cells searched that follow it
-  double spread = 0;  ///< of these cells over the image, in units of that of all cells
+  double area = 0;         ///< fraction of all cells that follow it
+  double ratio = 0;        ///< fraction of the cells searched that follow it
+  double spread = 0;       ///< of these cells over the image, in units of that of all, in x or y, the smaller one
+  double chosen_area = 0;  ///< fraction of all cells that follow the chosen motion
   // Of the global matches between the cells searched:
   double balance = 0;            ///< number of those that only it explains over that of those of the chosen motion
   double match_spread = 0;       ///< of the cells with the former, in units of that of all, in x or y, the smaller one

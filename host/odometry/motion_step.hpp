@@ -55,6 +55,8 @@ class ExplainedCells {
   /// The cell of a position [px]; null outside the image or for NaN.
   ExplainedCell* at(float x, float y);
   const ExplainedCell* at(float x, float y) const { return const_cast<ExplainedCells*>(this)->at(x, y); }
+  int columns() const { return columns_; }
+  double side() const { return side_; }  ///< of a cell [px]
   /// Row-major.
   const std::vector<ExplainedCell>& all() const { return cells_; }
   std::vector<ExplainedCell>& all() { return cells_; }

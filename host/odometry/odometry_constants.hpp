@@ -29,6 +29,10 @@ constexpr double kCloseAgreement = 1.0 / 3.0;
 /// motion. A cell counts as having found at least kMinFoundRatio of its edges in view.
 constexpr double kMinExplainedRatio = 0.25, kMinFoundRatio = 0.1;
 
+/// Probability by which so few edges of a cell agree with the motion that the rest of the image follows, below which
+/// the cell moves: of 400 cells, every other frame shows one by chance.
+constexpr double kChanceOfCell = 1e-3;
+
 /// Edges of a cell that must follow a second motion and not the first, since a single one may do so by chance.
 constexpr double kMinCellEdges = 2;
 
@@ -50,9 +54,16 @@ constexpr double kRivalRatio = 0.5;
 /// A part of the image that moves otherwise counts above these fractions of all image cells and of those that the
 /// chosen motion does not explain.
 constexpr double kOtherPartArea = 0.08, kOtherPartRatio = 0.12;
-/// The same for parts on all sides, which are less likely those of an object: their standard deviation over the image
-/// reaches this fraction of that of all cells.
-constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurroundingSpread = 0.6;
+/// An object that passes is no doubt: a rival explains this part of what the chosen motion explains, or of that this
+/// part after an ambiguous motion.
+constexpr double kRivalShare = 0.15, kRepeatedShare = 0.075;
+/// What near edges leave of a motion between distant views looks like another one, in few of the cells searched: either
+/// more of these follow a rival, or it has kPromisingBalance of the matches.
+constexpr double kCoherentRatio = 0.3;
+/// The same for parts on all sides, which are less likely those of an object: their standard deviations over the image,
+/// in x and in y, reach this fraction of those of all cells.
+constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurroundingSpread = 0.6,
+                 kRepeatedSpread = 0.3;  // of the matches of a motion that prevails, after an ambiguous one
 /// Global matches of a proposal alone over those of the chosen motion, from which it is worth a guided search.
 constexpr double kPromisingBalance = 0.1;
 /// The limits of areas and ratios are this fraction of those if the last motion was ambiguous: another motion that
@@ -85,6 +96,11 @@ constexpr double kStaticQuadRatio = 0.05;
 /// fraction of the image cells do not follow, spread over the image as a surrounding part is, they may be all that
 /// shows the scene.
 constexpr double kStillQuadRatio = 0.8, kMovingSidesRatio = 0.05;
+
+/// A motion does not take the place of the prediction's if that has so many times its inliers, and follows as many
+/// cells: a view of equal objects, one of which appears in the place of the other, fits the few edges left in view
+/// best.
+constexpr int kRareMotion = 4;
 
 /// Two motions that share more than this fraction of the inliers are the same motion.
 constexpr double kSharedInlierRatio = 0.7;

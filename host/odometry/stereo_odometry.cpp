@@ -382,6 +382,8 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
     preparation_.warn(rig::warning(*large));
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
+  result.diagnostics.moving_cells = step.verdict.moving_cells;
+  result.diagnostics.moving_box = step.verdict.moving_box;
   if (const double displacement = result.rig.displacement; displacement != 0) {
     const std::string text = printed("the right image is displaced by %+.1f px", displacement);
     add_message(text, result);

@@ -109,6 +109,15 @@ std::string decimals(std::initializer_list<double> values) {
   return text;
 }
 
+/// Left, top, right and bottom, separated by spaces; empty without a box.
+std::string box_text(const std::optional<Eigen::Vector4d>& box) {
+  if (!box) return "";
+  std::string text;
+  for (const double side : {(*box)[0], (*box)[1], (*box)[2], (*box)[3]})
+    text += (text.empty() ? "" : " ") + printed("%.0f", side);
+  return text;
+}
+
 }  // namespace
 
 CsvRow frames_row(int number, const FrameResult& result) {
@@ -125,6 +134,8 @@ CsvRow frames_row(int number, const FrameResult& result) {
   row.add("matched_ratio", rounded("%.4g", result.diagnostics.rig_evidence.matched_ratio));
   row.add("epipolar_residual", rounded("%.4g", result.diagnostics.rig_evidence.epipolar_residual));
   row.add("moving_ratio", rounded("%.4g", result.diagnostics.moving_ratio));
+  row.add("moving_cells", result.diagnostics.moving_cells);
+  row.add("moving_box", box_text(result.diagnostics.moving_box));
   row.add("ambiguous_motion", result.ambiguous_motion ? 1 : 0);
   row.add("latency_ms", rounded("%.3f", result.timing.latency_ms));
   for (const char* stage : kHostStages) row.add(std::string(stage) + "_ms", rounded("%.3f", stage_ms(result, stage)));

@@ -40,6 +40,10 @@ Level level_of(const Samples& samples) {
   return {mean, (inner(samples) - mean).matrix().norm()};
 }
 
+/// Whether a patch holds saturated pixels: their borders are where the light exceeds the range, which depends on the
+/// exposure and differs between the cameras.
+bool is_saturated(const Samples& samples) { return samples.maxCoeff() >= kSaturated; }
+
 /// Normal equations of the shift that aligns one patch with another at equal contrast.
 struct Alignment {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
@@ -65,7 +69,7 @@ Alignment compare(const Samples& wanted, const Level& wanted_level, const Sample
 
 /// Result of searching for one corner.
 struct SearchedCorner {
-  bool has_line = false, is_negative = false;
+  bool has_line = false, is_negative = false, is_saturated = false;
   std::optional<CornerMatch> found;
 };
 
@@ -113,6 +117,7 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
   Eigen::Matrix2d steps;  // axes of the left patch in the right image
   steps << *beside - *here, *below - *here;
   const Samples wanted = cut(left, corner_at, Eigen::Matrix2d::Identity());
+  if (is_saturated(wanted)) return std::nullopt;
   const Level wanted_level = level_of(wanted);
   const double reach = (kAlignedHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
   const Eigen::Vector2d start = position;
@@ -120,6 +125,7 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
   for (int step = 0; step < kAlignmentSteps; ++step) {
     if (!right.holds(position, reach) || (position - start).norm() > kMaxShift) return std::nullopt;
     const Samples found = cut(right, position, steps);
+    if (is_saturated(found)) return std::nullopt;
     const Level found_level = level_of(found);
     if (!(wanted_level.norm > 0 && found_level.norm > 0)) return std::nullopt;
     sums = compare(wanted, wanted_level, found, found_level);
@@ -191,6 +197,26 @@ CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, 
           })};
 }
 
+namespace {
+
+/// Light of the pixels of a plane that are not black, as those outside the image are.
+struct Light {
+  double mean = 0, saturated = 0;
+};
+
+Light light_of(const GreyPlane& plane) {
+  double sum = 0, saturated = 0, count = 0;
+  for (std::size_t i = 0; i < plane.mean.size(); ++i) {
+    if (!(plane.grey[i] > 0)) continue;
+    count += 1;
+    sum += static_cast<double>(plane.grey[i]);
+    saturated += plane.grey[i] >= kSaturated ? 1 : 0;
+  }
+  return {sum / std::max(1.0, count), saturated / std::max(1.0, count)};
+}
+
+}  // namespace
+
 CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
                                    const HiddenPixels& hidden) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
@@ -199,6 +225,9 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
   const double scale = views.scale;
   CornerSearch result;
   result.max_disparity = max_disparity;
+  const Light light_left = light_of(views.left), light_right = light_of(views.right);
+  result.brightness = light_right.mean / std::max(1.0, light_left.mean);
+  result.more_saturated = std::abs(light_right.saturated - light_left.saturated);
   const double along = std::min(0.5 * rig_.left.width, std::max(kSearchAlong * rig_.left.width, 1.25 * max_disparity)),
                across = kSearchAcross * rig_.left.height;
   const auto seek = [&](const Eigen::Vector2i& corner) {
@@ -211,6 +240,11 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
     const Eigen::Vector2d direction = (ahead.hnormalized() - corner_at).normalized();
     const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),
                         static_cast<int>((std::abs(direction.y()) * along + std::abs(direction.x()) * across) / scale)};
+    const auto saturates = [](const PinholeView& view, const Eigen::Vector2d& at) {
+      return view.holds(at, kAlignedHalf + 1) && is_saturated(cut(view, at, Eigen::Matrix2d::Identity()));
+    };
+    outcome.is_saturated = saturates(left, corner_at);
+    if (outcome.is_saturated) return outcome;
     outcome.has_line = true;
     const auto there = best_match(views.left, views.right, corner, box);
     if (!there) return outcome;
@@ -220,6 +254,8 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
     outcome.is_negative = there->correlation < 0;
     const auto position = at_infinity(views.in_left(there->at));
     if (outcome.is_negative || !position) return outcome;
+    outcome.is_saturated = saturates(right, *position);
+    if (outcome.is_saturated) return outcome;
     outcome.found = turn == ImageTurn::none ? refine(left, right, corner_at, *position) : std::nullopt;
     const Eigen::Vector2d from_infinity = *position - epipolar->infinity;
     if (!outcome.found)
@@ -245,7 +281,8 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = seek(corners[i * every]); });
   for (const SearchedCorner& outcome : all) {
     if (outcome.found && hides(hidden.right, outcome.found->right.x(), outcome.found->right.y())) continue;
-    result.searched += outcome.has_line ? 1 : 0;
+    result.saturated += outcome.is_saturated ? 1 : 0;
+    result.searched += outcome.has_line && !outcome.is_saturated ? 1 : 0;
     result.negative += outcome.is_negative ? 1 : 0;
     if (outcome.found) result.found.push_back(*outcome.found);
   }

@@ -36,6 +36,9 @@ enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
 struct CornerSearch {
   int searched = 0;                ///< corners searched for
   std::vector<CornerMatch> found;  ///< found in the right image and, from there, again in the left one
+  int saturated = 0;               ///< further corners, beside saturated pixels, which are none of the scene's
+  double brightness = 1;           ///< mean grey level of the right view over that of the left one
+  double more_saturated = 0;       ///< difference between the fractions of saturated pixels of the views
   int negative = 0;                ///< matches whose right patch is the negative of the left one
   double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
 };

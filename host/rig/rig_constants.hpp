@@ -21,6 +21,7 @@ constexpr double kMinCorner = 4;
 
 constexpr int kAlignedSpots = 240;
 constexpr double kMinAlignedCorrelation = 0.8;
+constexpr float kSaturated = 254.5F;  ///< grey level from which a pixel is saturated
 /// A refinement takes at most this many steps, ends when a step is shorter than kSettledShift, and is dropped when it
 /// leaves kMaxShift around its start [px].
 constexpr int kAlignmentSteps = 10;
@@ -106,6 +107,37 @@ constexpr double kSwing = 1, kSwingFrames = 5, kSwingMemory = 100;
 constexpr double kJumpScatter = 0.5;
 constexpr std::size_t kMinJumpMatches = 60;
 constexpr double kLeastJumpScale = 0.05;  ///< of a disparity in the robust fit [px]
+
+// Right images of another moment (image_delay.cpp).
+
+/// Images are of one moment if more than the first ratio of their aligned corners lies on the lines, and more than the
+/// second of those searched: sound recordings reach 0.77 and 0.4, neighbours in time 0.5 and 0.2 where the image moves.
+constexpr double kFittingOnLine = 0.7, kFittingFound = 0.3;
+/// The first of these for partners that are looked for, whose rows may be off by as much as a rectification leaves.
+constexpr double kPartnerOnLine = 0.6;
+/// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
+constexpr double kLeftLines = 0.6;
+/// Frames that have to agree before every frame is measured.
+constexpr int kDelayVotes = 2;
+/// Aligned corners on their lines, below which a delay is looked for, in the first frames, then after so many.
+constexpr double kDoubtfulOnLine = 0.7;
+constexpr int kDelayPeriod = 5;
+/// Frames for which distances that no fit explains wait for a delay to be seen, and their median from which they do
+/// [px].
+constexpr int kHeldFrames = 2;
+constexpr double kHeldScatter = 0.5;
+
+// Images that are bad (poor_images.cpp).
+
+/// Corners beside saturated pixels over all, from which images are called saturated.
+constexpr double kSaturatedRatio = 0.3;
+/// Difference of grey levels across the borders of JPEG's blocks over that elsewhere, from which images are called
+/// compressed.
+constexpr double kBlockiness = 1.3;
+constexpr int kBlock = 8;  ///< side of a block [px]
+/// Brightness of the right image over the left one's, or the other way round, from which they are unevenly lit, and the
+/// difference of their saturated parts that hides corners.
+constexpr double kUnevenBrightness = 1.5, kUnevenSaturation = 0.15;
 
 // Parts of the image that do not move (static_region.cpp).
 

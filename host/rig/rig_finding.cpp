@@ -76,6 +76,34 @@ std::string seen_and_cause(const RigFinding& finding) {
   }
 }
 
+std::string delayed(const ImageDelay& delay) {
+  const int frames = std::abs(delay.frames);
+  const std::string by = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+  return std::string(delay.frames > 0 ? "the right" : "the left") + " camera is " + by +
+         " late: " + percent(delay.on_line) + " of the corners lie on their epipolar lines if the " +
+         (delay.frames > 0 ? "right" : "left") + " images are taken " + by + " earlier, " +
+         percent(delay.on_line_here) + " as the images are paired; pair them by their time of exposure";
+}
+
+/// Images that are bad are named where corners leave their lines, in place of the calibration.
+std::string poor(const RigFinding& finding) {
+  const std::string seen = finding.fit.samples == 0
+                               ? "; few corners are found in both images"
+                               : "; corners are found " + number(finding.fit.residual, 1) +
+                                     " px off their epipolar lines, which says nothing of the calibration then";
+  switch (finding.kind) {
+    case RigFindingKind::saturated_images:
+      return percent(finding.poor) + " of the corners lie beside saturated pixels" + seen +
+             ": is the exposure too long?";
+    case RigFindingKind::compressed_images:
+      return "the images show the blocks of a strong compression, with steps " + number(finding.poor, 1) +
+             " times as large between them as inside" + seen + ": can they be recorded with a higher quality?";
+    default:
+      return "the right image is " + number(finding.poor, 1) + " times as bright as the left one" + seen +
+             ": do both cameras have the same exposure and gain?";
+  }
+}
+
 std::string frozen(Side side) {
   const std::string camera = name(side), other = name(side == Side::left ? Side::right : Side::left);
   return "the " + camera + " image is identical to that of the previous frame, the " + other + " one is not: has the " +
@@ -107,6 +135,10 @@ std::string static_text(const RigFinding& finding) {
 Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
   const std::string camera = "the " + name(finding.camera) + " camera's ";
   switch (finding.kind) {
+    case RigFindingKind::delayed_images: return {WarningKind::unsynchronised_cameras, delayed(finding.delay)};
+    case RigFindingKind::saturated_images:
+    case RigFindingKind::compressed_images:
+    case RigFindingKind::uneven_images: return {WarningKind::poor_images, poor(finding)};
     case RigFindingKind::frozen_camera: return {WarningKind::doubtful_calibration, frozen(finding.camera)};
     case RigFindingKind::off_lines:
       return {WarningKind::doubtful_calibration, "the calibration is doubtful: " + matched(finding.evidence) +

@@ -9,6 +9,7 @@
 #include "quadedge/error.hpp"
 #include "quadedge/rig_evidence.hpp"
 #include "rig/corner_matching.hpp"
+#include "rig/image_delay.hpp"
 #include "rig/static_region.hpp"
 
 namespace quadedge::rig {
@@ -20,6 +21,7 @@ enum class RigFindingKind {
   negative_image,        ///< most corners are found as their negative
   turned_image,          ///< most corners are found after a transformation of the right image
   negative_disparities,  ///< most disparities are negative
+  delayed_images,        ///< the left image fits a right one of another frame
   far_off_lines,         ///< corners lie farther from their epipolar lines than stereo matching tolerates
   // The frame can be used:
   off_lines,                  ///< corners lie farther from their epipolar lines than in valid recordings
@@ -28,6 +30,9 @@ enum class RigFindingKind {
   late_camera,                ///< distances from the epipolar lines are proportional to the image motion
   repeated_images,            ///< both images are identical to the previous ones
   large_disparity_offset,     ///< the offset that the odometry learns exceeds what rectification leaves
+  saturated_images,           ///< corners leave their lines in images with many saturated pixels
+  compressed_images,          ///< the same in images that show the blocks of a strong compression
+  uneven_images,              ///< the same where one image is much brighter than the other
   interlaced,                 ///< odd and even rows show different times
   static_region,              ///< a part of the image does not move while the rest does
   masked_region,              ///< the same, certain enough to be masked
@@ -53,6 +58,8 @@ struct RigFinding {
   double max_disparity = 0;          ///< largest disparity searched [px]
   double time_offset = 0;            ///< of late_camera [frame intervals]
   double disparity_offset = 0;       ///< of large_disparity_offset [px]
+  ImageDelay delay = {};             ///< of delayed_images
+  double poor = 0;                   ///< figure of saturated, compressed or uneven images
   double combed_ratio = 0;           ///< of interlaced
   StaticRegion region = {};          ///< of static_region and masked_region
   Side camera = Side::left;          ///< the camera that is frozen or has an implausible number

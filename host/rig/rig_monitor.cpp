@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #define XXH_INLINE_ALL  // header-only
 #include <xxhash.h>
 
 #include "rig/interlacing.hpp"
+#include "rig/poor_images.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
@@ -116,6 +118,18 @@ std::vector<RigFinding> judge_search(const CornerSearch& search, const EpipolarF
   return findings;
 }
 
+/// Names the images in place of the calibration where they are to blame.
+void blame_images(const CornerSearch& search, const StereoFrame& frame, std::vector<RigFinding>& findings) {
+  for (RigFinding& finding : findings) {
+    const bool is_unseen = finding.kind == RigFindingKind::no_common_scene && hides_corners(search);
+    if (finding.kind != RigFindingKind::off_lines && !is_unseen) continue;
+    auto poor = find_poor_images(search, frame);
+    if (!poor) continue;
+    poor->fit = finding.fit;
+    finding = *poor;
+  }
+}
+
 /// Adds a search for every `every`-th corner and its findings to the report. \returns the number of corners found
 std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig, const StereoFrame& frame,
                              double max_disparity, const RigEstimate& known, const HiddenPixels& hidden,
@@ -134,6 +148,7 @@ std::size_t search_and_judge(const CornerMatcher& matcher, const StereoRig& rig,
   const ImageTurn turn =
       finds_few_corners(search, report.evidence) ? find_turn(matcher, frame, max_disparity, hidden) : ImageTurn::none;
   report.findings = judge_search(search, fit, report.evidence, turn, rig.left);
+  blame_images(search, frame, report.findings);
   return search.found.size();
 }
 
@@ -259,6 +274,7 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
     fits_ = report.mismatch() == nullptr;
     confirm_negative_disparities(report);
   }
+  if (!is_frozen) judge_delay(frame, max_disparity, report);
   if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
   if (!is_interlaced_ && frames_++ % kCombPeriod == 0) is_interlaced_ = judge_rows(frame.left, report);
   const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
@@ -269,6 +285,47 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   report.findings.push_back({is_masked ? RigFindingKind::masked_region : RigFindingKind::static_region});
   report.findings.back().region = *region;
   return report;
+}
+
+/// Whether the frame's corners ask for other partners of its images.
+bool RigMonitor::doubts_partners(const RigReport& report) const {
+  const bool is_due = delays_.is_at_start() || frames_since_delays_ >= kDelayPeriod;
+  const double on_line = searched_ ? searched_->on_line_ratio : RigEvidence::kUnknown;
+  return is_due && (on_line < kDoubtfulOnLine || report.evidence.epipolar_residual > kDoubtfulResidual ||
+                    report.mismatch() != nullptr);
+}
+
+/// Refuses a frame whose images fit those of other frames. Until that could be seen, distances from the lines that no
+/// fit explains are not blamed on the calibration.
+void RigMonitor::judge_delay(const StereoFrame& frame, double max_disparity, RigReport& report) {
+  ++frames_since_delays_;
+  std::optional<ImageDelay> found;
+  if (const auto known = delay_votes_.decided()) {
+    found = delays_.measure(corner_matcher_, frame, max_disparity, *known);
+  } else if (doubts_partners(report)) {
+    found = delays_.find(corner_matcher_, frame, max_disparity);
+    frames_since_delays_ = 0;
+  }
+  delay_votes_.add(found);
+  delays_.keep(frame);
+  if (found) {
+    held_.reset();
+    fits_ = false;
+    RigFinding delayed{RigFindingKind::delayed_images};
+    delayed.delay = *found;
+    report.findings.assign(1, delayed);
+    return;
+  }
+  const auto waits = [](const RigFinding& finding) {
+    return finding.kind == RigFindingKind::off_lines && finding.fit.scatter > kHeldScatter;
+  };
+  const auto waiting = std::find_if(report.findings.begin(), report.findings.end(), waits);
+  if (waiting != report.findings.end() && delays_.frames() <= kHeldFrames) {
+    held_ = *waiting;
+    report.findings.erase(waiting);
+  } else if (held_ && delays_.frames() > kHeldFrames && report.mismatch() == nullptr) {
+    report.findings.push_back(*std::exchange(held_, std::nullopt));
+  }
 }
 
 std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& current_from_last) {

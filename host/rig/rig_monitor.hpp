@@ -12,6 +12,7 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/rig_estimate.hpp"
 #include "rig/corner_matching.hpp"
+#include "rig/image_delay.hpp"
 #include "rig/rig_finding.hpp"
 #include "rig/static_region.hpp"
 
@@ -78,16 +79,21 @@ class RigMonitor {
   bool needs_search(const RigEvidence& evidence) const;
   /// Drops negative disparities from the findings of a search unless they are more in the mean of several.
   void confirm_negative_disparities(RigReport& report);
+  bool doubts_partners(const RigReport& report) const;
+  void judge_delay(const StereoFrame& frame, double max_disparity, RigReport& report);
 
   const StereoRig& rig_;
   bool auto_mask_;
   CornerMatcher corner_matcher_;
   Synchronisation synchronisation_;
   StaticRegionDetector static_region_;
+  ImageDelayFinder delays_;
+  DelayVotes delay_votes_;
+  std::optional<RigFinding> held_;           ///< distances from the lines, until neighbours in time were looked at
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration
-  int frames_since_search_ = 0, frames_ = 0;
+  int frames_since_search_ = 0, frames_since_delays_ = 0, frames_ = 0;
   int searches_ = 0;            ///< that found something
   double negative_ratios_ = 0;  ///< sum over these
   bool is_interlaced_ = false;

@@ -63,6 +63,7 @@ enum class WarningKind {
   static_region,            ///< a part of the image does not move while the rest does, such as a vehicle's bonnet
   displaced_images,         ///< single right images are displaced along the epipolar lines
   changed_rig,              ///< one of the cameras has turned since the recording began
+  poor_images,              ///< saturated, unequally exposed or strongly compressed images
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);

@@ -67,6 +67,12 @@ struct FrameDiagnostics {
   int search = -1;  ///< number of the frame's temporal search that gave its motion; -1: no motion
   /// Fraction of the edges in view that lie in image cells whose edges do not follow the camera's motion.
   double moving_ratio = 0;
+  /// Number of image cells of 32 px (`pose.scoring_cell`) that move otherwise than the camera's motion has it, beyond
+  /// the noise of the frame: information, no doubt about the pose.
+  int moving_cells = 0;
+  /// Bounds of the largest group of adjacent moving cells in the left image: left, top, right, bottom [px]; empty
+  /// without any.
+  std::optional<Eigen::Vector4d> moving_box;
   RigEvidence rig_evidence;
   /// Covariance of the pose in the reference's left camera frame, the inverse of current_from_reference, including
   /// calibration errors (`pose.rig_sigma_*`); empty for a lost frame.

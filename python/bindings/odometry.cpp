@@ -7,7 +7,9 @@
 #include <mutex>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "arguments.hpp"
@@ -182,7 +184,7 @@ void bind_warning(nb::module_& module) {
           "kind", [](const Self& self) { return to_string(self.kind); },
           "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
           "negative_disparities, unsynchronised_cameras, unknown_motion, repeated_images,\n"
-          "large_disparity_offset, static_region, displaced_images or changed_rig.")
+          "large_disparity_offset, static_region, displaced_images, changed_rig or poor_images.")
       .def_ro("text", &Self::text, "The warning in one sentence.")
       .def("__str__", [](const Self& self) { return self.text; })
       .def("__repr__", [](const Self& self) {
@@ -222,6 +224,19 @@ void bind_diagnostics(nb::module_& module) {
       .def_ro("search", &Self::search, "Number of the frame's temporal search that gave its motion; -1: no motion.")
       .def_ro("moving_ratio", &Self::moving_ratio,
               "Share of the visible edges in image regions that do not follow the camera's motion, 0 to 1.")
+      .def_ro(
+          "moving_cells", &Self::moving_cells,
+          "Number of image cells of 32 px that move otherwise than the camera's motion has it, beyond the noise of\n"
+          "the frame: information, no doubt about the pose.")
+      .def_prop_ro(
+          "moving_box",
+          [](const Self& self) -> std::optional<std::tuple<double, double, double, double>> {
+            if (!self.moving_box) return std::nullopt;
+            const Eigen::Vector4d& box = *self.moving_box;
+            return std::tuple(box[0], box[1], box[2], box[3]);
+          },
+          "Bounds of the largest group of adjacent moving cells in the left image: left, top, right, bottom [px].\n"
+          "None without any.")
       .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
       .def_prop_ro(
           "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,

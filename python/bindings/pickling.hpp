@@ -68,7 +68,8 @@ auto members(Self& self, const FrameTiming&) {
 template <class Self>
 auto members(Self& self, const FrameDiagnostics&) {
   return std::tie(self.edge_threshold, self.disparity_range, self.overflow, self.base_frame, self.search,
-                  self.moving_ratio, self.rig_evidence, self.covariance_in_reference, self.rig_sensitivity);
+                  self.moving_ratio, self.moving_cells, self.moving_box, self.rig_evidence,
+                  self.covariance_in_reference, self.rig_sensitivity);
 }
 template <class Self>
 auto members(Self& self, const RectificationError&) {

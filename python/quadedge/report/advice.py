@@ -21,8 +21,6 @@ OF_KIND = {
     "static_region": "Exclude this part of the image with --mask: an image that is black there.",
     "displaced_images": "Switch off image stabilisation and the cropping of single images, and fasten both cameras to "
                         "one bar.",
-    "corrected_right_camera": "The run corrects it. Calibrate the rig again, or write the corrected calibration with "
-                              "`quadedge check --write-calibration`.",
     "changed_rig": "Fasten the cameras and calibrate again; earlier and later frames have different calibrations."}
 OF_LOSS = {
     "too few edges": "The images are dark, blurred or without contours there: more light, a shorter exposure, or a "

@@ -1,0 +1,97 @@
+#include "rig/image_delay.hpp"
+
+#include <cmath>
+
+#include "rig/rig_constants.hpp"
+
+namespace quadedge::rig {
+namespace {
+
+/// Of the corners of a left image, those found in a right one.
+struct OnLines {
+  int searched = 0, aligned = 0, on_line = 0;
+
+  /// Whether the images are of one moment, as far as their corners say.
+  bool fits(double least = kFittingOnLine) const {
+    return aligned >= kMinMatches && on_line > least * aligned && on_line > kFittingFound * searched;
+  }
+  double ratio() const { return searched > 0 ? static_cast<double>(on_line) / searched : 0; }
+};
+
+OnLines count(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity) {
+  const CornerSearch search = matcher.search(frame, max_disparity);
+  OnLines corners{search.searched};
+  for (const CornerMatch& match : search.found) {
+    if (!match.is_aligned) continue;
+    ++corners.aligned;
+    corners.on_line += std::abs(match.across) < kOnLine ? 1 : 0;
+  }
+  return corners;
+}
+
+/// The delay, if its corners are clearly more often on their lines than those of the images as paired.
+std::optional<ImageDelay> judged(int delay, const OnLines& there, const OnLines& here) {
+  if (!there.fits(kPartnerOnLine) || here.on_line > kLeftLines * there.on_line) return std::nullopt;
+  return ImageDelay{delay, there.ratio(), here.ratio()};
+}
+
+void copy(const ImageView& from, Image& to) {
+  if (to.width != from.width || to.height != from.height || to.max_value != from.max_value)
+    to = Image(from.width, from.height, from.max_value);
+  const std::size_t bytes = bytes_per_pixel(from.max_value) * static_cast<std::size_t>(from.width);
+  for (int y = 0; y < from.height; ++y)
+    std::memcpy(to.pixels.data() + static_cast<std::size_t>(y) * bytes, from.pixels + y * from.stride, bytes);
+}
+
+}  // namespace
+
+std::optional<ImageDelay> ImageDelayFinder::find(const CornerMatcher& matcher, const StereoFrame& frame,
+                                                 double max_disparity) const {
+  if (kept_.empty()) return std::nullopt;
+  const OnLines here = count(matcher, frame, max_disparity);
+  if (here.fits()) return std::nullopt;
+  for (int size = 1; size <= kMaxDelay; ++size) {
+    for (const int delay : {size, -size}) {
+      const auto pair = delayed(frame, delay);
+      if (!pair) continue;
+      if (const auto found = judged(delay, count(matcher, *pair, max_disparity), here)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<ImageDelay> ImageDelayFinder::measure(const CornerMatcher& matcher, const StereoFrame& frame,
+                                                    double max_disparity, int delay) const {
+  const auto pair = delayed(frame, delay);
+  if (!pair) return std::nullopt;
+  const OnLines here = count(matcher, frame, max_disparity), there = count(matcher, *pair, max_disparity);
+  if (here.fits() && here.on_line > kLeftLines * there.on_line) return std::nullopt;
+  return ImageDelay{delay, there.ratio(), here.ratio()};
+}
+
+std::optional<StereoFrame> ImageDelayFinder::delayed(const StereoFrame& frame, int delay) const {
+  const auto back = static_cast<std::size_t>(std::abs(delay));
+  if (back == 0 || back > kept_.size()) return std::nullopt;
+  const Pair& before = kept_[back - 1];
+  if (delay > 0) return StereoFrame{frame.stamp_ns, before.left.view(), frame.right};
+  return StereoFrame{frame.stamp_ns, frame.left, before.right.view()};
+}
+
+void ImageDelayFinder::keep(const StereoFrame& frame) {
+  ++count_;
+  Pair next;
+  if (kept_.size() == kMaxDelay) {
+    next = std::move(kept_.back());
+    kept_.pop_back();
+  }
+  copy(frame.left, next.left);
+  copy(frame.right, next.right);
+  kept_.push_front(std::move(next));
+}
+
+std::optional<int> DelayVotes::add(const std::optional<ImageDelay>& found) {
+  if (found && ++votes_[found->frames] >= kDelayVotes) decided_ = found->frames;
+  return decided_;
+}
+
+}  // namespace quadedge::rig

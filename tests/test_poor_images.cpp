@@ -1,0 +1,99 @@
+#include <catch2/catch.hpp>
+
+#include "frontends.hpp"
+#include "rig/poor_images.hpp"
+#include "rig/rig_monitor.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+using matching::RenderedScene;
+using rig::RigFindingKind;
+using rig::RigReport;
+
+namespace {
+
+const RenderedScene& room() {
+  static const RenderedScene scene("room", 320, 200, 1);
+  return scene;
+}
+
+/// Clips at the largest value, as a sensor does.
+Image brighter(const Image& image, double factor) {
+  Image result(image.width, image.height);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      result.set(x, y, std::min(255, static_cast<int>(std::lround(factor * image.view().value(x, y)))));
+  return result;
+}
+
+/// Blocks of 8 x 8 px, each half of the way to its mean.
+Image blocky(const Image& image) {
+  Image result = image;
+  for (int top = 0; top + 8 <= image.height; top += 8)
+    for (int left = 0; left + 8 <= image.width; left += 8) {
+      int sum = 0;
+      for (int i = 0; i < 64; ++i) sum += image.view().value(left + i % 8, top + i / 8);
+      for (int i = 0; i < 64; ++i)
+        result.set(left + i % 8, top + i / 8, (image.view().value(left + i % 8, top + i / 8) + sum / 64) / 2);
+    }
+  return result;
+}
+
+RigReport examine(const StereoRig& rig, const Image& left, const Image& right) {
+  return rig::RigMonitor::examine(rig, {0, left.view(), right.view()}, room().config.stereo.max_disparity);
+}
+
+StereoRig pitched() {
+  StereoRig rig = room().rig;
+  rig.right_from_left.linear() = Eigen::AngleAxisd(0.5 * kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  return rig;
+}
+
+}  // namespace
+
+TEST_CASE("poor images: clipped images do not make a right calibration doubtful", "[rig]") {
+  const Image &left = room().left[0], &right = room().right[0];
+  for (const double factor : {1.4, 2.0, 3.0}) {
+    INFO(factor);
+    CHECK(examine(room().rig, brighter(left, factor), brighter(right, factor)).findings.empty());
+    for (const auto& finding : examine(room().rig, left, brighter(right, factor)).findings) {
+      INFO(rig::warning(finding).text);
+      CHECK(rig::warning(finding).kind == WarningKind::poor_images);
+    }
+  }
+}
+
+TEST_CASE("poor images: corners beside saturated pixels are counted apart", "[rig]") {
+  const rig::CornerMatcher matcher(room().rig);
+  const Image left = brighter(room().left[0], 2), right = brighter(room().right[0], 2);
+  const auto plain = matcher.search({0, room().left[0].view(), room().right[0].view()}, 30);
+  const auto clipped = matcher.search({0, left.view(), right.view()}, 30);
+  CHECK(clipped.saturated > plain.saturated);
+  CHECK(clipped.searched < plain.searched);
+  for (const auto& match : clipped.found) {
+    const int x = static_cast<int>(std::lround(match.left.x())), y = static_cast<int>(std::lround(match.left.y()));
+    CHECK(left.view().value(x, y) < 255);
+  }
+}
+
+TEST_CASE("poor images: blocks of a strong compression are seen", "[rig]") {
+  CHECK(rig::blockiness(room().left[0].view()) < 1.1);
+  CHECK(rig::blockiness(blocky(room().left[0]).view()) > 1.3);
+  CHECK(rig::blockiness(Image(64, 64).view()) == 1);
+}
+
+TEST_CASE("poor images: where corners leave their lines, the images are named before the calibration", "[rig]") {
+  const auto said = [](const Image& left, const Image& right) {
+    const RigReport report = examine(pitched(), left, right);
+    REQUIRE(report.findings.size() == 1);
+    CHECK(report.mismatch() == nullptr);
+    return rig::warning(report.findings.front());
+  };
+  const Image &left = room().left[0], &right = room().right[0];
+  CHECK(said(left, right).kind == WarningKind::doubtful_calibration);
+  const Warning compressed = said(blocky(left), blocky(right)), uneven = said(brighter(left, 0.4), right);
+  CHECK(compressed.kind == WarningKind::poor_images);
+  CHECK_THAT(compressed.text, Contains("strong compression"));
+  CHECK(uneven.kind == WarningKind::poor_images);
+  CHECK_THAT(uneven.text, Contains("2.5 times as bright") && Contains("exposure and gain"));
+}
