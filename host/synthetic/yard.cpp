@@ -16,24 +16,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using TexturePointer = std::shared_ptr<const Texture>;
 
-constexpr double kGround = 1.45, kBelow = 2.4;  // y [m] of the walkway, and of the meadow beyond the railing
-constexpr double kWall = -2.4, kRail = 1.9, kPoles = 3.0, kFar = 17.0;  // x [m]
-constexpr double kStart = -9.0, kEnd = 42.0;                            // z [m]
-constexpr double kWallTop = -2.1, kArm = -4.3;                          // y [m]
-constexpr double kHalf = 0.5 * (kEnd - kStart), kMiddle = 0.5 * (kStart + kEnd);
-constexpr double kFacingUp = -0.5 * kPi;  // pitch of a horizontal plane
-constexpr double kNear = 1.2;             // [m], where a texel of what is near covers half a pixel
-
 /// Start of the path "ellipse".
 Isometry3d world_from_yard() { return pose(Vector3d::Zero(), 0.03, 0.02, 0.01); }
-
-Isometry3d at(double x, double y, double z) { return pose({x, y, z}, 0.0, 0.0, 0.0); }
-
-TextureStyle paint(double mean, double noise) {
-  TextureStyle style;
-  style.mean = mean, style.noise = noise, style.noise_size = 0.4;
-  return style;
-}
 
 class Yard {
  public:
@@ -52,6 +36,22 @@ class Yard {
   }
 
  private:
+  static constexpr double kGround = 1.45, kBelow = 2.4;  // y [m] of the walkway, and of the meadow beyond the railing
+  static constexpr double kWall = -2.4, kRail = 1.9, kPoles = 3.0, kFar = 17.0;  // x [m]
+  static constexpr double kStart = -9.0, kEnd = 42.0;                            // z [m]
+  static constexpr double kWallTop = -2.1, kArm = -4.3;                          // y [m]
+  static constexpr double kHalf = 0.5 * (kEnd - kStart), kMiddle = 0.5 * (kStart + kEnd);
+  static constexpr double kPostStep = 2.1, kBarStep = 0.15;          // of the railing [m]
+  static constexpr double kPoleZ[] = {-8.0, 5.0, 17.0, 29.0, 41.0};  // z [m]
+  static constexpr double kFacingUp = -0.5 * kPi;                    // pitch of a horizontal plane
+  static constexpr double kNear = 1.2;  // [m], where a texel of what is near covers half a pixel
+
+  static Isometry3d at(double x, double y, double z) { return pose({x, y, z}, 0.0, 0.0, 0.0); }
+  static TextureStyle paint(double mean, double noise) {
+    TextureStyle style;
+    style.mean = mean, style.noise = noise, style.noise_size = 0.4;
+    return style;
+  }
   TexturePointer speckled(const TextureStyle& style, double half_width, double half_height, double nearest) {
     return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, nearest);
   }
@@ -175,8 +175,6 @@ class Yard {
       wire(scene, {kWall + 0.05, -0.95, z}, {kWall + 0.05, -0.95, z + 5.0}, random_(0.05, 0.3), 0.012);
   }
 
-  static constexpr double kPoleZ[] = {-8.0, 5.0, 17.0, 29.0, 41.0};
-  static constexpr double kPostStep = 2.1, kBarStep = 0.15;
   SceneBuilder build_;
   Random random_;
   double focal_;
