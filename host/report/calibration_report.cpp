@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "report/canvas.hpp"
 
 namespace quadedge::report {
@@ -17,9 +17,7 @@ Json both_sides(const std::array<double, 2>& values) {
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return std::string(text) + "\n";
+  return printed(format, values...) + "\n";
 }
 
 }  // namespace
@@ -112,9 +110,7 @@ void draw_displacements(const std::string& path, const DriveCalibration& result)
       }
     }
   }
-  char legend[200];
-  std::snprintf(
-      legend, sizeof legend,
+  const std::string legend = printed(
       "by how much pixels lie where the given calibration does not expect them, %.0f px drawn per px; largest "
       "%.2f px (left), %.2f px (right)",
       enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);

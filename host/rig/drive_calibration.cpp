@@ -3,12 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "common/calibration.hpp"
 #include "common/lens_mapping.hpp"
+#include "common/printed.hpp"
 #include "quadedge/error.hpp"
 #include "rig/pair_adjustment.hpp"
 #include "rig/pair_collection.hpp"
@@ -161,12 +161,12 @@ int DriveCalibrator::pairs() const { return implementation_->pairs(); }
 DriveCalibration DriveCalibrator::finish() const { return implementation_->finish(); }
 
 std::string DriveCalibration::text() const {
-  char facts[240] = "";
+  std::string facts;
   if (!numbers.empty())
-    std::snprintf(facts, sizeof facts,
-                  "points of frames that were not learned from lie %.3f px (left) and %.3f px (right) from where the "
-                  "given calibration predicts them, %.3f and %.3f px from where the learned one does",
-                  unseen_given[0], unseen_given[1], unseen_learned[0], unseen_learned[1]);
+    facts = printed(
+        "points of frames that were not learned from lie %.3f px (left) and %.3f px (right) from where the "
+        "given calibration predicts them, %.3f and %.3f px from where the learned one does",
+        unseen_given[0], unseen_given[1], unseen_learned[0], unseen_learned[1]);
   const std::string learned_from = std::to_string(pairs) + " pairs of " + std::to_string(frames) + " frames";
   std::string open;
   for (const LearnedNumber& number : numbers)
