@@ -3,15 +3,17 @@
 
     disturb_recording.py alter RECORDING OUT --board 0.4 --photo IMAGE [--speed 4] [--sequence 06] [--frames 40:100]
     disturb_recording.py alter RECORDING OUT --bonnet
-    disturb_recording.py alter RECORDING OUT --late 1 | --gain 1.4 | --right-gain 2.2 | --exposures 8 | --jpeg 20 | --drops 45 | --lamp
+    disturb_recording.py alter RECORDING OUT --late 1 | --gain 1.4 | --right-gain 2.2 | --exposures 8 | --jpeg 20 |
+                                             --drops 45 | --lamp
     disturb_recording.py judge RUN TRUTH [--translation 0.01 0.1] [--rotation 0.3]
 
 `alter` takes recordings in KITTI's and EuRoC's layout. A board shows a photograph with camera noise and covers a part
 of both images, as a plane at one depth in front of the left camera does: --speed moves it by so many pixels per frame
 to the left, 0 fixes it to the camera. With --bonnet the lower half of both images is the first frame's, with noise.
---late takes right images of so many frames earlier, as a camera does that is late (the left one's if negative). --gain and
---right-gain multiply grey levels, which are clipped at 255; --exposures divides those of every second frame. --jpeg
-stores images at that quality, --drops puts drops on both lenses, each its own, and --lamp lights the middle of the view.
+--late takes right images of that many frames earlier, as a camera does that is late (the left one's if negative).
+--gain and --right-gain multiply grey levels, which are clipped at 255; --exposures divides those of every second frame.
+--jpeg stores images at that quality, --drops puts drops on both lenses, each its own, and --lamp lights the middle of
+the view.
 `judge` compares the steps of RUN/trajectory.txt with those of TRUTH, a trajectory in TUM's format, such as that of the
 undisturbed recording, and prints the numbers of steps that are right, lost, wrong and told (a frame of the step is
 marked ambiguous), and wrong in silence. A step is wrong beyond a length plus a ratio of its length, or an angle.
