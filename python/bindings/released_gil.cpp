@@ -13,9 +13,9 @@ constexpr std::chrono::seconds kLongestWait{10};  // for work that never ends, s
 struct Work {
   std::mutex access;
   std::condition_variable changed;
-  int running = 0;               ///< objects of ReleasedGil
-  bool ends = false;             ///< whether Python ends
-  bool was_waited_for = false;   ///< whether it goes on with its end
+  int running = 0;              ///< objects of ReleasedGil
+  bool ends = false;            ///< whether Python ends
+  bool was_waited_for = false;  ///< whether it goes on with its end
   std::thread::id ending_thread;
 
   bool must_stop() const { return ends && std::this_thread::get_id() != ending_thread; }
