@@ -14,7 +14,7 @@ namespace {
 class CountingFrontend : public frontend::Frontend {
  public:
   CountingFrontend(const StereoRig& rig, const Config& config)
-      : Frontend(rig, config.stereo), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
+      : Frontend(rig, config), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
 
   frontend::FrameEdgesHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
   frontend::FrameEdgesHandle latest() const override { return reference_->latest(); }
