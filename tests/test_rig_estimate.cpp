@@ -179,6 +179,7 @@ TEST_CASE("rig estimate: a search is a function, whatever it finds of the rig", 
   CHECK(search.find(query)->rig.displacement == 0);
 }
 
+// LONG: three recordings that end in different ways, joined with one beginning.
 TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig][odometry][device]") {
   Config config = room().config;
   config.pose.disparity_offset_sigma = 0;  // the offset learned is the rig's, and stays

@@ -121,7 +121,7 @@ void show_progress(const report::RunRecord& run, int lost, Progress& progress) {
   progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
 }
 
-/// First pass: poses and latencies.
+/// First pass: poses and latencies. LONG: what a frame passes through, in its order.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                   const Interruption& interruption, PointsOutput& points, EdgeSample& sample, RigFile& known,
                   report::RunRecord& run) {

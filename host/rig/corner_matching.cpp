@@ -217,6 +217,7 @@ Light light_of(const GreyPlane& plane) {
 
 }  // namespace
 
+// LONG: seek() says what is done with a corner, and uses all that is prepared before it.
 CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
                                    const HiddenPixels& hidden) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),

@@ -63,6 +63,7 @@ StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std
   return rig;
 }
 
+// LONG: a line per member.
 void bind_rig(nb::module_& module) {
   nb::class_<StereoRig> rig(
       module, "Rig",
