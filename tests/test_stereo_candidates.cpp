@@ -3,6 +3,7 @@
 #include "common/matching_constants.hpp"
 #include "matching.hpp"
 #include "quadedge/error.hpp"
+#include "reference/stereo_matching.hpp"
 #include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
