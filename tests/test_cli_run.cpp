@@ -48,7 +48,7 @@ TEST_CASE("run: the summary has the path length, the mean error and the next com
   CHECK(std::count(result.out.begin(), result.out.end(), '\n') <= 10);
   CHECK_THAT(result.out, Contains("results    " + (folder / "my results/trajectory.txt")));
   const std::string program = result.out.substr(result.out.find("next       ") + 11);
-  CHECK(program.substr(0, program.find(' ')) == quadedge_program());
+  CHECK(program.substr(0, program.find(' ')) == program_path());
   CHECK_THAT(program, Contains(" report '" + (folder / "my results") + "'"));
   const auto report = nlohmann::json::parse(read_text(folder / "my results/report.json"));
   char error[48];
