@@ -22,7 +22,7 @@ constexpr int kNeighbourhood = 11;                   // half side of the squares
 constexpr float kContrast = 45, kLeastContrast = 6;  // of the normalised images, of recorded ones [grey levels]
 constexpr float kLargestGrey = 128;
 constexpr int kSteps = 30;
-constexpr double kSettled = 0.01, kMaxReturn = 0.35;  // px
+constexpr double kSettledMove = 0.01, kMaxReturn = 0.35;  // px
 constexpr double kMinFlowCorrelation = 0.7;
 
 using Plane = std::vector<float>;
@@ -206,7 +206,7 @@ bool align(const Template& patch, const FlowImage::Level& to, Eigen::Vector2d& a
     const Eigen::Vector2d move =
         patch.inverse * Eigen::Vector2d(product(patch.slope_x, difference), product(patch.slope_y, difference));
     position += move;
-    if (move.squaredNorm() < kSettled * kSettled) break;
+    if (move.squaredNorm() < kSettledMove * kSettledMove) break;
   }
   if (!holds(to, position, kHalf + 1)) return false;
   at = position;

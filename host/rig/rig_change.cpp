@@ -24,14 +24,14 @@ Eigen::Vector2d displacement(const StereoCalibration& given, const StereoCalibra
 namespace rig {
 namespace {
 
-constexpr int kColumns = 12, kRows = 8;
+constexpr int kCellColumns = 12, kCellRows = 8;
 
 /// The middles of the cells of an image.
 std::vector<Eigen::Vector2d> cells_of(const PinholeCamera& camera) {
   std::vector<Eigen::Vector2d> cells;
-  for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kColumns; ++column)
-      cells.emplace_back((column + 0.5) * camera.width / kColumns, (row + 0.5) * camera.height / kRows);
+  for (int row = 0; row < kCellRows; ++row)
+    for (int column = 0; column < kCellColumns; ++column)
+      cells.emplace_back((column + 0.5) * camera.width / kCellColumns, (row + 0.5) * camera.height / kCellRows);
   return cells;
 }
 
