@@ -22,7 +22,7 @@ constexpr int kNeighbourhood = 11;                   // half side of the squares
 constexpr float kContrast = 45, kLeastContrast = 6;  // of the normalised images, of recorded ones [grey levels]
 constexpr float kLargestGrey = 128;
 constexpr int kSteps = 30;
-constexpr double kSettled = 0.01, kMaxReturn = 0.35;  // px
+constexpr double kSettledMove = 0.01, kMaxReturn = 0.35;  // px
 constexpr double kMinFlowCorrelation = 0.7;
 
 using Plane = std::vector<float>;
@@ -153,9 +153,20 @@ double product(const Square& one, const Square& other) {
   return sum;
 }
 
+/// The patch with mean 0 and norm 1; a flat one stays as it is. \param contrast gets its norm
+Square equalised(Square square, float* contrast = nullptr) {
+  const float mean = std::accumulate(square.begin(), square.end(), 0.0F) / (kSide * kSide);
+  for (float& value : square) value -= mean;
+  const auto norm = static_cast<float>(std::sqrt(std::max(1e-6, product(square, square))));
+  for (float& value : square) value /= norm;
+  if (contrast != nullptr) *contrast = norm;
+  return square;
+}
+
 /// A patch with its gradients.
 struct Template {
-  Square grey, slope_x, slope_y;
+  Square equal, slope_x, slope_y;
+  float contrast = 0;  ///< of the patch that `equal` is made from
   Eigen::Matrix2d inverse;
   bool is_corner = false;
 };
@@ -168,11 +179,12 @@ Template template_at(const FlowImage::Level& level, const Eigen::Vector2d& at) {
   for (std::size_t row = 0; row < kSide; ++row) {
     for (std::size_t i = 0; i < kSide; ++i) {
       const std::size_t to = row * kSide + i, middle = (row + 1) * kWide + i + 1;
-      patch.grey[to] = wide[middle];
+      patch.equal[to] = wide[middle];
       patch.slope_x[to] = 0.5F * (wide[middle + 1] - wide[middle - 1]);
       patch.slope_y[to] = 0.5F * (wide[middle + kWide] - wide[middle - kWide]);
     }
   }
+  patch.equal = equalised(patch.equal, &patch.contrast);
   Eigen::Matrix2d normal;
   const double xy = product(patch.slope_x, patch.slope_y);
   normal << product(patch.slope_x, patch.slope_x), xy, xy, product(patch.slope_y, patch.slope_y);
@@ -188,12 +200,13 @@ bool align(const Template& patch, const FlowImage::Level& to, Eigen::Vector2d& a
   Eigen::Vector2d position = at;
   for (int step = 0; step < kSteps; ++step) {
     if (!holds(to, position, kHalf + 1)) return false;
-    Square difference = cut(to, position);
-    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = patch.grey[i] - difference[i];
+    Square difference = equalised(cut(to, position));
+    for (std::size_t i = 0; i < difference.size(); ++i)
+      difference[i] = patch.contrast * (patch.equal[i] - difference[i]);
     const Eigen::Vector2d move =
         patch.inverse * Eigen::Vector2d(product(patch.slope_x, difference), product(patch.slope_y, difference));
     position += move;
-    if (move.squaredNorm() < kSettled * kSettled) break;
+    if (move.squaredNorm() < kSettledMove * kSettledMove) break;
   }
   if (!holds(to, position, kHalf + 1)) return false;
   at = position;
@@ -227,12 +240,7 @@ std::optional<Eigen::Vector2d> search(const FlowImage& from, const FlowImage& to
 
 double correlation(const FlowImage::Level& from, const Eigen::Vector2d& at, const FlowImage::Level& to,
                    const Eigen::Vector2d& found) {
-  Square one = cut(from, at), other = cut(to, found);
-  for (Square* square : {&one, &other}) {
-    const float mean = std::accumulate(square->begin(), square->end(), 0.0F) / (kSide * kSide);
-    for (float& value : *square) value -= mean;
-  }
-  return product(one, other) / std::sqrt(std::max(1e-9, product(one, one) * product(other, other)));
+  return product(equalised(cut(from, at)), equalised(cut(to, found)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/calibration.hpp"
+#include "common/frame_mask.hpp"
 #include "common/lens_mapping.hpp"
 #include "common/printed.hpp"
 #include "quadedge/error.hpp"
@@ -33,8 +34,7 @@ bool is_masked(const LensMapping& lens, const PinholeCamera& camera, const Pixel
   if (!ray || !(ray->z() > 0)) return true;
   const Eigen::Vector2d pinhole = camera.project(*ray).array().round();
   if (pinhole.x() < 0 || pinhole.y() < 0 || pinhole.x() > mask.width - 1 || pinhole.y() > mask.height - 1) return false;
-  return mask.hidden[static_cast<std::size_t>(pinhole.y()) * static_cast<std::size_t>(mask.width) +
-                     static_cast<std::size_t>(pinhole.x())] != 0;
+  return hides(mask, pinhole.x(), pinhole.y());
 }
 
 }  // namespace
