@@ -392,33 +392,3 @@ TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the 
   CHECK(run("--rig-file").code == 0);
   CHECK(value("out/config.toml", "disparity_offset") == 0.125);
 }
-
-TEST_CASE("run: a device that fails in mid-run costs no finished frame and no file", "[cli][device]") {
-  const TemporaryFolder folder;
-  const auto launches = [&](long most) {
-    return "LD_PRELOAD='" QUADEDGE_LOST_DEVICE "' QUADEDGE_TEST_LAUNCHES=" + std::to_string(most);
-  };
-  const auto run = [&](long most) {
-    return run_program(
-        {"run", small_sequence(), "-o", folder / "out", "--force", "--loops", "--save-map", folder / "places.map",
-         "--rig-file", folder / "rig.toml", "--points", folder / "edges.ply", "--quiet"},
-        launches(most));
-  };
-  CHECK(run(10).code == 4);  // before the first frame
-  CHECK_FALSE(fs::exists(folder / "out/report.json"));
-  ProgramResult result;
-  for (long most = 100; read_lines(folder / "out/trajectory_kitti.txt").size() < 2; most += 50) {
-    REQUIRE(most < 10'000);
-    result = run(most);
-  }
-  CHECK(result.code == 4);
-  CHECK_THAT(result.err, Contains("finished frames in") && Contains("CL_OUT_OF_RESOURCES"));
-  const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
-  CHECK(report["input"]["frames"] == 4);
-  CHECK_THAT(report["ended_early"].get<std::string>(), Contains("CL_OUT_OF_RESOURCES"));
-  CHECK(report["accuracy"]["matched_poses"] == read_lines(folder / "out/trajectory_kitti.txt").size());
-  for (const char* file : {"places.map", "rig.toml", "edges.ply", "out/trajectory_map.txt", "out/errors.csv"}) {
-    INFO(file);
-    CHECK(fs::file_size(folder / file) > 0);
-  }
-}
