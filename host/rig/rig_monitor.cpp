@@ -186,7 +186,9 @@ std::vector<RigFinding> implausible_numbers(const StereoRig& rig) {
   return found;
 }
 
-std::optional<RigFinding> judge_disparity_offset(double offset) {
+std::optional<RigFinding> judge_disparity_offset(double learned, double free, double sigma) {
+  const bool is_shown = sigma > 0 && std::abs(learned) > sigma && learned * free > 0;
+  const double offset = is_shown && std::abs(free) > std::abs(learned) ? free : learned;
   if (!(std::abs(offset) > kMaxOffset)) return std::nullopt;
   RigFinding finding{RigFindingKind::large_disparity_offset};
   finding.disparity_offset = offset;
