@@ -213,7 +213,7 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
                     return warning.text.find("masked") != std::string::npos;
                   });
                 }};
-  for (std::size_t i = 0; i < 24; ++i) {
+  for (std::size_t i = 0; i < 48; ++i) {
     Image left = room().left[shown(i)], right = room().right[shown(i)];
     for (int y = 40; y < 110; ++y) {
       for (int x = 60; x < 150; ++x) {
