@@ -378,9 +378,9 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
   result.counts.inliers = step.motion.inliers;
   adopt_rig(step);
   result.rig = current_->rig();
-  if (const auto large = rig::judge_disparity_offset(result.rig.disparity_offset,
-                                                     step.rig.disparity_offset + step.motion.offset,
-                                                     config_.pose.disparity_offset_sigma))
+  if (const auto large =
+          rig::judge_disparity_offset(result.rig.disparity_offset, step.rig.disparity_offset + step.motion.offset,
+                                      config_.pose.disparity_offset_sigma))
     preparation_.warn(rig::warning(*large));
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;

@@ -10,7 +10,7 @@ namespace quadedge {
 
 Eigen::Vector2d displacement(const StereoCalibration& given, const StereoCalibration& learned, Side side,
                              const Eigen::Vector2d& pixel) {
-  const Eigen::Vector2d none(kNan, kNan);
+  Eigen::Vector2d none(kNan, kNan);
   const bool is_left = side == Side::left;
   const auto ray = LensMapping(is_left ? learned.left : learned.right).ray(pixel);
   if (!ray) return none;

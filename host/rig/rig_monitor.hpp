@@ -22,9 +22,9 @@ namespace quadedge::rig {
 /// a ratio of fx to fy outside 1 / 1.5 to 1.5, a principal point outside the image.
 std::vector<RigFinding> implausible_numbers(const StereoRig& rig);
 
-/// Reports a disparity offset [px] beyond what rectification leaves, in either direction. One that a motion alone shows,
-/// without what was known before, counts where what is learned has left its prior in the same direction: a view of a
-/// single plane shows none, and its motion any.
+/// Reports a disparity offset [px] beyond what rectification leaves, in either direction. One that a motion alone
+/// shows, without what was known before, counts where what is learned has left its prior in the same direction: a view
+/// of a single plane shows none, and its motion any.
 /// \param free of a motion alone \param sigma standard deviation of the prior; 0: none is learned
 std::optional<RigFinding> judge_disparity_offset(double learned, double free = 0, double sigma = 0);
 
