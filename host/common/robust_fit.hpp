@@ -31,7 +31,7 @@ struct RobustFit {
   Matrix normal = Matrix::Zero();
   Terms right_side = Terms::Zero();
   Terms gradient = Terms::Zero();  ///< of the rows, at the terms from which the fit began
-  double scatter = 0;              ///< median distance of a value from the fit
+  double scatter = 0;              ///< median distance of a value from the fit; 0 without values
 
   /// Fits from the current terms on. `normal` and `right_side` are those of the rows alone.
   /// \param least no smaller scale of distances is used \param known_normal, known_right_side of a fit that is
@@ -57,14 +57,14 @@ struct RobustFit {
     distances_.clear();
     for (const Row& row : rows) distances_.push_back(row.value);
     terms.setZero();
-    terms[0] = upper_median(distances_);
+    if (!distances_.empty()) terms[0] = upper_median(distances_);
     fit(rows, least, 1e-6 * Matrix::Identity(), Terms::Zero());
   }
   /// Sets the scatter of rows about the terms.
   void measure(const std::vector<Row>& rows) {
     distances_.clear();
     for (const Row& row : rows) distances_.push_back(std::abs(row.value - row.terms.dot(terms)));
-    scatter = upper_median(distances_);
+    scatter = distances_.empty() ? 0 : upper_median(distances_);
   }
 
  private:

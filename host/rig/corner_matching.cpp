@@ -294,10 +294,12 @@ EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int h
   EpipolarFit fit;
   if (matches.size() < kMinFitCorners) return fit;
   fit.samples = static_cast<int>(matches.size());
-  std::vector<RobustFit<3>::Row> rows;
+  thread_local std::vector<RobustFit<3>::Row> rows;  // kept for their memory, as is `robust`
+  thread_local RobustFit<3> robust;
+  rows.clear();
   for (const auto& match : matches)
     rows.push_back({match.across, {1, match.left.x() / width - 0.5, match.left.y() / height - 0.5}});
-  RobustFit<3> robust;
+  robust.terms.setZero();
   robust.measure(rows);
   fit.residual = robust.scatter;
   robust.fit(rows, kMinScale);

@@ -1,6 +1,8 @@
 #include "rig/image_delay.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "rig/rig_constants.hpp"
 
@@ -79,14 +81,10 @@ std::optional<StereoFrame> ImageDelayFinder::delayed(const StereoFrame& frame, i
 
 void ImageDelayFinder::keep(const StereoFrame& frame) {
   ++count_;
-  Pair next;
-  if (kept_.size() == kMaxDelay) {
-    next = std::move(kept_.back());
-    kept_.pop_back();
-  }
-  copy(frame.left, next.left);
-  copy(frame.right, next.right);
-  kept_.push_front(std::move(next));
+  if (kept_.size() < kMaxDelay) kept_.emplace_back();
+  std::rotate(kept_.begin(), std::prev(kept_.end()), kept_.end());
+  copy(frame.left, kept_.front().left);
+  copy(frame.right, kept_.front().right);
 }
 
 std::optional<int> DelayVotes::add(const std::optional<ImageDelay>& found) {

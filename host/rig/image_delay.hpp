@@ -3,9 +3,9 @@
 /// frames.
 
 #include <cstddef>
-#include <deque>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "quadedge/image.hpp"
 #include "rig/corner_matching.hpp"
@@ -46,7 +46,7 @@ class ImageDelayFinder {
   /// The pair that a delay makes of the frame and a frame before it; nothing if that is not kept.
   std::optional<StereoFrame> delayed(const StereoFrame& frame, int delay) const;
 
-  std::deque<Pair> kept_;  ///< the latest first
+  std::vector<Pair> kept_;  ///< the latest first
   int count_ = 0;
 };
 
