@@ -117,7 +117,8 @@ def main():
         ours = ours.get("accuracy", ours)
         if arguments.segment is not None:
             ours = next(entry for entry in ours["segments"] if entry["segment"] == arguments.segment)
-        open_rotation, sub_paths = "se3_open_rotation" in ours, ours["sub_paths"]["by_length"]
+        open_rotation = "se3_open_rotation" in ours
+        sub_paths = ours["sub_paths"]["by_length"] if arguments.sequence is None else []  # a summary has none
         ours = {(a, e): ours[a][e] for a in ALIGNMENTS for e in ERRORS}
     except (OSError, KeyError, ValueError, StopIteration, file_interface.FileInterfaceException,
             sync.SyncException) as problem:
