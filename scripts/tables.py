@@ -372,7 +372,8 @@ def whole_recordings(results):
         rows.append((f"{WHOLE[row['recording']]}: {short} m; {long} m", cells[0], cells[1], f"{cells[2]}; {cells[4]}",
                      f"{cells[3]}; {cells[5]}"))
     head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
-    return table(head, rows, f"Medians of {counted(part['seeds'], 'seed')}, and their range. {stamp(part)}")
+    seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
+    return table(head, rows, f"{seeds} {stamp(part)}")
 
 
 def evidence(results):
