@@ -613,7 +613,8 @@ def test_pages_of_the_program(tmp_path):
     for source in (summary, json.loads((tmp_path / "batch/sequences/room/report.json").read_text())):
         assert source["config_changed"]["stereo.ncc_min"] == "0.55"
         assert {"version", "commit", "date", "command", "device" if source is not summary else "input"} <= set(source)
-    assert page.facts["Command"].startswith("quadedge batch")
+    assert summary["command"].startswith("quadedge batch")
+    assert page.facts["Command"].startswith("quadedge run")  # of the sequence
     summary_tables = (tmp_path / "batch/summary.md").read_text()
     assert "SE(3)-aligned" in summary_tables and "\n| room | done | 11 of 11 (100.0 %) |" in summary_tables
     mean = summary["sequences"][0]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"]
