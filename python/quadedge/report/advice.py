@@ -21,7 +21,7 @@ OF_KIND = {
     "static_region": "Exclude this part of the image with --mask: an image that is black there.",
     "displaced_images": "Switch off image stabilisation and the cropping of single images, and fasten both cameras to "
                         "one bar.",
-    "poor_images": "Shorten the exposure, light both cameras alike or compress less: what images hide cannot be matched, "
+    "poor_images": "Shorten the exposure, light both cameras alike or compress less: what is hidden cannot be matched, "
                    "and says nothing of the calibration.",
     "changed_rig": "Fasten the cameras and calibrate again; earlier and later frames have different calibrations."}
 OF_LOSS = {
