@@ -247,10 +247,17 @@ TEST_CASE("motion selection: another motion on all sides counts if more matches 
   };
   CHECK(is_doubtful(1.2, 0.7, true, false));
   CHECK_FALSE(is_doubtful(0.9, 0.7, true, false));
-  CHECK_FALSE(is_doubtful(1.2, 0.5, true, false));  // an object
-  CHECK(is_doubtful(0.3, 0.5, true, true));         // after an ambiguous motion
-  CHECK_FALSE(is_doubtful(0.5, 0.1, true, true));
+  CHECK_FALSE(is_doubtful(1.2, 0.5, true, false));   // an object
+  CHECK(is_doubtful(0.3, 0.5, true, true));          // after an ambiguous motion
   CHECK_FALSE(is_doubtful(1.2, 0.7, false, false));  // in too few places
+  OtherPart gathered{0.01, 0.05, 0.2};               // a small part in one place, after an ambiguous motion
+  gathered.chosen_area = 1;
+  gathered.balance = 0.5;
+  gathered.match_spread = 0.1;
+  gathered.agrees_globally = true;
+  CHECK_FALSE(ambiguity_of(gathered, true).exists());
+  gathered.match_spread = 0.5;
+  CHECK(ambiguity_of(gathered, true).exists());
   OtherPart rest{0.2, 0.5, 0.9, 0.5};
   CHECK(ambiguity_of(rest, false).exists());
   rest.is_rest = true;  // has to prevail: its area alone is no evidence
