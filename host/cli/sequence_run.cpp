@@ -175,6 +175,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       if (interruption.signal() != 0) break;
     }
   } catch (const Error&) {
+    if (run.frames.empty()) throw;
     try {
       write_loops(true);
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a full disk, beside the error that ends the run
