@@ -8,7 +8,7 @@
 #include "common/matching_constants.hpp"
 #include "common/printed.hpp"
 #include "odometry/latest_frame.hpp"
-#include "pose/oriented_point.hpp"
+#include "pose/quads.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -19,12 +19,7 @@ constexpr double kDisparityError = 0.2;   ///< [px]
 
 /// An edge of the key rig in the left camera's frame; nothing where its depth is too uncertain.
 std::optional<Eigen::Vector3d> point_of(const StereoRig& rig, const StereoEdges& edges, std::size_t i) {
-  pose::StereoObservation observation;
-  observation.left = {edges.left_x[i], edges.left_y[i]};
-  observation.right = {edges.right_x[i], edges.right_y[i]};
-  observation.left_direction = edges.left_direction[i];
-  observation.right_direction = edges.right_direction[i];
-  const auto measured = pose::measure(rig, observation, kMinEpipolarAngle);
+  const auto measured = pose::measure(rig, pose::observation_of(edges, i), kMinEpipolarAngle);
   if (!measured || measured->inverse_depth_per_pixel * kDisparityError > kMostDepthError * measured->inverse_depth)
     return std::nullopt;
   return measured->oriented_point().point;

@@ -5,7 +5,7 @@
 
 #include "common/matching_constants.hpp"
 #include "common/undistortion.hpp"
-#include "pose/oriented_point.hpp"
+#include "pose/quads.hpp"
 #include "pose/residuals.hpp"
 
 namespace quadedge::points {
@@ -35,12 +35,7 @@ std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, c
   points.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     auto& point = points.emplace_back();
-    pose::StereoObservation observation;
-    observation.left = {edges.left_x[i], edges.left_y[i]};
-    observation.right = {edges.right_x[i], edges.right_y[i]};
-    observation.left_direction = edges.left_direction[i];
-    observation.right_direction = edges.right_direction[i];
-    const auto measured = pose::measure(rig, observation, kMinEpipolarAngle);
+    const auto measured = pose::measure(rig, pose::observation_of(edges, i), kMinEpipolarAngle);
     if (!measured) continue;
     const pose::OrientedPoint oriented = measured->oriented_point();
     const double sigma = noise.on_epipolar_line(measured->epipolar_sine);

@@ -4,17 +4,13 @@
 
 namespace quadedge::pose {
 
-namespace {
-
-StereoObservation observation(const StereoEdges& edges, std::size_t i) {
+StereoObservation observation_of(const StereoEdges& edges, std::size_t i) {
   return {{edges.left_x[i], edges.left_y[i]},
           {edges.right_x[i], edges.right_y[i]},
           edges.left_direction[i],
           edges.right_direction[i],
           edges.left_scale_shift.empty() ? 0.0 : static_cast<double>(edges.left_scale_shift[i])};
 }
-
-}  // namespace
 
 void ScoringArrays::assign_rows(const ScoringArrays& other, const std::vector<std::int32_t>& rows) {
   for (auto column : kScoringColumns) {
@@ -92,7 +88,7 @@ void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& curren
   for_row_blocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       const std::size_t i = rows_[q];
-      quads.set(q, *before(i), *after(i), observation(current, static_cast<std::size_t>(matches.current[i])),
+      quads.set(q, *before(i), *after(i), observation_of(current, static_cast<std::size_t>(matches.current[i])),
                 matches.ncc[i], matches.competing_clusters[i], static_cast<std::int32_t>(i), limits);
     }
   });

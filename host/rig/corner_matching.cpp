@@ -67,6 +67,22 @@ Alignment compare(const Samples& wanted, const Level& wanted_level, const Sample
   return sums;
 }
 
+/// Light of the pixels of a plane that are not black, as those outside the image are.
+struct Light {
+  double mean = 0, saturated = 0;
+};
+
+Light light_of(const GreyPlane& plane) {
+  double sum = 0, saturated = 0, count = 0;
+  for (std::size_t i = 0; i < plane.mean.size(); ++i) {
+    if (!(plane.grey[i] > 0)) continue;
+    count += 1;
+    sum += static_cast<double>(plane.grey[i]);
+    saturated += plane.grey[i] >= kSaturated ? 1 : 0;
+  }
+  return {sum / std::max(1.0, count), saturated / std::max(1.0, count)};
+}
+
 /// Result of searching for one corner.
 struct SearchedCorner {
   bool has_line = false, is_negative = false, is_saturated = false;
@@ -196,26 +212,6 @@ CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, 
             return right.at(given.x(), given.y());
           })};
 }
-
-namespace {
-
-/// Light of the pixels of a plane that are not black, as those outside the image are.
-struct Light {
-  double mean = 0, saturated = 0;
-};
-
-Light light_of(const GreyPlane& plane) {
-  double sum = 0, saturated = 0, count = 0;
-  for (std::size_t i = 0; i < plane.mean.size(); ++i) {
-    if (!(plane.grey[i] > 0)) continue;
-    count += 1;
-    sum += static_cast<double>(plane.grey[i]);
-    saturated += plane.grey[i] >= kSaturated ? 1 : 0;
-  }
-  return {sum / std::max(1.0, count), saturated / std::max(1.0, count)};
-}
-
-}  // namespace
 
 // LONG: seek() says what is done with a corner, and uses all that is prepared before it.
 CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
