@@ -213,6 +213,10 @@ TEST_CASE("motion selection: what a motion between distant views leaves at near 
   part.balance = 0.03;
   CHECK_FALSE(ambiguity_of(part, false).exists());
   CHECK_FALSE(ambiguity_of(part, true).exists());
+  CHECK(ambiguity_of(part, false, true).exists());  // in the first frames no motion before speaks for the chosen one
+  part.spread = 0.2;
+  CHECK_FALSE(ambiguity_of(part, false, true).exists());
+  part.spread = 1.0;
   part.balance = 0.25;  // the matches follow it
   CHECK(ambiguity_of(part, false).exists());
 }

@@ -319,7 +319,7 @@ Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const Motion
   const StepHandle matches = proposals_.in_free_cells(query, chosen);
   if (!matches->ok()) return {};
   const OtherPart part = compare_in_free_cells(query, chosen, *matches, *matches);
-  const Ambiguity ambiguity = ambiguity_of(part, record_.was_ambiguous());
+  const Ambiguity ambiguity = ambiguity_of(part, record_.was_ambiguous(), record_.at_start());
   if (ambiguity.exists()) return ambiguity;
   const StepHandle rest = proposals_.rest_of_global_matches(query, *matches);
   if (!rest->ok()) return {};

@@ -138,7 +138,7 @@ void decide(bool accepts_ambiguous, const Ambiguity& later, Verdict& chosen) {
   if (chosen.ambiguity.exists() && !accepts_ambiguous) chosen.refuse(Refusal::ambiguous);
 }
 
-Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous) {
+Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous, bool at_start) {
   const double factor = was_ambiguous ? kRepeatedOtherPart : 1, share = was_ambiguous ? kRepeatedShare : kRivalShare;
   const auto exceeds = [&](double area, double ratio) {
     return !part.is_rest && part.area > factor * area && part.ratio > factor * ratio;
@@ -146,20 +146,21 @@ Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous) {
   const bool is_coherent = part.ratio > kCoherentRatio || part.balance > kPromisingBalance;
   const bool is_comparable = part.area > share * part.chosen_area;
   const bool is_large = exceeds(kOtherPartArea, kOtherPartRatio) && is_comparable && is_coherent;
-  const bool surrounds =
-      exceeds(kSurroundingArea, kSurroundingRatio) && part.spread > kSurroundingSpread && is_coherent;
+  const bool surrounds = exceeds(kSurroundingArea, kSurroundingRatio) &&
+                         (at_start ? part.spread > kStartSpread : part.spread > kSurroundingSpread && is_coherent);
   const double least_spread = was_ambiguous ? kRepeatedSpread : kSurroundingSpread;
   const bool prevails = part.agrees_globally && part.balance > factor && part.match_spread > least_spread;
   return is_large || surrounds || prevails ? Ambiguity{AmbiguityKind::other_part, part.area} : Ambiguity{};
 }
 
-TrackRecord::TrackRecord(const Config& config) : limits_(config.temporal), rechecks_(kRechecks) {}
+TrackRecord::TrackRecord(const Config& config) : limits_(config.temporal), start_frames_(kRechecks), rechecks_(kRechecks) {}
 
 void TrackRecord::remember(const MotionStep& found) {
   const bool was_certain = !was_ambiguous_ || doubtful_checks_ > 0;
   recent_support_ = found.ok() ? std::max(found.verdict.support, kSupportDecay * recent_support_) : 0;
   was_ambiguous_ = found.verdict.ambiguity.exists();
   --frames_to_check_;
+  start_frames_ = found.ok() ? std::max(0, start_frames_ - 1) : kRechecks;
   if (!found.ok()) {
     frames_to_check_ = doubtful_checks_ = 0;
     rechecks_ = kRechecks;

@@ -116,8 +116,9 @@ struct OtherPart {
   bool is_rest = false;          ///< whether it was found in what another motion, which was no other part, left of them
 };
 
-/// Whether it may be the camera's. \param was_ambiguous whether the last motion was \returns nothing or other_part
-Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous);
+/// Whether it may be the camera's. \param was_ambiguous whether the last motion was \param at_start whether no motions
+/// before speak for the chosen one \returns nothing or other_part
+Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous, bool at_start = false);
 
 /// What the motions of earlier frames say about the next prediction: the support that recent ones had, and whether the
 /// last one was ambiguous.
@@ -135,6 +136,8 @@ class TrackRecord {
   bool is_check_due(const Verdict& chosen) const;
   /// Whether the last motion, which the prediction repeats, was ambiguous.
   bool was_ambiguous() const { return was_ambiguous_; }
+  /// Whether these are the first motions of the recording, or after a loss.
+  bool at_start() const { return start_frames_ > 0; }
   /// recent_other_part if one of the last searches found another motion, which is seldom gone so soon; else nothing.
   Ambiguity recent_other_part() const;
 
@@ -142,6 +145,7 @@ class TrackRecord {
   TemporalConfig limits_;
   double recent_support_ = 0;  ///< since the last failure
   bool was_ambiguous_ = false;
+  int start_frames_;  ///< frames until motions before speak for one
   int frames_to_check_ = 0;
   int doubtful_checks_ = 0;  ///< searches that have to find nothing until the motion found last is forgotten
   int rechecks_;             ///< searches in the next frames; 0: the last ones found no other motion

@@ -64,6 +64,8 @@ constexpr double kCoherentRatio = 0.3;
 /// in x and in y, reach this fraction of those of all cells.
 constexpr double kSurroundingArea = 0.025, kSurroundingRatio = 0.1, kSurroundingSpread = 0.6,
                  kRepeatedSpread = 0.3;  // of the matches of a motion that prevails, after an ambiguous one
+/// In the first kRechecks motions, for which none before speak, a part that spreads over this suffices.
+constexpr double kStartSpread = 0.3;
 /// Global matches of a proposal alone over those of the chosen motion, from which it is worth a guided search.
 constexpr double kPromisingBalance = 0.1;
 /// The limits of areas and ratios are this fraction of those if the last motion was ambiguous: another motion that
