@@ -78,7 +78,7 @@ Eigen::Vector2d displacement(const StereoCalibration& given, const StereoCalibra
 class DriveCalibrator {
  public:
   /// \param rig made from `given`; its masks exclude parts of the images
-  /// \param most_pairs pairs of frames that are kept; of a longer recording, evenly spread ones
+  /// \param most_pairs pairs of frames that are kept: of a longer recording so many to twice as many, evenly spread
   DriveCalibrator(const StereoCalibration& given, const StereoRig& rig, int most_pairs = 200);
   ~DriveCalibrator();
   DriveCalibrator(DriveCalibrator&&) noexcept;

@@ -18,6 +18,7 @@ void bind_configuration(nb::module_& module);
 void bind_cameras(nb::module_& module);
 void bind_trajectories(nb::module_& module);
 void bind_datasets(nb::module_& module);
+void bind_calibration(nb::module_& module);
 void bind_synthetic(nb::module_& module);
 void bind_edges(nb::module_& module);
 void bind_taps(nb::module_& module);

@@ -48,6 +48,7 @@ NB_MODULE(_quadedge, module) {
   bind_cameras(module);
   bind_trajectories(module);
   bind_datasets(module);
+  bind_calibration(module);
   bind_synthetic(module);
   bind_edges(module);
   bind_taps(module);
