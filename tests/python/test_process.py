@@ -76,7 +76,7 @@ def test_a_decimal_comma_changes_no_file(german, tmp_path):
         assert (tmp_path / "german" / name).read_bytes() == (tmp_path / "usual" / name).read_bytes(), name
     assert "1000.5" in (tmp_path / "german" / "error.txt").read_text()
     assert columns(tmp_path / "german" / "frames.csv") == columns(tmp_path / "usual" / "frames.csv")
-    report = "from quadedge.report.__main__ import main; import sys; sys.exit(main(sys.argv[1:]))"
+    report = "from quadedge.report.__main__ import main; import sys; sys.exit(main())"
     done = run(report, tmp_path / "german")
     assert done.returncode == 0, done.stderr
 
