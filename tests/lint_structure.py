@@ -42,7 +42,7 @@ MOST_LINES = {
     "host/synthetic": 2980,
     "include": 2240,
     "kernels": 5210,
-    "python": 11160,
+    "python": 11230,
     "scripts": 3060,
     "tests": 32940,
 }

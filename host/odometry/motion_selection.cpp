@@ -153,7 +153,8 @@ Ambiguity ambiguity_of(const OtherPart& part, bool was_ambiguous, bool at_start)
   return is_large || surrounds || prevails ? Ambiguity{AmbiguityKind::other_part, part.area} : Ambiguity{};
 }
 
-TrackRecord::TrackRecord(const Config& config) : limits_(config.temporal), start_frames_(kRechecks), rechecks_(kRechecks) {}
+TrackRecord::TrackRecord(const Config& config)
+    : limits_(config.temporal), start_frames_(kRechecks), rechecks_(kRechecks) {}
 
 void TrackRecord::remember(const MotionStep& found) {
   const bool was_certain = !was_ambiguous_ || doubtful_checks_ > 0;

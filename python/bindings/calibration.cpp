@@ -63,17 +63,20 @@ void bind_calibration(nb::module_& module) {
           "The rig to track with: the learned one if it is better, else the given one. fov: as in Rig.from_file().")
       .def(
           "write",
-          [](const Self& self, const std::filesystem::path& path) { write_calibration(path.string(), self.calibration); },
+          [](const Self& self, const std::filesystem::path& path) {
+            write_calibration(path.string(), self.calibration);
+          },
           "path"_a, nb::sig("def write(self, path: str | os.PathLike) -> None"),
           "Writes the calibration to use in QuadEdge's own form, which Rig.from_file() and the program read.")
       .def("__repr__", [](const Self& self) { return std::string("<Calibration: ") + to_string(self.verdict) + ">"; });
 
-  module.def("calibrate", &calibrate, "dataset"_a, nb::kw_only(), "most_pairs"_a = 200,
-             nb::sig("def calibrate(dataset: Dataset, *, most_pairs: int = 200) -> Calibration"),
-             "Learns the calibration of the rig that made a recording, from all of its frames, as `quadedge calibrate`\n"
-             "does. Identical frames give identical results; no device is needed.\n\n"
-             "most_pairs: pairs of frames that are kept: of a longer recording so many to twice as many, evenly spread.\n\n"
-             "Raises DataError for a frame that cannot be read.");
+  module.def(
+      "calibrate", &calibrate, "dataset"_a, nb::kw_only(), "most_pairs"_a = 200,
+      nb::sig("def calibrate(dataset: Dataset, *, most_pairs: int = 200) -> Calibration"),
+      "Learns the calibration of the rig that made a recording, from all of its frames, as `quadedge calibrate`\n"
+      "does. Identical frames give identical results; no device is needed.\n\n"
+      "most_pairs: pairs of frames to keep: of a longer recording so many to twice as many, evenly spread.\n\n"
+      "Raises DataError for a frame that cannot be read.");
 }
 
 }  // namespace quadedge::python

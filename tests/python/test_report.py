@@ -627,8 +627,8 @@ def test_pages_of_the_program(tmp_path):
     run("report", tmp_path / "batch/sequences/room")
     assert ParsedPage((tmp_path / "batch/sequences/room/report.html").read_text()).facts["Device"]
     installed = {name: value for name, value in environment.items() if name != "PYTHONPATH"}
-    subprocess.run([sys.executable, "-m", "quadedge.matching", tmp_path / "data/room", "--frames", "2", "--quiet", "--html",
-                    tmp_path / "m.html"], check=True, env=installed)
+    subprocess.run([sys.executable, "-m", "quadedge.matching", tmp_path / "data/room", "--frames", "2", "--quiet",
+                    "--html", tmp_path / "m.html"], check=True, env=installed)
     matching = ParsedPage((tmp_path / "m.html").read_text())
     assert matching.tables["Table 1: stereo"][6][2] == "off" and matching.pictures == 3
     assert "Table 3" in " ".join(matching.tables)
