@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "common/corrected_rig.hpp"
 #include "common/numeric.hpp"
@@ -33,6 +34,13 @@ Image displaced(const Image& from, int columns) {
     for (int x = 0; x < from.width; ++x)
       to.set(x, y, from.pixels[static_cast<std::size_t>(y * from.width + std::clamp(x + columns, 0, from.width - 1))]);
   return to;
+}
+
+/// The texture of a surface that does not move.
+int bonnet(int x, int y) {
+  std::minstd_rand random(static_cast<unsigned>(1 + x / 6 + 1000 * (y / 6)));
+  random.discard(3);
+  return static_cast<int>(40 + random() % 160);
 }
 
 StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
@@ -188,7 +196,7 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
     std::vector<std::pair<Image, Image>> frames;
     bool (*is_reached)(const FrameResult&);
   };
-  std::vector<Ending> endings(2);
+  std::vector<Ending> endings(3);
   endings[0] = {"displaced", {}, [](const FrameResult& result) { return result.rig.displacement != 0; }};
   for (std::size_t i = 0; i < 5; ++i)
     endings[0].frames.emplace_back(room().left[i], displaced(room().right[i], i == 4 ? 3 : 0));
@@ -204,6 +212,21 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
       }
     }
     endings[1].frames.emplace_back(left, right);
+  }
+  // A bonnet, nearer than the facade that passes, which is masked until the restart.
+  endings[2] = {"masked", {}, [](const FrameResult& result) {
+                  return std::any_of(result.warnings.begin(), result.warnings.end(),
+                                     [](const Warning& warning) { return warning.kind == WarningKind::static_region; });
+                }};
+  const RenderedScene facade("facade", room().rig.left.width, room().rig.left.height, 24, 2);
+  for (std::size_t i = 0; i < 24; ++i) {
+    Image left = facade.left[i], right = facade.right[i];
+    for (int y = 2 * left.height / 3; y < left.height; ++y)
+      for (int x = 0; x < left.width; ++x) {
+        left.set(x, y, bonnet(x, y));
+        right.set(x, y, bonnet(x + 20, y));
+      }
+    endings[2].frames.emplace_back(left, right);
   }
   for (const Ending& ending : endings) {
     INFO(ending.name);
