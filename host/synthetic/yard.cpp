@@ -29,7 +29,7 @@ class Yard {
     buildings();
     wall();
     posts();
-    Scene scene = build_.finish(0.9, {world_from_yard() * at(0.0, 0.0, -3.0), 26.0, 0.25});
+    Scene scene = build_.finish(1.2, {world_from_yard() * at(-0.2, 0.0, -3.0), 26.0, 0.25});
     railing(scene);
     wires(scene);
     return scene;
