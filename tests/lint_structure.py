@@ -44,7 +44,7 @@ MOST_LINES = {
     "kernels": 5210,
     "python": 11230,
     "scripts": 3060,
-    "tests": 32940,
+    "tests": 33000,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

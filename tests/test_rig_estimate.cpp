@@ -43,6 +43,22 @@ int bonnet(int x, int y) {
   return static_cast<int>(40 + random() % 160);
 }
 
+/// The lower third of the images, nearer than the facade that passes, does not move.
+std::vector<std::pair<Image, Image>> bonnet_before_a_facade() {
+  std::vector<std::pair<Image, Image>> frames;
+  const RenderedScene facade("facade", room().rig.left.width, room().rig.left.height, 24, 2);
+  for (std::size_t i = 0; i < 24; ++i) {
+    Image left = facade.left[i], right = facade.right[i];
+    for (int y = 2 * left.height / 3; y < left.height; ++y)
+      for (int x = 0; x < left.width; ++x) {
+        left.set(x, y, bonnet(x, y));
+        right.set(x, y, bonnet(x + 20, y));
+      }
+    frames.emplace_back(left, right);
+  }
+  return frames;
+}
+
 StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
   frame.stamp_ns = stamp_ns;
   return frame;
@@ -213,21 +229,11 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
     }
     endings[1].frames.emplace_back(left, right);
   }
-  // A bonnet, nearer than the facade that passes, which is masked until the restart.
   endings[2] = {"masked", {}, [](const FrameResult& result) {
                   return std::any_of(result.warnings.begin(), result.warnings.end(),
                                      [](const Warning& warning) { return warning.kind == WarningKind::static_region; });
                 }};
-  const RenderedScene facade("facade", room().rig.left.width, room().rig.left.height, 24, 2);
-  for (std::size_t i = 0; i < 24; ++i) {
-    Image left = facade.left[i], right = facade.right[i];
-    for (int y = 2 * left.height / 3; y < left.height; ++y)
-      for (int x = 0; x < left.width; ++x) {
-        left.set(x, y, bonnet(x, y));
-        right.set(x, y, bonnet(x + 20, y));
-      }
-    endings[2].frames.emplace_back(left, right);
-  }
+  endings[2].frames = bonnet_before_a_facade();
   for (const Ending& ending : endings) {
     INFO(ending.name);
     StereoOdometry fresh(room().rig, device, config), restarted(room().rig, device, config);
