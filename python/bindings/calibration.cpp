@@ -73,8 +73,8 @@ void bind_calibration(nb::module_& module) {
   module.def(
       "calibrate", &calibrate, "dataset"_a, nb::kw_only(), "most_pairs"_a = 200,
       nb::sig("def calibrate(dataset: Dataset, *, most_pairs: int = 200) -> Calibration"),
-      "Learns the calibration of the rig that made a recording, from all of its frames, as `quadedge calibrate`\n"
-      "does. Identical frames give identical results; no device is needed.\n\n"
+      "Learns the calibration of the rig that made a recording, as `quadedge calibrate` does, but from all of its\n"
+      "frames. Identical frames give identical results; no device is needed.\n\n"
       "most_pairs: pairs of frames to keep: of a longer recording so many to twice as many, evenly spread.\n\n"
       "Raises DataError for a frame that cannot be read.");
 }
