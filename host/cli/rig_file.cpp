@@ -103,11 +103,11 @@ Config RigFile::with_offset(const Config& config) const {
 }
 
 void RigFile::start(const StereoOdometry& odometry) const {
-  odometry::LatestFrame::of(odometry).frontend.rectification().start_from(sums_);
+  odometry::LatestFrame::of(odometry).rows.start_from(sums_);
 }
 
 void RigFile::learn(const StereoOdometry& odometry, const FrameResult& result) {
-  sums_ = odometry::LatestFrame::of(odometry).frontend.rectification().rows().sums();
+  sums_ = odometry::LatestFrame::of(odometry).rows.rows().sums();
   if (!(result.rig.disparity_offset_sigma > 0)) return;
   offset_ = line(kOffset, data::toml_text(result.rig.disparity_offset)) +
             line(kSigma, data::toml_text(result.rig.disparity_offset_sigma));

@@ -20,7 +20,7 @@ double beyond_prediction(const pose::StereoMeasurement& before, const pose::Ster
 }
 
 void observe_rows(const odometry::LatestFrame& frame, const PinholeCamera& right, report::RigMaps& maps) {
-  const RectificationError& error = frame.frontend.rectification().error();
+  const RectificationError& error = frame.rows.error();
   maps.row_correction = error.largest();
   maps.width = right.width;
   maps.height = right.height;
@@ -63,13 +63,12 @@ void observe_columns(const odometry::LatestFrame& frame, const StereoRig& calibr
 void observe_rig(const StereoOdometry& odometry, const FrameResult& result, report::RigMaps& maps) {
   const auto frame = odometry::LatestFrame::of(odometry);
   if (!result.world_from_left || frame.corner_matches.empty()) return;
-  const auto& rectification = frame.frontend.rectification();
-  const double frames = rectification.rows().sums().frames;
+  const double frames = frame.rows.rows().sums().frames;
   if (frames < maps.frames) maps = {};
   const PoseConfig& given = odometry.config().pose;
   if (maps.frames == 0) maps.offset_start = maps.offset_end = {given.disparity_offset, given.disparity_offset_sigma};
   maps.frames = frames;
-  if (rectification.is_contradicted()) return;
+  if (frame.rows.is_contradicted()) return;
   observe_rows(frame, odometry.rig().right, maps);
   if (frame.step == nullptr || !frame.step->ok()) return;
   maps.offset_end = {result.rig.disparity_offset, result.rig.disparity_offset_sigma};

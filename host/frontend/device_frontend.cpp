@@ -97,7 +97,7 @@ void DeviceFrontend::find_edges() {
   left_.mask.run(left_.detection.maxima());
   right_.mask.run(right_.detection.maxima());
   selection_.run(selection_arguments(calibration_, Side::left),
-                 selection_arguments(calibration_, Side::right, rectification_.error()), left_.detection.maxima(),
+                 selection_arguments(calibration_, Side::right, rows().error()), left_.detection.maxima(),
                  right_.detection.maxima());
   left_.detection.take_directions(left_.plane, left_.edges);
   right_.detection.take_directions(right_.plane, right_.edges);

@@ -6,9 +6,9 @@
 
 #include "common/filter_limits.hpp"
 #include "common/frame_mask.hpp"
+#include "common/row_correction.hpp"
 #include "frontend/frame_edges.hpp"
 #include "frontend/kept_frame_edges.hpp"
-#include "frontend/rectification_follower.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
@@ -71,10 +71,8 @@ class Frontend {
   /// What the masks of the current frame hide; the rig's own and those of hide() aside.
   const HiddenPixels& hidden_in_frame() const { return of_frame_; }
 
-  /// Takes over what the current frame shows of the rows, which the search of the next ones corrects. \returns by how
-  /// much they have changed [px], 0 as a rule
-  double observe(const std::vector<rig::CornerMatch>& matches) { return rectification_.observe(matches); }
-  RectificationFollower& rectification() { return rectification_; }
+  /// Corrects the rows of every frame from the next one on. \param rows must outlive the use; null: as calibrated
+  void correct_rows(RowCorrection* rows) { rows_ = rows == nullptr ? &as_calibrated_ : rows; }
 
   /// Keeps the latest frame's edges in a compact form.
   virtual KeptFrameEdges keep() = 0;
@@ -100,17 +98,16 @@ class Frontend {
  protected:
   Frontend(const StereoRig& rig, const Config& config)
       : calibration_(rig),
-        rectification_(calibration_, config.stereo),
         masks_{rig.left_mask, rig.right_mask},
         left_mask_of_rig_(rig.left_mask),
         margin_(config.edges.margin) {}
   /// Takes the masks that come with a frame, before edges are found in it. \returns FrameEdges::hidden
   std::shared_ptr<const PixelMask> take_masks(const StereoFrame& frame);
+  RowCorrection& rows() const { return *rows_; }
   /// Called when masks_ have changed.
   virtual void masks_changed() {}
 
   StereoRig calibration_;
-  RectificationFollower rectification_;
   HiddenPixels masks_;  ///< of the current frame: what the rig masks, what hide() was given, and the frame's own
   FrontendCounts counts_;
   bool is_smoothed_ = false;              ///< the current frame
@@ -119,6 +116,8 @@ class Frontend {
   Tap* tap_ = nullptr;
 
  private:
+  NoRowCorrection as_calibrated_;
+  RowCorrection* rows_ = &as_calibrated_;
   PixelMask left_mask_of_rig_;
   int margin_;
   HiddenPixels of_frame_;

@@ -65,7 +65,7 @@ void ReferenceFrontend::detect(FrameEdges& current) {
   float spacing = 0;
   if (config_.edges.budget > 0) {
     const SelectionArguments in_left = selection_arguments(calibration_, Side::left),
-                             in_right = selection_arguments(calibration_, Side::right, rectification_.error());
+                             in_right = selection_arguments(calibration_, Side::right, rows().error());
     const reference::GradientMaxima left_maxima = maxima_of(left), right_maxima = maxima_of(right);
     spacing = reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges.budget);
     left = select_edges(left, kept_by_selection(in_left, left_maxima, spacing));

@@ -21,16 +21,16 @@ FrameEdgesHandle StagedFrontend::process(const StereoFrame& frame) {
   FrameEdges& current = start(frame);
   current.stamp_ns = frame.stamp_ns;
   current.hidden = std::move(hidden);
-  rectification_.start_frame();
+  rows().start_frame();
   do {
     detect(current);
     describe(current, tap_ != nullptr || config_.stereo.sift_max > 0);
     range_.start_frame();
     while (!search_stereo(current)) {
     }
-  } while (!rectification_.suffices(searched(frame), current.edges));
+  } while (!rows().suffices(searched(frame), current.edges));
   counts_.disparity_range = range_.disparity();
-  counts_.epipolar_correction = rectification_.error().largest();
+  counts_.epipolar_correction = rows().error().largest();
   finish(current);
   if (tap_ != nullptr) {
     tap_->edges(edges(Side::left), edges(Side::right));

@@ -59,10 +59,8 @@ class StagedFrontend : public Frontend {
   /// The edges, to be changed. \throws std::invalid_argument for those of another front end
   virtual FrameEdges& own(const FrameEdges& frame_edges) = 0;
 
-  EpipolarGeometry corrected_geometry() const {
-    return corrected(range_.geometry(), rectification_.error(), calibration_);
-  }
-  bool corrects_rows() const { return rectification_.error().largest() > 0; }
+  EpipolarGeometry corrected_geometry() const { return corrected(range_.geometry(), rows().error(), calibration_); }
+  bool corrects_rows() const { return rows().error().largest() > 0; }
   /// All edges of a frame that a search for about `wanted` uses.
   static WideSubset about(int wanted, const FrameEdges& frame_edges) {
     return {frame_edges.edges, global_step(frame_edges.edges.size(), wanted)};

@@ -18,15 +18,18 @@ FramePreparation::FramePreparation(const StereoRig& recorded, const StereoRig& r
     : recorded_(recorded),
       min_edges_(config.pose.min_inliers),
       checks_rig_(!config.is_paper()),
+      rows_(std::make_unique<rig::RectificationFollower>(rig, config.stereo)),
       frontend_(frontend::make_frontend(rig, device, config, &warnings_)),
       new_monitor_([&rig, masks = config.odometry.auto_mask] { return std::make_unique<rig::RigMonitor>(rig, masks); }),
-      rig_monitor_(new_monitor_()) {}
+      rig_monitor_(new_monitor_()) {
+  frontend_->correct_rows(rows_.get());
+}
 
 /// The previous frame is recycled unless somebody holds it.
 frontend::FrameEdgesHandle FramePreparation::process(const StereoFrame& frame, RigEstimate rig) {
   current_ = nullptr;
   current_ = frontend_->process(frame);
-  rig.rows = frontend_->rectification().error();
+  rig.rows = rows_->error();
   current_->set_rig(rig);
   return current_;
 }
@@ -40,9 +43,9 @@ rig::RigReport FramePreparation::judge(const StereoFrame& frame) {
 
 void FramePreparation::adopt(const rig::RigReport& report, const std::optional<Eigen::Isometry3d>& current_from_last) {
   if (report.matches == nullptr) return;
-  const double change = frontend_->observe(*report.matches);
+  const double change = rows_->observe(*report.matches);
   // A camera that has just turned displaces points once, whatever moves then, which a late camera does with all motion.
-  if (current_from_last && !frontend_->rectification().is_contradicted()) {
+  if (current_from_last && !rows_->is_contradicted()) {
     if (const auto late = rig_monitor_->observe_motion(*current_from_last)) warn(rig::warning(*late));
   }
   if (change == 0) return;

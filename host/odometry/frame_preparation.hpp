@@ -17,6 +17,7 @@
 #include "quadedge/device.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
+#include "rig/rectification_follower.hpp"
 #include "rig/rig_monitor.hpp"
 
 namespace quadedge::odometry {
@@ -60,6 +61,8 @@ class FramePreparation {
   std::vector<Warning> new_warnings();
 
   frontend::Frontend& frontend() const { return *frontend_; }
+  /// What is known of the rows; the front end corrects them.
+  rig::RectificationFollower& rows() const { return *rows_; }
   /// Of the frame judged last.
   const std::vector<rig::CornerMatch>& corner_matches() const { return rig_monitor_->matches(); }
 
@@ -69,6 +72,7 @@ class FramePreparation {
   bool checks_rig_;  ///< whether images are compared with the calibration; not in the method of the paper
   std::vector<Warning> warnings_;
   std::set<WarningKind> reported_;
+  std::unique_ptr<rig::RectificationFollower> rows_;
   std::unique_ptr<frontend::Frontend> frontend_;
   std::function<std::unique_ptr<rig::RigMonitor>()> new_monitor_;
   std::unique_ptr<rig::RigMonitor> rig_monitor_;

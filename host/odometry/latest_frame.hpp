@@ -7,6 +7,7 @@
 #include "odometry/motion_step.hpp"
 #include "quadedge/odometry.hpp"
 #include "rig/corner_matching.hpp"
+#include "rig/rectification_follower.hpp"
 
 namespace quadedge::odometry {
 
@@ -16,6 +17,7 @@ struct LatestFrame {
   frontend::Frontend& frontend;
   frontend::FrameEdgesHandle frame_edges;               ///< null before the first frame
   RigEstimate rig;                                      ///< of the next frame, as far as it is known
+  rig::RectificationFollower& rows;                     ///< what is known of them
   const MotionStep* step;                               ///< its motion; null if none was searched for
   const std::vector<rig::CornerMatch>& corner_matches;  ///< what was compared with the calibration
 

@@ -100,6 +100,7 @@ class StereoOdometry::Implementation {
             preparation_.frontend(),
             current_,
             learned_.estimate(),
+            preparation_.rows(),
             step_ ? &*step_ : nullptr,
             preparation_.corner_matches()};
   }

@@ -11,6 +11,7 @@
 #include "frontend/frontend.hpp"
 #include "points/measured_points.hpp"
 #include "pose/quads.hpp"
+#include "rig/rectification_follower.hpp"
 
 namespace quadedge {
 namespace {
@@ -27,7 +28,9 @@ StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Devic
   const auto use = device.use();
   StereoMatches matches;
   matches.rig = with_equal_scales(rig);
+  rig::RectificationFollower rows(matches.rig, config.stereo);
   const auto frontend = frontend::make_frontend(matches.rig, device, config, &matches.warnings);
+  frontend->correct_rows(&rows);
   matches.edges = frontend->process(frame)->edges;
   matches.left_edges = frontend->edges(Side::left);
   for (const auto& point : points::measure_points(matches.rig, matches.edges, frame.left, config)) {

@@ -1,4 +1,4 @@
-#include "frontend/rectification_follower.hpp"
+#include "rig/rectification_follower.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "rig/corner_matching.hpp"
 
-namespace quadedge::frontend {
+namespace quadedge::rig {
 namespace {
 
 constexpr double kLeast = 0.5;   // of stereo.epipolar_distance, from which the search loses candidates
@@ -32,16 +32,16 @@ void RectificationFollower::start_frame() {
 bool RectificationFollower::suffices(const StereoFrame& frame, const StereoEdges& edges) {
   if (is_settled_ || is_second_search_) return true;
   is_second_search_ = true;
-  std::vector<rig::CornerMatch> matches;
-  rig::CornerMatcher(rig_).align(frame, edges, matches);
-  rig::RowModel rows = rows_;
+  std::vector<CornerMatch> matches;
+  CornerMatcher(rig_).align(frame, edges, matches);
+  RowModel rows = rows_;
   rows.add(matches);
   error_ = judge(rows);
   return error_.largest() == 0;
 }
 
 /// Whether the matches lie far off the model of the earlier frames, and near that of the last ones.
-bool RectificationFollower::contradicts(const std::vector<rig::CornerMatch>& matches) {
+bool RectificationFollower::contradicts(const std::vector<CornerMatch>& matches) {
   const double distance = rows_.scatter(matches);
   if (rows_.sums().frames < kKnown || distance < least_ || distance * distance < kFarOff * rows_.sums().variance)
     return false;
@@ -49,34 +49,34 @@ bool RectificationFollower::contradicts(const std::vector<rig::CornerMatch>& mat
   return changed_.sums().frames > 0 && changed_.scatter(matches) < kUnexplained * distance;
 }
 
-double RectificationFollower::observe(const std::vector<rig::CornerMatch>& matches) {
+double RectificationFollower::observe(const std::vector<CornerMatch>& matches) {
   if (!is_settled_) next_ = error_;
   is_settled_ = true;
   double change = 0;
   is_contradicted_ = contradicts(matches);
   if (!is_contradicted_) {
-    changed_ = rig::RowModel(rig_.right);
+    changed_ = RowModel(rig_.right);
     rows_.add(matches);
   } else if (changed_.sums().frames > kContradicting) {
     change = rows_.scatter(matches);
-    rows_ = std::exchange(changed_, rig::RowModel(rig_.right));
+    rows_ = std::exchange(changed_, RowModel(rig_.right));
   }
   const RectificationError wanted = judge(rows_);
   if ((wanted - next_).largest() > kChange) next_ = wanted;
   return change;
 }
 
-void RectificationFollower::start_from(const rig::RowModel::Sums& known) {
-  rows_ = rig::RowModel(rig_.right, known);
+void RectificationFollower::start_from(const RowModel::Sums& known) {
+  rows_ = RowModel(rig_.right, known);
   is_settled_ = known.frames > 0;
   next_ = judge(rows_);
 }
 
-RectificationError RectificationFollower::judge(const rig::RowModel& rows) const {
+RectificationError RectificationFollower::judge(const RowModel& rows) const {
   const RectificationError error = rows.error();
   const double largest = error.largest(), released = next_.largest() > 0 ? kReleased : 1;
   if (released * largest < least_ || rows.unexplained() > std::min(1.0, released * kUnexplained)) return {};
   return error * std::min(1.0, kLargest / largest);
 }
 
-}  // namespace quadedge::frontend
+}  // namespace quadedge::rig
