@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds libraries and program with AddressSanitizer and UndefinedBehaviorSanitizer and runs the tests, except those
 # that need an OpenCL device (drivers are not checked), those of the OpenCV baseline in bench/, and those that would
-# render for minutes when instrumented or repeat other tests for statistics ([long]).
+# render or search images for minutes when instrumented, or repeat other tests for statistics ([long]).
 #   run_sanitizers.sh REPOSITORY BUILD_FOLDER    (with the tests built)
 set -euo pipefail
 repository="$1" build="$2/sanitize"

@@ -199,7 +199,7 @@ TEST_CASE("no path leaves its scene or comes near a surface", "[long][synthetic]
   }
 }
 
-TEST_CASE("no visible surface exceeds the largest disparity, on any path", "[synthetic]") {
+TEST_CASE("no visible surface exceeds the largest disparity, on any path", "[long][synthetic]") {
   for (const std::string& scene : synthetic_scenes()) {
     for (const std::string& path : synthetic_paths()) {
       SyntheticOptions options;

@@ -254,7 +254,7 @@ TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]
   }
 }
 
-TEST_CASE("no visible surface exceeds the synthetic sequence's largest disparity", "[synthetic]") {
+TEST_CASE("no visible surface exceeds the synthetic sequence's largest disparity", "[long][synthetic]") {
   for (const std::string& scene : synthetic_scenes()) {
     SyntheticOptions options = small_options(scene);
     options.frames = 1000;
