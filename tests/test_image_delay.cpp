@@ -121,7 +121,7 @@ TEST_CASE("image delay: a view that does not change has no delay", "[rig]") {
   }
 }
 
-TEST_CASE("image delay: a wrong calibration is no delay", "[rig]") {
+TEST_CASE("image delay: a wrong calibration is no delay", "[rig][long]") {
   Views turned = flight();
   turned.rig.right_from_left.linear() = Eigen::AngleAxisd(1.5 * kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
   for (const int delay : judge(turned, 0).delays) CHECK(delay == 0);
