@@ -1,4 +1,4 @@
-/// \file command_check.cpp  quadedge check: what is there, what is missing or wrong, before a long run.
+/// \file command_check.cpp  quadedge check: what is present, missing or wrong, before a long run.
 #include <cstdio>
 #include <filesystem>
 
@@ -18,12 +18,13 @@ namespace {
 class CheckCommand : public Command {
  public:
   CheckCommand()
-      : Command("check", "read all of a sequence, or of a folder of them, and say what is there, missing or wrong",
+      : Command("check",
+                "read a whole sequence, or a folder of sequences, and report what is present, missing or wrong",
                 "  quadedge check kitti/sequences/06\n"
                 "  quadedge check eth3d\n"
                 "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml") {}
   void declare(Options& options) override {
-    source_.declare_path(options, "folder of a sequence, or of many");
+    source_.declare_path(options, "folder of a sequence, or of many sequences");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
@@ -31,7 +32,7 @@ class CheckCommand : public Command {
     options.output("--write-calibration", calibration_,
                    "write the cameras in the program's own format, for --calibration");
     options.flag("--correct", correct_,
-                 "write it with what the rows show of the right camera's pitch, roll and focal length");
+                 "also correct the right camera's pitch, roll and focal length, as estimated from vertical residuals");
     options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);

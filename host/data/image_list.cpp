@@ -108,7 +108,7 @@ TimeRows read_time_rows(const std::string& file, bool restarts) {
   if (words_of_times.size() + rows.stamps_ns.size() != lines.size() ||
       (!words_of_times.empty() && !rows.stamps_ns.empty()) ||
       (!rows.names.empty() && rows.names.size() != lines.size()))
-    fail(file, "rows of different forms", "one time in seconds, or \"name seconds exposure\", in every row");
+    fail(file, "rows of different formats", "one time in seconds, or \"name seconds exposure\", in every row");
   if (auto stamps = integer_stamps(words_of_times, file); stamps && !words_of_times.empty()) {
     rows.stamps_ns = std::move(*stamps);
   } else {

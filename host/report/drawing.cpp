@@ -170,7 +170,7 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   cv::Mat& picture = canvas.picture();
   colours.draw_legend(picture, canvas.legend_y(0), details.stereo.size());
   const int y = canvas.legend_y(1);
-  int x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
+  int x = put_text(picture, "motion of quads since the keyframe, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);

@@ -163,7 +163,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     """What matters most of a run."""
     report = run.report
     facts = [("Frames tracked", share_of(report["frames_tracked"], report["input"]["frames"])),
-             ("Key rigs", str(report["key_rigs"]))]
+             ("Keyframes", str(report["key_rigs"]))]
     reasons: dict[str, int] = {}
     for frames, reason, _ in run.losses():
         reasons[reason] = reasons.get(reason, 0) + len(frames)
