@@ -80,7 +80,7 @@ void print_benchmark(const bench::BenchRecord& record) {
                 report::percentile(record.edges_ms, 0.9));
   }
   std::printf("start-up          %.0f ms\n", run.start_ms);
-  std::printf("kernel build      %.0f ms of it, without what the driver generates where a kernel runs first\n",
+  std::printf("kernel build      %.0f ms of it; some drivers finish compiling when a kernel first runs\n",
               run.kernel_build_ms);
   std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n",
               run.host_peak_mb, record.frames_mb, run.device_peak_mb);

@@ -55,8 +55,8 @@ def columns_text(rig: dict) -> str:
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
     text = (f"Horizontal residuals: a common offset of all disparities is estimated, {start} at the start, {end} at "
             "the end. The maps show measured minus predicted disparity at new keyframes; the prediction uses the "
-            "points of the previous keyframe and the estimated motion. Errors of the calibration that both keyframes share "
-            "cancel, so only those that depend on depth or image position show.")
+            "points of the previous keyframe and the estimated motion. Errors of the calibration that both keyframes "
+            "share cancel, so only those that depend on depth or image position show.")
     return text + (" No errors above the noise level." if is_noise(rig["columns"]["after"]) else "")
 
 
