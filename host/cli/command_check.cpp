@@ -97,13 +97,13 @@ class CheckCommand : public Command {
       const DatasetCheck check = check_dataset((std::filesystem::path(path_) / member.path).string());
       damaged += check.errors.empty() ? 0 : 1;
       if (!quiet_) {
-        std::printf("%-8s %s: %s\n", check.errors.empty() ? "there" : "DAMAGED", member.path.c_str(),
+        std::printf("%-8s %s: %s\n", check.errors.empty() ? "ok" : "DAMAGED", member.path.c_str(),
                     data::one_line(check).c_str());
       }
       for (const auto& warning : check.warnings) std::printf("warning: %s: %s\n", member.path.c_str(), warning.c_str());
       for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
     }
-    if (!quiet_) std::printf("%zu there, %d of them damaged\n", members.size(), damaged);
+    if (!quiet_) std::printf("%zu found, %d of them damaged\n", members.size(), damaged);
     return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
   }
 

@@ -14,7 +14,7 @@ OF_KIND = {
     "negative_disparities": "Left and right images are probably exchanged, or the calibration belongs to another rig.",
     "unsynchronised_cameras": "Trigger both cameras in hardware, or pair the images by better timestamps (--times, "
                               "--tolerance). Positions are off while the camera turns.",
-    "unknown_motion": "Judge every segment by itself (trajectory_segment_N.txt). Loop closure (--loops) can join "
+    "unknown_motion": "Evaluate every segment by itself (trajectory_segment_N.txt). Loop closure (--loops) can join "
                       "segments that see the same place.",
     "repeated_images": "The recorder wrote images twice: remove the copies, or correct the timestamps.",
     "large_disparity_offset": "Distances are off by this disparity: calibrate the rig again if they matter.",
