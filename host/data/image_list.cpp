@@ -191,7 +191,7 @@ std::string number_jump(const std::vector<std::string>& files) {
   const auto name = [&](std::size_t i) { return fs::path(files[i]).filename().string(); };
   return "the numbers of the images jump from " + name(widest - 1) + " to " + name(widest) + ", usually by " +
          std::to_string(usual) +
-         ": were images lost, or did the counter begin again? Then the later images come first: give names that go on, "
+         ": were images lost, or did the counter restart? Then the later images come first: use names that continue, "
          "or --times FILE";
 }
 

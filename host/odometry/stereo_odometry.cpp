@@ -392,7 +392,7 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
     add_message(text, result);
     preparation_.warn(
         {WarningKind::displaced_images, text + " along the epipolar lines and followed, also in later frames: do the "
-                                               "cameras swing, or are the images cut or stabilised one by one?"});
+                                               "cameras swing, or are single images cropped or stabilised?"});
   }
   if (step.verdict.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.verdict.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;

@@ -116,7 +116,7 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
   put_text(canvas.picture(),
            std::to_string(edges.size()) +
                " third-order edges, coloured by direction, "
-               "which has the bright side on its right",
+               "with the bright side on the right",
            10, canvas.legend_y(0), white);
   const int y = canvas.legend_y(1);
   int x = put_text(canvas.picture(), "-180 deg", 10, y, white) + 8;

@@ -180,7 +180,7 @@ std::string DriveCalibration::text() const {
     case CalibrationVerdict::cannot_show: break;
   }
   return "this recording cannot show it (" + learned_from + " show a motion, at least " + std::to_string(kFewestPairs) +
-         " are needed): drive past near and far things, turn both ways" + open;
+         " are needed): drive past near and far objects, turn both ways" + open;
 }
 
 const char* to_string(CalibrationVerdict verdict) {
