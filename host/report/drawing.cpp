@@ -114,9 +114,7 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
   }
   const cv::Scalar white(255, 255, 255);
   put_text(canvas.picture(),
-           std::to_string(edges.size()) +
-               " third-order edges, coloured by direction, "
-               "with the bright side on the right",
+           std::to_string(edges.size()) + " third-order edges, coloured by direction (the bright side is on the right)",
            10, canvas.legend_y(0), white);
   const int y = canvas.legend_y(1);
   int x = put_text(canvas.picture(), "-180 deg", 10, y, white) + 8;
