@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes altered copies of a recording, and judges what the odometry makes of them.
+"""Writes altered copies of a recording, and judges the odometry's results on them.
 
     disturb_recording.py alter RECORDING OUT --board 0.4 --photo IMAGE [--speed 4] [--sequence 06] [--frames 40:100]
     disturb_recording.py alter RECORDING OUT --bonnet
@@ -15,8 +15,8 @@ to the left, 0 fixes it to the camera. With --bonnet the lower half of both imag
 --jpeg stores images at that quality, --drops puts drops on both lenses, each its own, and --lamp lights the middle of
 the view.
 `judge` compares the steps of RUN/trajectory.txt with those of TRUTH, a trajectory in TUM's format, such as that of the
-undisturbed recording, and prints the numbers of steps that are right, lost, wrong and told (a frame of the step is
-marked ambiguous), and wrong in silence. A step is wrong beyond a length plus a ratio of its length, or an angle.
+undisturbed recording, and prints the numbers of steps that are right, lost, wrong and flagged (a frame of the step is
+marked ambiguous), and wrong and not flagged. A step is wrong beyond a length plus a ratio of its length, or an angle.
 Needs NumPy, Pillow and the package quadedge. Exit code: 0 done, 2 wrong usage.
 """
 
@@ -212,7 +212,7 @@ def judge(args):
     truth, found = poses(args.truth), poses(args.run / "trajectory.txt")
     with (args.run / "frames.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    count = dict.fromkeys(("right", "lost", "told", "silent"), 0)
+    count = dict.fromkeys(("right", "lost", "flagged", "unflagged"), 0)
     for before, row in zip(rows, rows[1:]):
         times = [round(1e3 * float(each["stamp_s"])) for each in (before, row)]
         if any(time not in truth for time in times):
@@ -225,8 +225,8 @@ def judge(args):
         limit = args.translation[0] + args.translation[1] * np.linalg.norm(steps[0][:3, 3])
         angle = np.degrees(np.arccos(np.clip((np.trace(error[:3, :3]) - 1) / 2, -1, 1)))
         is_right = np.linalg.norm(error[:3, 3]) <= limit and angle <= args.rotation
-        told = any(each["ambiguous_motion"] == "1" for each in (before, row))
-        count["right" if is_right else "told" if told else "silent"] += 1
+        flagged = any(each["ambiguous_motion"] == "1" for each in (before, row))
+        count["right" if is_right else "flagged" if flagged else "unflagged"] += 1
     print(" ".join(f"{name} {number}" for name, number in count.items()))
 
 

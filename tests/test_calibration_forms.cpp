@@ -659,5 +659,5 @@ TEST_CASE("calibration forms: words and wrappings that programs leave out or add
   const std::string matrix =
       "camera_matrix: [435, 0, 367, 0, 435, 252, 0, 0, 1]\ndistortion_coefficients: [0, 0, 0, 0]\n";
   CHECK_THROWS_WITH(read(matrix), Contains("without the transform"));
-  CHECK_THROWS_WITH(read("hello\n"), Contains("one of these forms") && Contains("Kalibr"));
+  CHECK_THROWS_WITH(read("hello\n"), Contains("one of these formats") && Contains("Kalibr"));
 }

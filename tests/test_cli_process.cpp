@@ -117,8 +117,8 @@ TEST_CASE("process: unreadable folders are recorded with code 3, and the others 
   const auto check = run_program({"check", tree}, without_rights());
   INFO(check.out << check.err);
   CHECK(check.code == 3);
-  CHECK_THAT(check.out, Contains("there    one") && Contains("there    two") && Contains("DAMAGED  locked") &&
-                            Contains("DAMAGED  itself") && Contains("4 there, 2 of them damaged"));
+  CHECK_THAT(check.out, Contains("ok       one") && Contains("ok       two") && Contains("DAMAGED  locked") &&
+                            Contains("DAMAGED  itself") && Contains("4 found, 2 of them damaged"));
   CHECK_THAT(check.err, Contains("tree/locked: found") && Contains("Permission denied") && Contains("Too many levels"));
   const auto list = run_program({"batch", tree, "--list"}, without_rights());
   CHECK(list.code == 0);

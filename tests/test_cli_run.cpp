@@ -387,7 +387,7 @@ TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the 
   refused("pose.disparity_ofset = 1\n", "found another file, expected one that an earlier run");
   refused(changed("left = [", "640"), "another calibration: found left = [640, ");
   refused(changed("rows.sums = [", "inf"), "rows.sums: expected 3 finite numbers");
-  refused(changed("rows.sums = [", "-1"), "found rows that no run has learned");
+  refused(changed("rows.sums = [", "-1"), "found a row model that no run has written");
   refused(changed("pose.disparity_offset = ", "nan"), "disparity_offset");
   // As of release 0.1.
   dataset_files::write_text(file, "pose.disparity_offset = 0.125\npose.disparity_offset_sigma = 0.1\n");

@@ -109,7 +109,7 @@ def check_judge(root):
     rows = [f"{frame},{status},{flag}" for frame, (status, flag) in enumerate(states)]
     (root / "run" / "frames.csv").write_text("\n".join(["stamp_s,status,ambiguous_motion", *rows]) + "\n")
     judged = run("judge", root / "run", root / "truth" / "trajectory.txt")
-    assert judged.split() == "right 1 lost 1 told 1 silent 1".split(), judged
+    assert judged.split() == "right 1 lost 1 flagged 1 unflagged 1".split(), judged
 
 
 with tempfile.TemporaryDirectory() as name:

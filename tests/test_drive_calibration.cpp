@@ -211,7 +211,7 @@ TEST_CASE("drive calibration: a camera that stands shows nothing, and says what 
   const DriveCalibration result = calibrator.finish();
   CHECK(result.verdict == CalibrationVerdict::cannot_show);
   CHECK(result.pairs == 0);
-  CHECK_THAT(result.text(), Contains("drive past near and far things, turn both ways"));
+  CHECK_THAT(result.text(), Contains("drive past near and far objects, turn both ways"));
   const Image small(100, 80);
   CHECK_THROWS_AS(calibrator.see({0, small.view(), small.view()}), DataError);
 }

@@ -47,8 +47,8 @@ void print_shares(const bench::FrameShares& shares) {
     sum.queue_ms += stage.queue_ms;
     sum.launches += stage.launches;
   }
-  std::printf("  %-20s %9.2f %5.1f %%   the device waits for what the host computes, poses above all\n", "host",
-              shares.host_ms(), 100 * shares.host_ms() / shares.frame_ms);
+  std::printf("  %-20s %9.2f %5.1f %%   the device waits for the host, mainly for poses\n", "host", shares.host_ms(),
+              100 * shares.host_ms() / shares.frame_ms);
   std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9.1f\n", "frame", shares.frame_ms, 100.0, sum.kernel_ms,
               sum.transfer_ms, sum.queue_ms, sum.launches);
 }
@@ -80,7 +80,7 @@ void print_benchmark(const bench::BenchRecord& record) {
                 report::percentile(record.edges_ms, 0.9));
   }
   std::printf("start-up          %.0f ms\n", run.start_ms);
-  std::printf("kernel build      %.0f ms of it, without what the driver generates where a kernel runs first\n",
+  std::printf("kernel build      %.0f ms of it; some drivers finish compiling when a kernel first runs\n",
               run.kernel_build_ms);
   std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n",
               run.host_peak_mb, record.frames_mb, run.device_peak_mb);
@@ -136,13 +136,14 @@ class BenchCommand : public Command {
                    "built-in sequence, as configured for a recorded one");
     options.number("--frames", frames_, "number of measured frames");
     options.number("--warm-up", warm_up_, "number of frames between the first and the measured ones");
-    options.flag("--baseline", baseline_,
-                 "also time two OpenCV yardsticks: SIFT on both images, nine filters of 35 taps");
+    options.flag(
+        "--baseline", baseline_,
+        "also time two OpenCV yardsticks: SIFT on both images, nine filters of 17 coefficients (--preset paper: 33)");
     options.output("--json", json_, "write all figures");
     options.output("--trace", trace_, "write the stages of every frame in Chrome's trace format");
     options.text("--compare", compare_, "print the differences from an older result; exit code 6 for a regression",
                  "OLD.json");
-    options.number("--noise", noise_, "noise band: increases up to this count as equal [percent]");
+    options.number("--noise", noise_, "noise band: increases of up to this count as equal [percent]");
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide progress");
     source_.declare(options);

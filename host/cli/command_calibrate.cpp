@@ -21,19 +21,22 @@ class CalibrateCommand : public Command {
                 "  quadedge calibrate --left left --right right --calibration camchain.yaml --fps 20 -o rig.yaml") {}
   void declare(Options& options) override {
     source_.declare_path(options, "folder of a recorded sequence");
-    options.output("-o,--output", output_,
-                   "file for the better of the given and the learned calibration, in the program's own format, for "
-                   "--calibration");
-    options.output("--picture", picture_, "draw by how much pixels of both images are displaced (PNG)");
-    options.output("--json", json_, "write judgement, numbers and covariance");
+    options.output(
+        "-o,--output", output_,
+        "file for the given or the learned calibration, whichever is better, in the program's own format, for "
+        "--calibration");
+    options.output("--picture", picture_,
+                   "draw the displacement of pixels of both images between the two calibrations (PNG)");
+    options.output("--json", json_, "write verdict, numbers and covariance");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", dataset_.format, formats, "dataset layout; auto: recognised");
     options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
     options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
-    options.number("--most-frames", limits_.frames, "frames to learn from; of longer recordings, evenly spread ones");
+    options.number("--most-frames", limits_.frames,
+                   "maximum number of frames to learn from, spread evenly over longer recordings");
     options.flag("--force", force_, "replace the files");
-    options.flag("--quiet", quiet_, "hide progress and the table; the judgement remains");
+    options.flag("--quiet", quiet_, "hide progress and the table; the verdict remains");
     source_.declare(options);
     source_.declare_restarts(options);
   }

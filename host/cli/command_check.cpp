@@ -1,4 +1,4 @@
-/// \file command_check.cpp  quadedge check: what is there, what is missing or wrong, before a long run.
+/// \file command_check.cpp  quadedge check: what is present, missing or wrong, before a long run.
 #include <cstdio>
 #include <filesystem>
 
@@ -18,12 +18,13 @@ namespace {
 class CheckCommand : public Command {
  public:
   CheckCommand()
-      : Command("check", "read all of a sequence, or of a folder of them, and say what is there, missing or wrong",
+      : Command("check",
+                "read a whole sequence, or a folder of sequences, and report what is present, missing or wrong",
                 "  quadedge check kitti/sequences/06\n"
                 "  quadedge check eth3d\n"
                 "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml") {}
   void declare(Options& options) override {
-    source_.declare_path(options, "folder of a sequence, or of many");
+    source_.declare_path(options, "folder of a sequence, or of many sequences");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
@@ -31,7 +32,7 @@ class CheckCommand : public Command {
     options.output("--write-calibration", calibration_,
                    "write the cameras in the program's own format, for --calibration");
     options.flag("--correct", correct_,
-                 "write it with what the rows show of the right camera's pitch, roll and focal length");
+                 "also correct the right camera's pitch, roll and focal length, as estimated from vertical residuals");
     options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);
@@ -96,13 +97,13 @@ class CheckCommand : public Command {
       const DatasetCheck check = check_dataset((std::filesystem::path(path_) / member.path).string());
       damaged += check.errors.empty() ? 0 : 1;
       if (!quiet_) {
-        std::printf("%-8s %s: %s\n", check.errors.empty() ? "there" : "DAMAGED", member.path.c_str(),
+        std::printf("%-8s %s: %s\n", check.errors.empty() ? "ok" : "DAMAGED", member.path.c_str(),
                     data::one_line(check).c_str());
       }
       for (const auto& warning : check.warnings) std::printf("warning: %s: %s\n", member.path.c_str(), warning.c_str());
       for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
     }
-    if (!quiet_) std::printf("%zu there, %d of them damaged\n", members.size(), damaged);
+    if (!quiet_) std::printf("%zu found, %d of them damaged\n", members.size(), damaged);
     return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
   }
 

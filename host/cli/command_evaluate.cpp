@@ -118,7 +118,8 @@ class EvaluateTrajectoryCommand : public Command {
     print_evaluation(result);
     if (!result.segments.empty())
       note("warning: " + estimate_ + ": the motions between its " + data::counted(result.segments.size(), "segment") +
-           " are unknown; the errors of the whole judge predictions there, those of each segment do not");
+           " are unknown; errors of the whole trajectory include predictions of these motions, those of segments "
+           "do not");
     std::optional<evaluation::StepJudgement> steps;
     if (steps_) {
       const std::int64_t first = result.per_pose.front().stamp_ns - tolerance;

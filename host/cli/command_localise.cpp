@@ -135,7 +135,7 @@ class LocaliseCommand : public Command {
   }
 
   void print(const report::LocalisationRecord& record) const {
-    std::printf("map        %s, %s\n", map_.c_str(), data::counted(record.key_rigs, "key rig").c_str());
+    std::printf("map        %s, %s\n", map_.c_str(), data::counted(record.key_rigs, "keyframe").c_str());
     std::printf("sequence   %s (%s)\n", visible(record.input.name).c_str(), record.input.format.c_str());
     std::printf("located    %d of %s\n", record.located(), data::counted(record.frames.size(), "frame").c_str());
     const std::string lost = report::lost_reasons(record.frames);

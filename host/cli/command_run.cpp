@@ -37,12 +37,12 @@ class RunCommand : public Command {
     options.output("--save-map", run_.saved_map,
                    "write the places of the recording for `quadedge localise`; implies --loops");
     options.output("--rig-file", run_.rig_file,
-                   "rows and disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the "
-                   "end");
+                   "row model and disparity offset of the rig, estimated by earlier runs: read if FILE exists, written "
+                   "at the end");
     options.flag(
         "--calibrate", calibrates_,
         "learn the calibration from the start of the recording, as `quadedge calibrate` does, and track all of "
-        "it with the better of the given and the learned one");
+        "it with the given or the learned one, whichever is better");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.points.declare(options);
@@ -66,8 +66,8 @@ class RunCommand : public Command {
       throw UsageError("--profile reads the recording twice, which a pipe does not allow");
     if (calibrates_ && dataset.format == "pipe")
       throw UsageError(
-          "--calibrate reads the recording twice, which a pipe does not allow; `quadedge calibrate -` "
-          "learns from a pipe as it passes, for --calibration");
+          "--calibrate reads the recording twice, which a pipe does not allow; `quadedge calibrate -` reads a pipe "
+          "once and writes a file for --calibration");
     if (!name_.empty()) dataset.name = name_;
     if (run_.output.empty()) run_.output = report::default_output_folder(dataset.name);
     const Interruption interruption;

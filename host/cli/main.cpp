@@ -14,8 +14,8 @@
 
 namespace {
 
-/// Replaces closed standard streams, so that no file of the program gets their numbers, and with them what is printed.
-/// Input is at its end, errors go nowhere, and printing fails as it does into a closed stream.
+/// Opens /dev/null in place of closed standard streams, so that no other file gets their descriptors and what is
+/// printed. Input is at its end, errors go nowhere, and printing fails as it does into a closed stream.
 void occupy_standard_streams() {
   // In this order: open() takes the lowest number that is free. What is open for reading alone cannot be written.
   constexpr struct {
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return end("out of memory", ExitCode::internal);
   } catch (const std::filesystem::filesystem_error& error) {
-    return end(error.path1().string() + ": " + error.code().message() + "; expected a place that can be read",
+    return end(error.path1().string() + ": " + error.code().message() + "; expected a file or folder that can be read",
                ExitCode::data);
   } catch (const std::exception& error) {
     return end(std::string("internal error: ") + error.what(), ExitCode::internal);

@@ -27,9 +27,9 @@ void write_image(const std::string& folder, const char* side, int frame, const I
 
 void PointFiles::declare(Options& options) {
   options.group("Points in space");
-  options.output("--points", ply, "write the 3D edges of all key rigs as a binary PLY file");
+  options.output("--points", ply, "write the 3D edges of all keyframes as a binary PLY file");
   options.text("--points-colmap", colmap, "write cameras, images and points as a COLMAP model", "DIR");
-  options.number("--points-min-views", min_views, "minimum number of key rigs that see a point");
+  options.number("--points-min-views", min_views, "minimum number of keyframes that see a point");
 }
 
 void PointFiles::check(bool force) const {

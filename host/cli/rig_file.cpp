@@ -95,7 +95,7 @@ RigFile::RigFile(const std::string& name, const StereoRig& rig) : name_(name), c
   sums_.right_side = Eigen::Map<rig::RowModel::Terms>(found["rows.right_side"].data());
   const bool is_sound = sums_.frames == 0 || (sums_.frames > 0 && sums_.normal.llt().info() == Eigen::Success);
   if (!is_sound || sums_.variance < 0 || sums_.whole_variance < 0 || sums_.shared.diagonal().minCoeff() < 0)
-    throw DataError(name + ": found rows that no run has learned, expected positive variances");
+    throw DataError(name + ": found a row model that no run has written, expected positive variances");
 }
 
 Config RigFile::with_offset(const Config& config) const {

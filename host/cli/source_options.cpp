@@ -45,21 +45,20 @@ void SourceOptions::declare(Options& options) {
   options.text("--right", own_.right, "folder of right images, or right video", "B");
   options.text("--video", own_.video, "video with both views in each picture", "FILE");
   options.text("--split", own_.split, "arrangement of the two views in a picture: left-right or top-bottom", "WORD");
-  options.files(
-      "--calibration", own_.calibration,
-      "calibration of both cameras in one of the forms of doc/your-own-data.md, replaces that of a recorded sequence; "
-      "one file, or left and right",
-      "FILE[,FILE]");
+  options.files("--calibration", own_.calibration,
+                "calibration of both cameras in any of the formats in doc/your-own-data.md, replaces that of a "
+                "recorded sequence; one file, or left and right",
+                "FILE[,FILE]");
   options.flag("--rectified", own_.rectified,
                "the images are rectified: the calibration's P describes them, not K and D");
   options.number("--fps", own_.fps,
-                 "pairs per second, for sources without stamps and in place of a video's own; images keep the stamps "
-                 "of their names, times.txt or data.csv, if these can be read; 0: the source's own");
-  options.text("--times", own_.times, "stamps in place of all others: seconds, one per line, or EuRoC's data.csv",
+                 "pairs per second, for sources without timestamps and in place of a video's own; images keep the "
+                 "timestamps of their names, times.txt or data.csv, if these can be read; 0: the source's own");
+  options.text("--times", own_.times, "timestamps that replace all others: seconds, one per line, or EuRoC's data.csv",
                "FILE");
   options.number("--tolerance", own_.tolerance_ms,
-                 "largest difference between the stamps of a pair of image files [ms]; others are dropped; 0: half a "
-                 "period");
+                 "largest difference between the timestamps of a pair of image files [ms]; others are dropped; 0: half "
+                 "a period");
   options.flag("--live", own_.live,
                "the pipe comes from a camera: drop the oldest pairs when tracking falls behind; without it every pair "
                "is read, and the writer waits");
@@ -72,8 +71,9 @@ void SourceOptions::declare(Options& options) {
 }
 
 void SourceOptions::declare_restarts(Options& options) {
-  options.flag("--restarts", own_.restarts,
-               "stamps of --times may go back, where a clock was set: a new segment of the trajectory starts there");
+  options.flag(
+      "--restarts", own_.restarts,
+      "timestamps of --times may go back, as where a clock was set: a new segment of the trajectory starts there");
 }
 
 void SourceOptions::declare_masks(Options& options) {
@@ -93,9 +93,10 @@ StereoSource SourceOptions::own_camera() const {
 DatasetOptions SourceOptions::layout(DatasetOptions options) const {
   if (!own_.split.empty() || own_.fps != 0 || !own_.times.empty() || own_.live || own_.restarts ||
       own_.tolerance_ms != 0) {
-    throw UsageError(path_ +
-                     ": a recorded sequence has its own stamps; --split, --fps, --times, --restarts, --tolerance and "
-                     "--live are for --left, --right, --video and -");
+    throw UsageError(
+        path_ +
+        ": a recorded sequence has its own timestamps; --split, --fps, --times, --restarts, --tolerance and "
+        "--live are for --left, --right, --video and -");
   }
   options.calibration = own_.calibration;
   options.rectified = own_.rectified;
@@ -185,7 +186,8 @@ void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts)
                  "contrast factor around grey level 128, applied to the finished image, noise included");
   options.number("--blur", scene.blur,
                  "mean length of the motion blur along the path [px]; at most the motion between frames");
-  options.number("--mover", scene.mover, "fraction of the image covered by a board that moves independently, 0 to 0.6");
+  options.number("--mover", scene.mover,
+                 "fraction of the image covered by a rectangle that moves independently, 0 to 0.6");
 }
 
 void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {

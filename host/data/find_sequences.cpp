@@ -149,7 +149,7 @@ std::string plain_name(const std::string& text) {
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
   std::error_code error;
   if (!fs::exists(root_or_list, error)) {
-    fail(root_or_list, error ? "a place that cannot be read (" + error.message() + ")" : "no such file or folder",
+    fail(root_or_list, error ? "a path that cannot be read (" + error.message() + ")" : "no such file or folder",
          "a folder of sequences, or a list of folders");
   }
   if (!fs::is_directory(root_or_list)) {

@@ -108,7 +108,7 @@ TimeRows read_time_rows(const std::string& file, bool restarts) {
   if (words_of_times.size() + rows.stamps_ns.size() != lines.size() ||
       (!words_of_times.empty() && !rows.stamps_ns.empty()) ||
       (!rows.names.empty() && rows.names.size() != lines.size()))
-    fail(file, "rows of different forms", "one time in seconds, or \"name seconds exposure\", in every row");
+    fail(file, "rows of different formats", "one time in seconds, or \"name seconds exposure\", in every row");
   if (auto stamps = integer_stamps(words_of_times, file); stamps && !words_of_times.empty()) {
     rows.stamps_ns = std::move(*stamps);
   } else {
@@ -191,7 +191,7 @@ std::string number_jump(const std::vector<std::string>& files) {
   const auto name = [&](std::size_t i) { return fs::path(files[i]).filename().string(); };
   return "the numbers of the images jump from " + name(widest - 1) + " to " + name(widest) + ", usually by " +
          std::to_string(usual) +
-         ": were images lost, or did the counter begin again? Then the later images come first: give names that go on, "
+         ": were images lost, or did the counter restart? Then the later images come first: use names that continue, "
          "or --times FILE";
 }
 

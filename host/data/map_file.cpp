@@ -50,7 +50,7 @@ void write_map(const std::string& file, const SavedMap& map) {
   const std::string bytes = map.bytes();
   if (bytes.size() > kLargestMap - kHeader)
     data::fail(file, "a map of " + std::to_string(bytes.size()) + " bytes",
-               "at most 2 GiB; map.max_memory_mb below 2000 keeps fewer key rigs");
+               "at most 2 GiB; map.max_memory_mb below 2000 keeps fewer keyframes");
   data::write_atomically(file, std::string(kMagic) + raw(kVersion) + raw(static_cast<std::uint64_t>(bytes.size())) +
                                    checksum(bytes) + bytes);
 }

@@ -51,7 +51,7 @@ void FramePreparation::adopt(const rig::RigReport& report, const std::optional<E
   if (change == 0) return;
   rig_monitor_->forget_motions();
   const std::string text = printed(
-      "points lie %.1f px beside the lines of the frames before: has a camera turned? the rows are learned anew",
+      "points lie %.1f px off the epipolar lines of earlier frames: has a camera turned? The row model is reestimated",
       change);
   warn({WarningKind::changed_rig, text});
 }

@@ -248,7 +248,7 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   if (std::exchange(starts_segment_, false)) {
     ++state_.segment;
     add_message(
-        "segment " + std::to_string(state_.segment) + " starts: its place relative to the earlier ones is unknown",
+        "segment " + std::to_string(state_.segment) + " starts: its pose relative to earlier segments is unknown",
         result);
   }
   at_start_ = true;
@@ -354,8 +354,8 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
               result);
   preparation_.warn(
       {WarningKind::unknown_motion, "the motion between frames " + number(last) + " and " + number(current_->frame) +
-                                        " is unknown; the poses from here on are segment " + number(segment) +
-                                        ", whose place relative to the earlier ones is a prediction"});
+                                        " is unknown; the poses from here on form segment " + number(segment) +
+                                        ", whose pose relative to earlier segments is only predicted"});
 }
 
 /// Adopts what the motion shows of the rig. What is corrected of a displacement is corrected for the frames, too, that
@@ -392,7 +392,7 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
     add_message(text, result);
     preparation_.warn(
         {WarningKind::displaced_images, text + " along the epipolar lines and followed, also in later frames: do the "
-                                               "cameras swing, or are the images cut or stabilised one by one?"});
+                                               "cameras swing, or are single images cropped or stabilised?"});
   }
   if (step.verdict.ambiguity.exists()) add_message("ambiguous motion: " + to_string(step.verdict.ambiguity), result);
   result.diagnostics.base_frame = step.base->frame;

@@ -184,7 +184,7 @@ std::string no_match_message(const std::vector<FoundDevice>& devices, const std:
            "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
            "(device=\"reference\" in Python) runs without OpenCL, slowly. PoCL has no devices where it cannot write to "
            "its cache: set POCL_CACHE_DIR to a writable folder (default: $XDG_CACHE_HOME or ~/.cache, pocl/kcache)" +
-           (faults.empty() ? "" : "\nWhat the loader met: " + faults);
+           (faults.empty() ? "" : "\nWhat the loader found: " + faults);
   }
   std::string message = "no OpenCL device matches '" + choice + "'; there are:";
   for (const auto& device : devices) {

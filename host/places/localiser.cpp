@@ -101,7 +101,7 @@ const Match* lose(LocalisationStatus status, const std::string& message, Localis
   return nullptr;
 }
 
-std::string rig_text(const Match& match) { return "key rig " + std::to_string(match.place->kept.frame); }
+std::string rig_text(const Match& match) { return "keyframe " + std::to_string(match.place->kept.frame); }
 
 const Match* lose_between(const Match& one, const Match& other, Localisation& result) {
   return lose(LocalisationStatus::lost_ambiguous, "two places match: " + rig_text(one) + " and " + rig_text(other),
@@ -218,7 +218,7 @@ void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& frame_e
   const auto may_be = [](const places::Place&) { return true; };
   const auto similar =
       map_.places().store.most_similar(signature, places::kCandidateBatches * places::kCandidates, may_be);
-  result.message = "the map has no key rigs";
+  result.message = "the map has no keyframes";
   std::vector<Match> matches;
   for (std::size_t k = 0; k < similar.size(); ++k) {
     if (auto match = compare(*similar[k].place, frame_edges, std::nullopt)) matches.push_back(*match);
@@ -250,7 +250,7 @@ std::optional<Match> Localiser::Implementation::find_rival(const Match& best, co
 /// The match with most inliers gives the pose if its support, or another that agrees with it, shows that it is not
 /// found by chance, and none that is certain contradicts it. \returns it, or null if the frame is lost
 const Match* Localiser::Implementation::judge(const std::vector<Match>& matches, Localisation& result) {
-  if (matches.empty()) return lose(LocalisationStatus::lost_unknown_place, "no key rig of the map matches", result);
+  if (matches.empty()) return lose(LocalisationStatus::lost_unknown_place, "no keyframe of the map matches", result);
   const Match* best = nullptr;
   for (const Match& match : matches)
     if (!match.ambiguity.exists() && (best == nullptr || match.inliers > best->inliers)) best = &match;

@@ -150,7 +150,7 @@ class Check {
     require(map.offset_variance == 0 || (map.offset_variance >= kLeastVariance && map.offset_variance <= kMostVariance),
             "a variance", map.offset_variance, "0, or 1e-18 to 1e4 px^2");
     require(map.poses.size() == places.size(), "a number of poses", static_cast<double>(map.poses.size()),
-            std::to_string(places.size()) + ", one per key rig");
+            std::to_string(places.size()) + ", one per keyframe");
     for (const Eigen::Isometry3d& pose : map.poses) check_pose(pose);
     for (const places::Place& place : places) check_place(place, map.rig);
   }

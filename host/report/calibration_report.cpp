@@ -111,7 +111,7 @@ void draw_displacements(const std::string& path, const DriveCalibration& result)
     }
   }
   const std::string legend = printed(
-      "by how much pixels lie where the given calibration does not expect them, %.0f px drawn per px; largest "
+      "displacement of pixels from where the given calibration predicts them, %.0f px drawn per px; largest "
       "%.2f px (left), %.2f px (right)",
       enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);
   put_text(picture, legend, 6, height + kLegendLine - 4, {230, 230, 230});

@@ -114,9 +114,7 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
   }
   const cv::Scalar white(255, 255, 255);
   put_text(canvas.picture(),
-           std::to_string(edges.size()) +
-               " third-order edges, coloured by direction, "
-               "which has the bright side on its right",
+           std::to_string(edges.size()) + " third-order edges, coloured by direction (the bright side is on the right)",
            10, canvas.legend_y(0), white);
   const int y = canvas.legend_y(1);
   int x = put_text(canvas.picture(), "-180 deg", 10, y, white) + 8;
@@ -170,7 +168,7 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   cv::Mat& picture = canvas.picture();
   colours.draw_legend(picture, canvas.legend_y(0), details.stereo.size());
   const int y = canvas.legend_y(1);
-  int x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
+  int x = put_text(picture, "motion of quads since the keyframe, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);

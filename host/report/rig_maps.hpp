@@ -42,8 +42,9 @@ class CellMap {
   std::array<Cell, kColumns * kRows> cells_;
 };
 
-/// All of [px]. Rows: distances of aligned patches from their epipolar lines, of every frame that was located. Columns:
-/// by how much farther along the line the quads' points lie than the motion to a new key rig predicts them.
+/// All of [px]. Rows (vertical residuals): distances of aligned patches from their epipolar lines, in every frame that
+/// was located. Columns (horizontal residuals): measured minus predicted disparity of the quads at a new keyframe; the
+/// prediction uses the points of the previous keyframe and the estimated motion.
 struct RigMaps {
   struct Offset {
     double value = 0, sigma = 0;

@@ -164,8 +164,8 @@ std::string DriveCalibration::text() const {
   std::string facts;
   if (!numbers.empty())
     facts = printed(
-        "points of frames that were not learned from lie %.3f px (left) and %.3f px (right) from where the "
-        "given calibration predicts them, %.3f and %.3f px from where the learned one does",
+        "in frames that were not learned from, points lie %.3f px (left) and %.3f px (right) from their predictions "
+        "with the given calibration, %.3f and %.3f px with the learned one",
         unseen_given[0], unseen_given[1], unseen_learned[0], unseen_learned[1]);
   const std::string learned_from = std::to_string(pairs) + " pairs of " + std::to_string(frames) + " frames";
   std::string open;
@@ -174,13 +174,13 @@ std::string DriveCalibration::text() const {
   if (!open.empty()) open = "; as uncertain as before: " + open;
   switch (verdict) {
     case CalibrationVerdict::better:
-      return "the calibration is off; learned a better one from " + learned_from + ": " + facts + open;
+      return "the calibration is off; a better one was learned from " + learned_from + ": " + facts + open;
     case CalibrationVerdict::as_good:
-      return "the calibration is as good as given, by " + learned_from + ": " + facts + open;
+      return "the calibration is as good as given, according to " + learned_from + ": " + facts + open;
     case CalibrationVerdict::cannot_show: break;
   }
   return "this recording cannot show it (" + learned_from + " show a motion, at least " + std::to_string(kFewestPairs) +
-         " are needed): drive past near and far things, turn both ways" + open;
+         " are needed): drive past near and far objects, turn both ways" + open;
 }
 
 const char* to_string(CalibrationVerdict verdict) {

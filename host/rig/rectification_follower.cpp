@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLeast = 0.5;   // of stereo.epipolar_distance, from which the search loses candidates
 constexpr double kLargest = 3;   // px; beyond, matches do not show the error any more
-constexpr double kReleased = 2;  // an error in use is kept down to a limit this many times smaller
+constexpr double kReleased = 2;  // hysteresis: a correction in use is dropped below kLeast divided by this
 /// An error that leaves more of the distances than this unexplained is another one: of synchronisation, or of the lens.
 constexpr double kUnexplained = 0.55;
 constexpr double kChange = 0.05;  // px; smaller ones are not followed, so that disparities stay comparable

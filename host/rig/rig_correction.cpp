@@ -43,9 +43,9 @@ StereoCalibration RigCorrection::applied(StereoCalibration calibration) const {
 std::string RigCorrection::text() const {
   const auto mark = [&](int part) { return is_certain(part) ? "" : " (not certain)"; };
   return printed(
-      "by its rows, the right camera is pitched by %+.3f +- %.3f degrees%s and rolled by %+.3f +- %.3f "
-      "degrees%s against the calibration, its focal length across the lines is off by %+.3f +- %.3f %%%s; yaw and all "
-      "else along the lines cannot be told",
+      "according to the vertical residuals, the right camera is pitched by %+.3f +- %.3f degrees%s and rolled by %+.3f "
+      "+- %.3f degrees%s against the calibration, and its focal length across the lines is off by %+.3f +- %.3f %%%s; "
+      "yaw and other errors along the epipolar lines cannot be determined from them",
       parts[pitch] / kDegree, sigmas[pitch] / kDegree, mark(pitch), parts[roll] / kDegree, sigmas[roll] / kDegree,
       mark(roll), 100 * parts[focal], 100 * sigmas[focal], mark(focal));
 }

@@ -87,10 +87,11 @@ std::string delayed(const ImageDelay& delay) {
 
 /// Images that are bad are named where corners leave their lines, in place of the calibration.
 std::string poor(const RigFinding& finding) {
-  const std::string seen = finding.fit.samples == 0
-                               ? "; few corners are found in both images"
-                               : "; corners are found " + number(finding.fit.residual, 1) +
-                                     " px off their epipolar lines, which says nothing of the calibration then";
+  const std::string seen =
+      finding.fit.samples == 0
+          ? "; few corners are found in both images"
+          : "; corners are found " + number(finding.fit.residual, 1) +
+                " px off their epipolar lines, which says nothing about the calibration in such images";
   switch (finding.kind) {
     case RigFindingKind::saturated_images:
       return percent(finding.poor) + " of the corners lie beside saturated pixels" + seen +

@@ -67,7 +67,7 @@ void bind_calibration(nb::module_& module) {
             write_calibration(path.string(), self.calibration);
           },
           "path"_a, nb::sig("def write(self, path: str | os.PathLike) -> None"),
-          "Writes the calibration to use in QuadEdge's own form, which Rig.from_file() and the program read.")
+          "Writes the calibration to use in QuadEdge's own format, which Rig.from_file() and the program read.")
       .def("__repr__", [](const Self& self) { return std::string("<Calibration: ") + to_string(self.verdict) + ">"; });
 
   module.def(

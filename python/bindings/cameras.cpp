@@ -97,7 +97,7 @@ void bind_rig(nb::module_& module) {
               "def from_file(files: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike], *, fov: float = "
               "0, mask: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike] | None = None, size: "
               "tuple[int, int] | None = None, max_value: int = 255, rectified: bool = False) -> Rig"),
-          "Reads a calibration in any of the forms of doc/your-own-data.md, recognised by content.\n\n"
+          "Reads a calibration in any of the formats in doc/your-own-data.md, recognised by content.\n\n"
           "files: one file, or a pair (left, right).\n"
           "fov: horizontal field of view of the pinhole images that distorted images are converted to [degrees]; 0 "
           "keeps\n"

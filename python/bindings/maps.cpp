@@ -63,7 +63,7 @@ void bind_localisation(nb::module_& module) {
           "located, lost_too_few_edges, lost_rig_mismatch, lost_unknown_place or lost_ambiguous.")
       .def_ro("key_rig", &Self::key_rig,
               "Number of the frame of the map's recording that it was located against; -1 for a lost frame.")
-      .def_ro("inliers", &Self::inliers, "Quads with that key rig that agree with the pose.")
+      .def_ro("inliers", &Self::inliers, "Quads with that keyframe that agree with the pose.")
       .def_ro("support", &Self::support, "Inliers divided by the kept edges that the pose brings into view, 0 to 1.")
       .def_ro("is_followed", &Self::is_followed, "True if it was found near the prediction from the frames before.")
       .def_ro("message", &Self::message, "Why the frame is lost, in one sentence; else empty.")
@@ -77,7 +77,7 @@ void bind_localisation(nb::module_& module) {
   def_optional(
       result, "covariance", &Self::covariance,
       "(6, 6) float64: covariance of ``map_from_left`` in the convention of ROS's PoseWithCovariance; the pose\n"
-      "of the key rig counts as exact. None for a lost frame.");
+      "of the keyframe counts as exact. None for a lost frame.");
 }
 
 }  // namespace
@@ -114,12 +114,12 @@ void bind_maps(nb::module_& module) {
            "left, right: grey images as recorded, as for Odometry.track(). stamp_ns: copied to the result [ns].\n\n"
            "A frame that cannot be located has ``map_from_left`` None, and ``status`` and ``message`` say why. Raises\n"
            "TypeError, DataError and DeviceError as Odometry.track().")
-      .def_prop_ro("key_rigs", &LoadedMap::key_rigs, "Number of key rigs in the map.")
+      .def_prop_ro("key_rigs", &LoadedMap::key_rigs, "Number of keyframes in the map.")
       .def_prop_ro("rig", &LoadedMap::rig, kView, "The Rig of the frames to locate.")
       .def_prop_ro("map_rig", &LoadedMap::map_rig, kView, "The pinhole cameras that recorded the map.")
       .def("__len__", &LoadedMap::key_rigs)
       .def("__repr__",
-           [](const LoadedMap& self) { return "<Map, key rigs: " + std::to_string(self.key_rigs()) + ">"; });
+           [](const LoadedMap& self) { return "<Map, keyframes: " + std::to_string(self.key_rigs()) + ">"; });
 }
 
 }  // namespace quadedge::python

@@ -219,7 +219,7 @@ void bind_diagnostics(nb::module_& module) {
               "Largest disparity that stereo matches were searched for, in the middle of the left image [px].")
       .def_ro("overflow", &Self::overflow, "True if a buffer was full; ``message`` of the FrameResult names it.")
       .def_ro("base_frame", &Self::base_frame,
-              "Number of the frame that the pose was measured against: the key rig's, or the last one with a pose; -1\n"
+              "Number of the frame that the pose was measured against: the keyframe, or the last one with a pose; -1\n"
               "without a pose.")
       .def_ro("search", &Self::search, "Number of the frame's temporal search that gave its motion; -1: no motion.")
       .def_ro("moving_ratio", &Self::moving_ratio,
@@ -240,11 +240,12 @@ void bind_diagnostics(nb::module_& module) {
       .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
       .def_prop_ro(
           "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
-          "(6, 12) float64: derivative of the pose in the frame of the key rig with respect to the calibration errors\n"
+          "(6, 12) float64: derivative of the pose in the frame of the keyframe with respect to the calibration "
+          "errors\n"
           "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
   def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,
                "(6, 6) float64: covariance, in the convention of ROS's PoseWithCovariance (x, y, z [m], then rotation\n"
-               "about x, y, z [rad]), of the pose in the left camera frame of the key rig, the inverse of\n"
+               "about x, y, z [rad]), of the pose in the left camera frame of the keyframe, the inverse of\n"
                "``current_from_reference``. None for a lost frame.");
 }
 
@@ -276,7 +277,7 @@ void bind_poses(nb::class_<MappedResult>& result) {
       "(4, 4) float64: ``world_from_left`` or, for a lost frame, ``predicted_world_from_left`` [m].");
   def_optional(
       result, "current_from_reference", &Self::current_from_reference,
-      "(4, 4) float64: maps points from the left camera frame of the key rig to that of this frame [m]. None for a\n"
+      "(4, 4) float64: maps points from the left camera frame of the keyframe to that of this frame [m]. None for a\n"
       "lost frame.");
   def_optional(
       result, "map_from_odometry", &Self::map_from_odometry,
@@ -301,8 +302,8 @@ void bind_result(nb::module_& module) {
               "another, but not with those of other segments: where the motion across lost frames could not be\n"
               "measured, a new segment starts. A lost frame has the number of the segment before it.")
       .def_ro("reference_frame", &Self::reference_frame,
-              "Number of the key rig's frame, counted from 0; -1 before the first one.")
-      .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")
+              "Number of the keyframe, counted from 0; -1 before the first one.")
+      .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the keyframe of the following frames.")
       .def_prop_ro(
           "disparity_offset", [](const Self& self) { return self.rig.disparity_offset; },
           "Offset of all disparities estimated so far, which is added to them [px].")
@@ -439,7 +440,7 @@ void bind_odometry(nb::module_& module) {
            "trajectory broke and no place joins its segments, those of the largest segment. Raises UsageError without\n"
            "``loops=True`` and after close().")
       .def("save_map", &Odometry::save_map, kReleasesGil, "path"_a,
-           "Writes the key rigs of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
+           "Writes the keyframes of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
            "Raises DataError if it cannot be written, UsageError without ``loops=True`` and after close().")
       .def_prop_ro(
           "rig", &Odometry::rig, kView,

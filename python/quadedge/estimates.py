@@ -90,7 +90,7 @@ class Estimates:
     def __init__(self, base_from_camera: numpy.ndarray):
         self.base_from_camera = base_from_camera
         self._last, self._twist, self._accelerations = None, None, _ACCELERATION**2
-        self._keys: dict[int, bool] = {}  # by the number of a key rig's frame, whether its pose is known
+        self._keys: dict[int, bool] = {}  # by the number of a keyframe, whether its pose is known
         self._new_key: bool | None = None  # the same of the newest one, until a frame names its number
         self._is_known = True  # the same of the last frame with a pose
 
@@ -100,7 +100,7 @@ class Estimates:
         if not result.is_tracked:
             self._twist = None
             return None
-        is_first = not self._keys  # its own key rig
+        is_first = not self._keys  # its own keyframe
         is_clear = not result.ambiguous_motion and not doubt
         self._is_known = self._is_measured_from_known(result) and is_clear and result.segment == 0
         if result.new_key_rig and not is_first:
@@ -114,9 +114,9 @@ class Estimates:
         return Estimate(pose, covariance if self._is_known else None, twist)
 
     def _is_measured_from_known(self, result) -> bool:
-        """Whether the pose of the frame that a pose was measured against is known: the key rig's, or the last one."""
+        """Whether the pose of the frame that a pose was measured against is known: the keyframe, or the last one."""
         key, base = result.reference_frame, result.diagnostics.base_frame
-        if key not in self._keys:  # a key rig that no frame has said to be one was the last frame before a loss
+        if key not in self._keys:  # a keyframe that no result has reported was the last frame before a loss
             self._keys[key] = self._is_known if self._new_key is None else self._new_key
             self._new_key = None
         return self._keys[key] and (base in (key, -1) or self._is_known)

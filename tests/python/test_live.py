@@ -175,7 +175,7 @@ def test_both_views_side_by_side(side_by_side, tmp_path, capsys):
     printed = capsys.readouterr()
     lines = printed.out.splitlines()
     assert lines[0].startswith("first") and 3 <= len(lines) <= played
-    assert "320 x 200 px; stamps are times of arrival" in printed.err
+    assert "320 x 200 px; timestamps are times of arrival" in printed.err
     assert len((out / "frames.csv").read_text().splitlines()) == len(lines) + 1 and (out / "report.json").is_file()
     assert (tmp_path / "live.rrd").stat().st_size > 10_000
     assert main(["v4l2", str(tmp_path / "none"), "--calibration", str(calibration)]) == 3

@@ -262,14 +262,14 @@ def test_maps_of_the_rig_have_one_scale_before_and_after(tmp_path):
     assert columns["zmax"] == 0.25  # that of a small map
     assert page.figure("rows_before")["layout"]["yaxis"]["range"] == [399.5, -0.5]  # downwards
     table = next(rows for title, rows in page.tables.items() if title.startswith("Residuals over the right image"))
-    assert table[1] == ["Rows", "calibration as given", "5", "0.40", "-0.80", "0.10"]
+    assert table[1] == ["Vertical residuals", "calibration as given", "5", "0.40", "-0.80", "0.10"]
     assert "+0.00\u2009\u00b1\u20090.30 px at the start, -0.12\u2009\u00b1\u20090.02 px at the end" in page.text
     assert "by too little or with too few points" in page.text
     assert page.text.count("No errors above the noise level") == 1
     content["rig"]["row_correction_px"] = 0.85
     (tmp_path / "street/report.json").write_text(json.dumps(content))
     page = page_of(tmp_path / "street")
-    assert "The search corrects rows by up to 0.85 px" in page.text
+    assert "The search corrects them by up to 0.85 px" in page.text
     write_rig(tmp_path / "street", 0.01)
     assert page_of(tmp_path / "street").text.count("No errors above the noise level") == 2
     rows = (tmp_path / "street/rig_maps.csv").read_text().splitlines()
@@ -278,7 +278,7 @@ def test_maps_of_the_rig_have_one_scale_before_and_after(tmp_path):
         report.make_page(tmp_path / "street")
 
 
-def test_a_run_without_points_at_new_key_rigs_says_nothing_of_columns(tmp_path):
+def test_a_run_without_points_at_new_key_rigs_says_nothing_of_horizontal_residuals(tmp_path):
     write_run(tmp_path / "rest", 9)
     content = write_rig(tmp_path / "rest", 0.01)
     nothing = dict.fromkeys(("rms_px", "largest_px", "scatter_px", "noise_px")) | {"cells": 0}
@@ -286,8 +286,8 @@ def test_a_run_without_points_at_new_key_rigs_says_nothing_of_columns(tmp_path):
     (tmp_path / "rest/report.json").write_text(json.dumps(content))
     page = page_of(tmp_path / "rest")
     assert page.text.count("No errors above the noise level") == 1
-    assert page.row(next(title for title in page.tables if title.startswith("Residuals over")), "Columns")[2:] == [
-        "0", *[numbers.DASH] * 3]
+    residuals = next(title for title in page.tables if title.startswith("Residuals over"))
+    assert page.row(residuals, "Horizontal residuals")[2:] == ["0", *[numbers.DASH] * 3]
 
 
 def test_an_interrupted_or_killed_run_has_a_page_of_its_finished_frames(tmp_path):

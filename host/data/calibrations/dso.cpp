@@ -28,10 +28,9 @@ StatedCalibration read_stereo_dso(const CalibrationText& text) {
   const auto lines = data_lines(text.file);
   auto words = lines.empty() ? std::vector<std::string>() : split(lines[0].text);
   if (lines.size() < 5) {
-    fail(
-        text.file, "the intrinsics of one camera (DSO's camera.txt)",
-        "a stereo calibration: Stereo DSO's camera.txt with the baseline in its fifth line, or another form that holds "
-        "the transform between the cameras, such as a Kalibr chain");
+    fail(text.file, "the intrinsics of one camera (DSO's camera.txt)",
+         "a stereo calibration: Stereo DSO's camera.txt with the baseline in its fifth line, or another format that "
+         "holds the transform between the cameras, such as a Kalibr chain");
   }
   if (is_number(words[0])) words.insert(words.begin(), words.size() == 8 ? "RadTan" : "FOV");
   const auto size = parse_row(lines[1], text.file, 2, "width height");

@@ -96,7 +96,7 @@ std::string all_contents() {
   std::string list;
   for (const CalibrationForm& form : calibration_forms()) {
     if (form.contents[0] == '\0') continue;
-    list += (list.empty() ? "one of these forms: " : "; ") + std::string(form.contents) +
+    list += (list.empty() ? "one of these formats: " : "; ") + std::string(form.contents) +
             (form.has_two_files ? " (two files)" : "");
   }
   return list;

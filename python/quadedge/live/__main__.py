@@ -15,7 +15,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m quadedge.live",
         description="Tracks a stereo camera until Ctrl-C and prints a line per frame: status, position [m], latency "
-                    "[ms]. Calibration and stamps are the camera's own (realsense, oak).")
+                    "[ms]. Calibration and timestamps come from the camera (realsense, oak).")
     kinds = parser.add_subparsers(dest="kind", required=True, metavar="KIND")
     for kind, what in zip(KINDS, ("infrared pair of a RealSense, with pyrealsense2",
                                   "mono cameras of an OAK, with depthai",

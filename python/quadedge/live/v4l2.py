@@ -41,7 +41,7 @@ class Camera:
         wanted += ["-framerate", str(fps)] if fps else []
         call = ["ffmpeg", "-nostdin", "-loglevel", "error", *wanted, "-i", source,
                 "-f", "yuv4mpegpipe", "-strict", "-1", "-pix_fmt", "gray", "-"]
-        self.name, self.notes = source, ["stamps are times of arrival"]
+        self.name, self.notes = source, ["timestamps are times of arrival"]
         errors = tempfile.TemporaryFile()  # a pipe that nobody reads would stop ffmpeg when it is full
         self._ffmpeg = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=errors)
         try:

@@ -180,7 +180,7 @@ class MatchingObserver(Tap):
                                                       self._motion_since(base))
             self._measured.temporal = search.measured
             add_cues(self._cues, search.cues)
-        # No later frame is matched with a frame before the key rig.
+        # No later frame is matched with a frame before the keyframe.
         self._frames = {number: frame for number, frame in self._frames.items() if number >= result.reference_frame}
         return self._measured, self._cues
 

@@ -12,17 +12,17 @@ OF_KIND = {
                             "calibration (--write-calibration). If the images are rectified, pass --rectified.",
     "small_disparity_range": "Nearby objects are not matched: raise --stereo.max_disparity.",
     "negative_disparities": "Left and right images are probably exchanged, or the calibration belongs to another rig.",
-    "unsynchronised_cameras": "Trigger both cameras in hardware, or pair the images by better time stamps (--times, "
+    "unsynchronised_cameras": "Trigger both cameras in hardware, or pair the images by better timestamps (--times, "
                               "--tolerance). Positions are off while the camera turns.",
-    "unknown_motion": "Judge every segment by itself (trajectory_segment_N.txt). Loop closure (--loops) can join "
+    "unknown_motion": "Evaluate every segment by itself (trajectory_segment_N.txt). Loop closure (--loops) can join "
                       "segments that see the same place.",
-    "repeated_images": "The recorder wrote images twice: remove the copies, or correct the time stamps.",
+    "repeated_images": "The recorder wrote images twice: remove the copies, or correct the timestamps.",
     "large_disparity_offset": "Distances are off by this disparity: calibrate the rig again if they matter.",
     "static_region": "Exclude this part of the image with --mask: an image that is black there.",
     "displaced_images": "Switch off image stabilisation and the cropping of single images, and fasten both cameras to "
                         "one bar.",
     "poor_images": "Shorten the exposure, light both cameras alike or compress less: what is hidden cannot be matched, "
-                   "and says nothing of the calibration.",
+                   "and says nothing about the calibration.",
     "changed_rig": "Fasten the cameras and calibrate again; earlier and later frames have different calibrations."}
 OF_LOSS = {
     "too few edges": "The images are dark, blurred or without contours there: more light, a shorter exposure, or a "

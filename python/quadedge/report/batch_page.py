@@ -188,8 +188,9 @@ def _accuracies(sequences: list[Sequence]) -> dict[str, list[dict]]:
 
 def _latency_table(summary: dict, sequences: list[Sequence]) -> Table:
     table = Table("latency", "Tracked frames and latency",
-                  ["sequence", "outcome", "tracked", "key rigs", *LATENCY_TITLES], text_columns=2)
+                  ["sequence", "outcome", "tracked", "keyframes", *LATENCY_TITLES], text_columns=2)
     table.groups = [("", 1), ("", 1), ("", 1), ("", 1), ("latency [ms]", 5)]
+    table.exact_columns = [name.replace("keyframes", "key rigs") for name in table.full_columns()]  # as in older files
     for sequence in sequences:
         entry, baseline = sequence.entry, sequence.compared.get("baseline")
         if entry["status"] not in RAN:

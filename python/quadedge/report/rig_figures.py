@@ -10,13 +10,13 @@ from .table import Cell, Table
 LEAST_LIMIT = 0.25  # px, of a colour scale: the maps of a sound rig are pale
 NOISE = 2  # a map is noise up to this many times what independent samples leave
 STATES = {"before": "calibration as given", "after": "with what was learned"}
-TITLES = {"rows": "Rows", "columns": "Columns"}
+TITLES = {"rows": "Vertical residuals", "columns": "Horizontal residuals"}
 
 
 def rig_table(rig: dict) -> Table:
     """The maps in a few numbers."""
-    table = Table("rig", "Residuals over the right image, vertical (rows) and along the epipolar lines (columns): "
-                  "medians of cells [px]",
+    table = Table("rig", "Residuals over the right image, vertical and horizontal (along the epipolar lines): medians "
+                  "of cells [px]",
                   ["", "", "cells", "RMS", "largest", "scatter of single points"], text_columns=2)
     for axis, title in TITLES.items():
         for state, text in STATES.items():
@@ -40,28 +40,28 @@ def finds_something(rig: dict) -> bool:
 
 
 def rows_text(rig: dict) -> str:
-    """What the maps of rows are, and how the search takes them."""
-    text = "Rows: distance of points from their epipolar lines, positive downwards on a rectified rig. "
+    """What the maps of vertical residuals are, and whether the search corrects them."""
+    text = "Vertical residuals: distances of points from their epipolar lines, positive downwards in rectified images. "
     if rig["row_correction_px"]:
-        return text + f"The search corrects rows by up to {rig['row_correction_px']:.2f} px, learned from these points."
+        return text + f"The search corrects them by up to {rig['row_correction_px']:.2f} px, learned from these points."
     if is_noise(rig["rows"]["before"]):
         return text + "No errors above the noise level."
     return text + "They are off, but by too little or with too few points to be corrected."
 
 
 def columns_text(rig: dict) -> str:
-    """What is learned of the columns, and what their maps are."""
+    """What is learned from horizontal residuals, and what their maps are."""
     start, end = (f"{round(value['px'], 2) + 0.0:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
-    text = (f"Columns: a common offset of all disparities is estimated, {start} at the start, {end} at the end. "
-            "The maps show measured minus predicted disparity at new key rigs; the prediction uses the points of the "
-            "previous key rig and the estimated motion. Errors of the calibration that both key rigs share cancel, so "
-            "only those that depend on depth or image position show.")
+    text = (f"Horizontal residuals: a common offset of all disparities is estimated, {start} at the start, {end} at "
+            "the end. The maps show measured minus predicted disparity at new keyframes; the prediction uses the "
+            "points of the previous keyframe and the estimated motion. Errors of the calibration that both keyframes "
+            "share cancel, so only those that depend on depth or image position show.")
     return text + (" No errors above the noise level." if is_noise(rig["columns"]["after"]) else "")
 
 
 def rig_figures(run: Run) -> list[Figure]:
-    """Maps of rows and columns, before and after, each pair with one scale."""
+    """Maps of vertical and horizontal residuals, before and after, each pair with one scale."""
     if run.count() < FEWEST_FRAMES or not run.rig_maps:
         return []
     figures, rig = [], run.report["rig"]

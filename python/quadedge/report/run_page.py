@@ -128,7 +128,7 @@ def plot_sections(run: Run, detail: Detail) -> list[Section]:
     """Path, errors with their tables, time and edges of a run; its tables alone if it has few frames."""
     space = [figure for figure in trajectory_figures(run, [], detail.points)
              if not figure.name.endswith("_from_above")]
-    world = "In the frame of the first left camera" + (" that has ground truth." if run.truth else ".")
+    world = "Shown in the frame of the first left camera" + (" that has ground truth." if run.truth else ".")
     errors = error_figures(run, [], detail.points)
     shown = [Figures(errors, "Origin-aligned: the first poses coincide. Grey: the standard deviation that the "
                              "covariances predict; errors should mostly lie within twice that.")] if errors else []
@@ -163,7 +163,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     """What matters most of a run."""
     report = run.report
     facts = [("Frames tracked", share_of(report["frames_tracked"], report["input"]["frames"])),
-             ("Key rigs", str(report["key_rigs"]))]
+             ("Keyframes", str(report["key_rigs"]))]
     reasons: dict[str, int] = {}
     for frames, reason, _ in run.losses():
         reasons[reason] = reasons.get(reason, 0) + len(frames)
@@ -194,7 +194,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
 
 def plots(run: Run, others: list[Other], detail: Detail) -> list[tuple[str, list]]:
     """Path, errors and frames of a member of a batch, each with its name; nothing for a run of few frames."""
-    world = "In the frame of the first left camera" + (" that has ground truth, origin-aligned." if run.truth else ".")
+    world = "In the frame of the first left camera" + (" with ground truth, origin-aligned." if run.truth else ".")
     frames = [*frame_figures(run, detail.points), *latency_figures(run, detail.points)]
     blocks = [("Path", trajectory_figures(run, others, detail.points), world),
               ("Errors", error_figures(run, others, detail.points), "Errors against the ground truth, origin-aligned."),

@@ -23,7 +23,7 @@ class Other:
 
 
 def _key_rig_stamps(run: Run) -> np.ndarray:
-    """Of the frames that became key rigs; none where so many did that their marks would hide the curves."""
+    """Of the frames that became keyframes; none where so many did that their marks would hide the curves."""
     chosen = np.array([text == "1" for text in run.frames["new_key_rig"]], bool)
     return run.column("stamp_s")[chosen & (chosen.mean() < MOST_KEY_RIGS)]
 
@@ -85,7 +85,7 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
     clouds = [(text, path.positions[every(len(path), points)], path.stamps[every(len(path), points)], style, dash,
                False) for text, path, style, dash in paths]
     chosen = rigs[every(len(rigs), points)]
-    clouds.append(("new key rig", run.estimate.positions[chosen], run.estimate.stamps[chosen], 2, "", True))
+    clouds.append(("new keyframe", run.estimate.positions[chosen], run.estimate.stamps[chosen], 2, "", True))
     for text, positions, stamps, style, dash, is_cloud in clouds:
         if not len(positions):
             continue
@@ -154,7 +154,7 @@ def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
             _add_predicted(figure, run, key, unit, points, float(np.nanmax(values, initial=0)) * unit.factor)
         rigs = _at(run.errors.stamps, _key_rig_stamps(run))
         rigs = rigs[every(len(rigs), points)]
-        figure.add("new key rig", run.errors.stamps[rigs] - run.start,
+        figure.add("new keyframe", run.errors.stamps[rigs] - run.start,
                    getattr(run.errors, key)[rigs] * unit.factor, style=2, points=True)
         figures.append(figure)
     return figures

@@ -26,22 +26,22 @@ def _parser() -> argparse.ArgumentParser:
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add_topic_options(parser)
     parser.add_argument("--reliable", action="store_true",
-                        help="have lost images sent again; by default they are not, as for sensors")
+                        help="request lost images again (reliable QoS); default: best effort, as for sensors")
     parser.add_argument("--remap", action="append", default=[], metavar="FROM:=TO", help="publish under another name")
     parser.add_argument("--base-from-camera", metavar="X,Y,Z,ROLL,PITCH,YAW",
-                        help="where the left camera is mounted [m, rad]; by default what /tf_static says of the frame "
-                             "of its images")
+                        help="pose of the left camera in the base frame [m, rad]; default: that of the images' frame "
+                             "in /tf_static")
     parser.add_argument("--gravity", metavar="X,Y,Z",
-                        help="where things fall in the axes of the base in the first pair, as 0.1,0,-9.8: levels "
-                             "odom, as REP 105 asks; by default odom has the axes of the base in the first pair")
+                        help="direction of gravity in the axes of the base in the first pair, such as 0.1,0,-9.8: "
+                             "levels odom, as REP 105 asks; default: odom has the axes of the base in the first pair")
     parser.add_argument("--use-sim-time", action="store_true", help="stamp diagnostics with the time of /clock")
     for name, frame in (("base", "base_link"), ("odom", "odom"), ("map", "map")):
         parser.add_argument(f"--{name}-frame", default=frame, metavar="FRAME", help="default: %(default)s")
-    parser.add_argument("--no-tf", action="store_true", help="publish no /tf, where a filter does")
+    parser.add_argument("--no-tf", action="store_true", help="do not publish /tf, for use with a filter that does")
     parser.add_argument("--withhold-ambiguous", action="store_true",
-                        help="publish nothing of pairs with an ambiguous motion; by default with variances of 1e6")
+                        help="publish nothing for pairs with an ambiguous motion; default: variances of 1e6")
     parser.add_argument("--map", metavar="FILE", help="locate pairs in a saved map, and publish map to odom")
-    parser.add_argument("--save-map", metavar="FILE", help="where the service /quadedge/save_map writes, with --loops")
+    parser.add_argument("--save-map", metavar="FILE", help="file that the service /quadedge/save_map writes (--loops)")
     parser.add_argument("--cloud", action="store_true", help="publish the edges of every tracked pair as points")
     add_session_options(parser)
     return parser

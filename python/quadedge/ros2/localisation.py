@@ -88,7 +88,7 @@ class Localisation:
                 if loads:
                     options = self._options
                     places = Map.load(options.map, rig, options.device, options.preset, options.config, follow=True)
-                    self._say(f"map {options.map}: {len(places)} key rigs")
+                    self._say(f"map {options.map}: {len(places)} keyframes")
                 self._search(places, *pair)
             except Error as error:
                 self._state, places = str(error), None

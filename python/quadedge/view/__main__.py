@@ -14,7 +14,7 @@ from .results import Run
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m quadedge.view",
-        description="Shows the results of `quadedge run` along a time line: path, key rigs, edges in space, both "
+        description="Shows the results of `quadedge run` along a time line: path, keyframes, edges in space, both "
                     "images with edges and quads, counts and times.")
     parser.add_argument("results", metavar="RESULTS", help="results folder of `quadedge run`")
     target = parser.add_mutually_exclusive_group()

@@ -61,7 +61,7 @@ class Run:
         return open_stereo_source(**options)
 
     def show(self, viewer: Viewer, recording=None, device: str = "auto") -> None:
-        """Logs path, key rigs, counts and times to a viewer.
+        """Logs path, keyframes, counts and times to a viewer.
 
         recording: the Dataset that was tracked. It is tracked again, with the configuration of the run, to show edges
         and quads, which are not among the results. device: as in Odometry.
@@ -93,7 +93,7 @@ def show_results(folder: str | PathLike, viewer: Viewer, *, images: bool = True,
                  device: str = "auto") -> int:
     """Shows a results folder of ``quadedge run`` and returns the number of frames.
 
-    Path, key rigs, counts and times come from the files in the folder. With ``images`` the recording is tracked again
+    Path, keyframes, counts and times come from the files in the folder. With ``images`` the recording is tracked again
     to show its edges and quads, unless it came from a pipe or a camera
     or was rendered. data: the recording, if it has moved since the run. device: as in Odometry.
 

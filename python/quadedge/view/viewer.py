@@ -114,7 +114,7 @@ class Viewer:
         self._frame += 1
 
     def log_pose(self, world_from_left: numpy.ndarray, is_tracked: bool, new_key_rig: bool) -> None:
-        """Logs the camera's pose, (4, 4) [m], the step of its path, and the key rig if the frame becomes one."""
+        """Logs the camera's pose, (4, 4) [m], the step of its path, and a keyframe if the frame becomes one."""
         rerun, position = self._rerun, world_from_left[:3, 3]
         self.recording.log("world/camera", rerun.Transform3D(translation=position, mat3x3=world_from_left[:3, :3]))
         if self._last_position is not None:
