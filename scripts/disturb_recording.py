@@ -209,9 +209,10 @@ def poses(path):
 
 
 def judge(args):
-    truth, found = poses(args.truth), poses(args.run / "trajectory.txt")
     with (args.run / "frames.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
+    is_tracked = any(row["status"] in ("first", "tracked") for row in rows)
+    truth, found = poses(args.truth), poses(args.run / "trajectory.txt") if is_tracked else {}
     count = dict.fromkeys(("right", "lost", "flagged", "unflagged"), 0)
     for before, row in zip(rows, rows[1:]):
         times = [round(1e3 * float(each["stamp_s"])) for each in (before, row)]

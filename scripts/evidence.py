@@ -65,7 +65,8 @@ class Recording:
         if not (self.folder / "mav0").exists():
             self.pairs = self.folder
             return
-        sensors = [yaml.safe_load((self.folder / f"mav0/cam{k}/sensor.yaml").read_text()) for k in (0, 1)]
+        texts = [(self.folder / f"mav0/cam{k}/sensor.yaml").read_text() for k in (0, 1)]
+        sensors = [yaml.safe_load(text.replace("%YAML:1.0", "")) for text in texts]  # OpenCV's directive is not YAML's
         body = [numpy.reshape(sensor["T_BS"]["data"], (4, 4)) for sensor in sensors]
         right_from_left = numpy.linalg.inv(body[1]) @ body[0]
         lenses = [(numpy.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), numpy.array(sensor["distortion_coefficients"]))

@@ -110,6 +110,11 @@ def check_judge(root):
     (root / "run" / "frames.csv").write_text("\n".join(["stamp_s,status,ambiguous_motion", *rows]) + "\n")
     judged = run("judge", root / "run", root / "truth" / "trajectory.txt")
     assert judged.split() == "right 1 lost 1 flagged 1 unflagged 1".split(), judged
+    rows = [f"{frame},lost_rig_mismatch,0" for frame in range(5)]
+    (root / "run" / "frames.csv").write_text("\n".join(["stamp_s,status,ambiguous_motion", *rows]) + "\n")
+    (root / "run" / "trajectory.txt").write_text("# no pose\n")
+    judged = run("judge", root / "run", root / "truth" / "trajectory.txt")
+    assert judged.split() == "right 0 lost 4 flagged 0 unflagged 0".split(), judged
 
 
 with tempfile.TemporaryDirectory() as name:
