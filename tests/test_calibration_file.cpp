@@ -140,6 +140,28 @@ TEST_CASE("calibration: every lens model of Kalibr is read, and written to the n
   CHECK(omni.parameters == std::vector<double>{1.7, -0.1, 0.2, 0.001, 0.002});
 }
 
+TEST_CASE("calibration: the native form takes every name of a lens model", "[calibration]") {
+  const TemporaryFolder folder;
+  const auto lens = [&](const std::string& model, const std::string& coefficients) {
+    std::string text;
+    for (const char* side : {"left_", "right_"})
+      text += side + ("model: " + model) + "\n" + side + "size: [752, 480]\n" + side +
+              "intrinsics: [450, 460, 370, 240]\n" + side + "coefficients: [" + coefficients + "]\n";
+    write_text(folder / "rig.yaml", text + "rotation: [0, 0, 0]\ntranslation: [-0.11, 0, 0]\n");
+    const Lens read = read_calibration(folder / "rig.yaml").right;
+    CHECK(numbers(read.parameters) == coefficients);
+    return read.model;
+  };
+  for (const char* name : {"radtan", "radial-tangential", "plumb_bob", "rational_polynomial"})
+    CHECK(lens(name, "-0.25, 0.0625, 0, 0") == LensModel::radial_tangential);
+  for (const char* name : {"equidistant", "fisheye"}) CHECK(lens(name, "0.25, 0.0625, 0, 0") == LensModel::equidistant);
+  CHECK(lens("fov", "0.75") == LensModel::field_of_view);
+  for (const char* name : {"double-sphere", "ds"}) CHECK(lens(name, "-0.25, 0.5") == LensModel::double_sphere);
+  CHECK(lens("eucm", "0.5, 1.25") == LensModel::extended_unified);
+  CHECK(lens("omni", "1.5, -0.25, 0.0625, 0, 0") == LensModel::omnidirectional);
+  CHECK_THROWS_WITH(lens("fish-eye", "0.75"), Contains("rig.yaml:1") && Contains("\"fish-eye\" for left_model"));
+}
+
 TEST_CASE("calibration: errors in a Kalibr chain name the file and the entry", "[calibration]") {
   const TemporaryFolder folder;
   const std::string file = folder / "chain.yaml";

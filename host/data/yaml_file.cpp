@@ -12,9 +12,12 @@ namespace quadedge::data {
 namespace {
 
 /// \throws DataError for a duplicate key in a map, because YAML readers differ in which one they use. Checks at most
-/// `levels` nested maps, which is as deep as files are read; aliases could make the recursion endless.
+/// `levels` nested maps and lists, which is as deep as files are read; aliases could make the recursion endless.
 void check_keys(const YAML::Node& node, const std::string& file, int levels = 2) {
-  if (levels == 0 || !node.IsMap()) return;
+  if (levels == 0) return;
+  if (node.IsSequence())
+    for (const auto& item : node) check_keys(item, file, levels - 1);
+  if (!node.IsMap()) return;
   std::set<std::string> keys;
   for (const auto& entry : node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
@@ -31,20 +34,26 @@ std::string without_dialect(std::string text) {
     static const std::regex tight("(^|\n)( *[A-Za-z_][A-Za-z_0-9.]*:)(?=[^\\s])");
     text = std::regex_replace(text, tight, "$1$2 ");
   }
-  if (const std::size_t first = text.find_first_not_of(" \t\r\n"); first != std::string::npos && text[first] == '{')
+  if (const std::size_t first = text.find_first_not_of(" \t\r\n");
+      first != std::string::npos && (text[first] == '{' || text[first] == '['))
     std::replace(text.begin(), text.end(), '\t', ' ');
   return text;
 }
 
 }  // namespace
 
-YamlMap::YamlMap(const std::string& file, const std::string& what) : file_(file), what_(what) {
+YAML::Node parse_yaml(const std::string& text, const std::string& file, const std::string& what) {
   try {
-    node_ = YAML::Load(without_dialect(read_text(file)));
-    check_keys(node_, file);
+    YAML::Node node = YAML::Load(without_dialect(text));
+    check_keys(node, file);
+    return node;
   } catch (const YAML::Exception& problem) {
     fail(file, problem.mark.line + 1, "text that is not YAML (" + problem.msg + ")", what);
   }
+}
+
+YamlMap::YamlMap(const std::string& file, const std::string& what)
+    : YamlMap(parse_yaml(read_text(file), file, what), file, what) {
   if (!node_.IsMap()) fail(file, "no entries", what);
 }
 

@@ -17,6 +17,10 @@ struct YamlMatrix {
   std::size_t rows = 0, columns = 0;  ///< 0 x 0: a plain list
 };
 
+/// Parses YAML, JSON, or OpenCV's YAML. `file` and `what`, the expected content, are for messages. \throws DataError
+/// for text that is none of these, or a map with an entry twice
+YAML::Node parse_yaml(const std::string& text, const std::string& file, const std::string& what);
+
 /// A map of a YAML file.
 class YamlMap {
  public:

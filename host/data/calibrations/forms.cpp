@@ -108,13 +108,19 @@ std::string all_contents() {
   fail(texts[0].file, found, all_contents());
 }
 
-/// \throws DataError for a baseline that a stereo camera cannot have: zero, tens of metres, or with the right camera on
-/// the left.
-void check_baseline(const StereoCalibration& calibration) {
+/// \throws DataError for a relative pose that a stereo camera cannot have: views in different directions, a baseline of
+/// zero or tens of metres, the right camera on the left.
+void check_relative_pose(const StereoCalibration& calibration) {
+  const double angle = std::acos(std::clamp(calibration.right_from_left.linear()(2, 2), -1.0, 1.0));
+  constexpr double kWidest = 60 * kDegree;
+  if (angle > kWidest)
+    fail(calibration.files, "optical axes " + printed("%.0f", angle / kDegree) + " degrees apart",
+         "the two cameras of a stereo pair, which look in the same direction");
   const Eigen::Vector3d right = calibration.right_from_left.inverse().translation();  // in the left camera frame
   const std::string found = "a right camera at " + metres(right) + " from the left one";
   constexpr double kShortest = 1e-6, kLongest = 30;  // m
-  if (!right.allFinite() || !(right.norm() > kShortest)) fail(calibration.files, found, "a baseline above zero");
+  if (!right.allFinite() || !(right.norm() > kShortest))
+    fail(calibration.files, found, "a baseline above zero: were the cameras calibrated one by one?");
   if (right.norm() > kLongest) fail(calibration.files, found, "metres: millimetres, perhaps");
   if (right.x() < 0 && -right.x() >= std::abs(right.y())) {
     fail(calibration.files, found + ", which is on its left",
@@ -190,6 +196,8 @@ const std::vector<CalibrationForm>& calibration_forms() {
       {"basalt", "Basalt's calibration (value0: T_imu_cam, intrinsics)", false,
        [](Text text) { return text.has("value0") || (text.has("T_imu_cam") && text.has("intrinsics")); },
        of_map<read_basalt>},
+      {"mrcal", "mrcal's .cameramodel (lensmodel, rt_cam_ref)", true, is_mrcal, of_maps<read_mrcal>},
+      {"edex", "cuVSLAM's EDEX (cameras: intrinsics, transform)", false, is_edex, of_map<read_edex>},
       {"depthai", "DepthAI's calibration of an OAK camera (cameraData)", false,
        [](Text text) { return text.has("cameraData"); }, of_map<read_depthai>},
       {"zed", "a ZED camera's SNxxxx.conf ([LEFT_CAM_HD], [STEREO])", false, is_zed, of_text<read_zed>},
@@ -220,6 +228,7 @@ const std::vector<CalibrationForm>& calibration_forms() {
 
 CalibrationText read_calibration_text(const std::string& file) {
   CalibrationText text{file, read_text(file), {}};
+  if (is_mrcal(text)) text.text = yaml_of_python(text.text);
   const std::size_t first = text.text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text.text[first] == '<') {
     try {
@@ -230,8 +239,11 @@ CalibrationText read_calibration_text(const std::string& file) {
       fail(file, "text that cv::FileStorage does not read (" + problem.err + ")", "OpenCV's stereo calibration");
     }
   } else if (!is_zed(text) && !is_realsense(text) && !is_matlab(text) && !is_dso_camera(text) &&
-             (first == std::string::npos || text.text[first] != '[')) {
-    text.map.emplace(file, all_contents());
+             (first == std::string::npos || text.text[first] != '[' || is_edex(text))) {
+    const YAML::Node node = parse_yaml(text.text, file, all_contents());
+    const YAML::Node entries = is_edex(text) && node.IsSequence() && node.size() > 0 ? node[0] : node;
+    if (!entries.IsMap()) fail(file, "no entries", all_contents());
+    text.map.emplace(entries, file, all_contents());
   }
   return text;
 }
@@ -247,7 +259,7 @@ StereoCalibration judged(const StatedCalibration& stated, const std::string& for
   calibration.body_from_left = stated.body_from_left;
   calibration.format = format;
   calibration.files = files;
-  check_baseline(calibration);
+  check_relative_pose(calibration);
   calibration.right_from_left = rounded_transform(calibration.right_from_left);
   for (const StatedCalibration& other : stated.other_sizes)
     calibration.other_sizes.push_back(judged(other, format, files));

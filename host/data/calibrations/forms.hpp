@@ -60,6 +60,8 @@ StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts);
 StatedCalibration read_orb_slam_settings(const YamlMap& settings);
 StatedCalibration read_stella_vslam(const YamlMap& settings);
 StatedCalibration read_vins_fusion(const YamlMap& configuration);
+StatedCalibration read_edex(const YamlMap& header);
+StatedCalibration read_mrcal(const YamlMap& left, const YamlMap& right);
 StatedCalibration read_basalt(const YamlMap& calibration);
 StatedCalibration read_depthai(const YamlMap& device);
 StatedCalibration read_zed(const CalibrationText& text);
@@ -77,6 +79,11 @@ bool is_zed(const CalibrationText& text);
 bool is_realsense(const CalibrationText& text);
 bool is_matlab(const CalibrationText& text);
 bool is_dso_camera(const CalibrationText& text);
+bool is_edex(const CalibrationText& text);
+bool is_mrcal(const CalibrationText& text);
+
+/// A Python literal as YAML: without comments, tuples as lists, strings of bytes as strings.
+std::string yaml_of_python(const std::string& python);
 
 /// Reads a text and its entries, if it has any. \throws DataError as read_text()
 CalibrationText read_calibration_text(const std::string& file);

@@ -10,18 +10,28 @@ namespace quadedge {
 namespace data {
 namespace {
 
-constexpr LensModel kModels[] = {LensModel::radial_tangential, LensModel::equidistant,      LensModel::field_of_view,
-                                 LensModel::double_sphere,     LensModel::extended_unified, LensModel::omnidirectional};
+/// The names that to_string() gives, and those of Kalibr, EuRoC and ROS.
+constexpr std::pair<const char*, LensModel> kModels[] = {{"radtan", LensModel::radial_tangential},
+                                                         {"radial-tangential", LensModel::radial_tangential},
+                                                         {"plumb_bob", LensModel::radial_tangential},
+                                                         {"rational_polynomial", LensModel::radial_tangential},
+                                                         {"equidistant", LensModel::equidistant},
+                                                         {"fisheye", LensModel::equidistant},
+                                                         {"fov", LensModel::field_of_view},
+                                                         {"double-sphere", LensModel::double_sphere},
+                                                         {"ds", LensModel::double_sphere},
+                                                         {"eucm", LensModel::extended_unified},
+                                                         {"omni", LensModel::omnidirectional}};
 
 StatedLens read_lens(const YamlMap& file, const std::string& side) {
   const std::string model = file.word(side + "model");
   StatedLens stated(file.file(), side + "intrinsics", side + "coefficients");
   Lens& lens = stated.lens;
   const auto* found =
-      std::find_if(std::begin(kModels), std::end(kModels), [&](LensModel each) { return model == to_string(each); });
+      std::find_if(std::begin(kModels), std::end(kModels), [&](const auto& each) { return model == each.first; });
   if (found == std::end(kModels))
     file.complain(side + "model", in_quotes(model), "radtan, equidistant, fov, double-sphere, eucm or omni");
-  lens.model = *found;
+  lens.model = found->second;
   const ImageSize size = file.size(side + "size");
   const auto k = file.numbers(side + "intrinsics", 4);
   lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};

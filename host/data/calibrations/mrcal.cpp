@@ -1,0 +1,73 @@
+/// \file mrcal.cpp  mrcal's .cameramodel, one file per camera: a Python dictionary of lensmodel, intrinsics (fx fy cx
+/// cy, then OpenCV's coefficients), imagersize, and rt_cam_ref (extrinsics before mrcal 2.5): a rotation vector and a
+/// translation [m], which map points from a frame that the cameras share to this camera.
+
+#include <algorithm>
+
+#include "data/calibrations/forms.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+StatedLens read_lens(const YamlMap& camera) {
+  const std::string name = camera.word("lensmodel");
+  for (const std::size_t coefficients : {0U, 4U, 5U, 8U, 12U}) {  // of the models that OpenCV's equations hold
+    if (name != (coefficients == 0 ? "LENSMODEL_PINHOLE" : "LENSMODEL_OPENCV" + std::to_string(coefficients))) continue;
+    StatedLens stated(camera.file(), "intrinsics", "intrinsics");
+    const auto k = camera.numbers("intrinsics", 4 + coefficients);
+    const ImageSize size = camera.size("imagersize");
+    stated.lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
+    stated.lens.parameters.assign(k.begin() + 4, k.end());
+    return stated;
+  }
+  camera.complain("lensmodel", in_quotes(name),
+                  "LENSMODEL_PINHOLE, LENSMODEL_OPENCV4, OPENCV5, OPENCV8 or OPENCV12: `mrcal-convert-lensmodel "
+                  "LENSMODEL_OPENCV8 FILE` fits one");
+}
+
+Eigen::Isometry3d camera_from_reference(const YamlMap& camera) {
+  const bool has_older_name = camera.has("extrinsics");
+  const char* key = has_older_name && !camera.has("rt_cam_ref") ? "extrinsics" : "rt_cam_ref";
+  const auto rt = camera.numbers(key, 6);
+  if (has_older_name && camera.numbers("extrinsics") != rt)
+    camera.complain("extrinsics", "other numbers", "those of rt_cam_ref");
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = rotation_of_vector({rt[0], rt[1], rt[2]}, camera.file() + " (" + key + ")");
+  pose.translation() << rt[3], rt[4], rt[5];
+  return pose;
+}
+
+}  // namespace
+
+bool is_mrcal(const CalibrationText& text) {
+  return text.text.find("'lensmodel'") != std::string::npos || text.text.find("\"lensmodel\"") != std::string::npos;
+}
+
+std::string yaml_of_python(const std::string& python) {
+  std::string yaml;
+  for (std::size_t at = 0; at < python.size(); ++at) {
+    const char letter = python[at];
+    if (letter == '\'' || letter == '"') {
+      const std::size_t end = std::min(python.find(letter, at + 1), python.size() - 1);
+      if (at > 0 && python[at - 1] == 'b') yaml.pop_back();
+      yaml.append(python, at, end + 1 - at);
+      at = end;
+    } else if (letter == '#') {
+      at = std::min(python.find('\n', at), python.size()) - 1;
+    } else {
+      yaml += letter == '(' ? '[' : letter == ')' ? ']' : letter == '\t' ? ' ' : letter;
+    }
+  }
+  return yaml;
+}
+
+StatedCalibration read_mrcal(const YamlMap& left, const YamlMap& right) {
+  StatedCalibration stated;
+  stated.left = read_lens(left);
+  stated.right = read_lens(right);
+  stated.right_from_left = camera_from_reference(right) * camera_from_reference(left).inverse();
+  return stated;
+}
+
+}  // namespace quadedge::data
