@@ -107,7 +107,7 @@ def test_a_mask_that_comes_late(robot, walk, tmp_path):
     def is_late() -> bool:
         send_masks(robot, SECOND, [masks[0][LEFT]])
         robot.listen(0.3)
-        return int(robot.diagnostics()["left masks late or repeated"]) > 0
+        return robot.heard["/diagnostics"] and robot.diagnostics()["left masks late or repeated"] != "0"
 
     robot.until(is_late, "a late mask")
     assert robot.diagnostics()["pairs without a left mask"] == "1"
