@@ -42,9 +42,9 @@ MOST_LINES = {
     "host/synthetic": 2980,
     "include": 2240,
     "kernels": 5210,
-    "python": 11230,
+    "python": 11460,
     "scripts": 3060,
-    "tests": 33000,
+    "tests": 33520,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

@@ -22,12 +22,17 @@ class LoadedMap {
             bool follow)
       : LoadedMap(read(path), rig, device, config, follow) {}
 
-  Localisation localise(nb::handle left, nb::handle right, std::int64_t stamp_ns) {
+  Localisation localise(nb::handle left, nb::handle right, std::int64_t stamp_ns, nb::handle left_mask,
+                        nb::handle right_mask) {
     const ImageArgument left_image(left, "the left image", max_value_of(rig_));
     const ImageArgument right_image(right, "the right image", max_value_of(rig_));
+    const auto hides_left = ImageArgument::mask(left_mask, "left_mask"),
+               hides_right = ImageArgument::mask(right_mask, "right_mask");
     const ReleasedGil released;
     const std::lock_guard<std::mutex> alone(in_use_);
-    return localiser_->locate({stamp_ns, left_image.view(), right_image.view()});
+    return localiser_->locate({stamp_ns, left_image.view(), right_image.view(),
+                               hides_left ? hides_left->view() : ImageView(),
+                               hides_right ? hides_right->view() : ImageView()});
   }
   const StereoRig& rig() const { return rig_; }
   const StereoRig& map_rig() const { return map_.rig(); }
@@ -108,10 +113,13 @@ void bind_maps(nb::module_& module) {
           "Raises DataError for a file that is missing, damaged or of another version, UsageError for a configuration\n"
           "whose edges differ from the map's or cameras that have to be given, and what Odometry() raises.")
       .def("localise", &LoadedMap::localise, "left"_a.none(), "right"_a.none(), "stamp_ns"_a = 0,
-           nb::sig("def localise(self, left: numpy.typing.NDArray, right: numpy.typing.NDArray, stamp_ns: int = 0) -> "
+           "left_mask"_a.none() = nb::none(), "right_mask"_a.none() = nb::none(),
+           nb::sig("def localise(self, left: numpy.typing.NDArray, right: numpy.typing.NDArray, stamp_ns: int = 0, "
+                   "left_mask: numpy.typing.NDArray | None = None, right_mask: numpy.typing.NDArray | None = None) -> "
                    "Localisation"),
            "Locates one frame. Releases the GIL.\n\n"
-           "left, right: grey images as recorded, as for Odometry.track(). stamp_ns: copied to the result [ns].\n\n"
+           "left, right: grey images as recorded, and masks of this frame, as for Odometry.track(). stamp_ns: copied\n"
+           "to the result [ns].\n\n"
            "A frame that cannot be located has ``map_from_left`` None, and ``status`` and ``message`` say why. Raises\n"
            "TypeError, DataError and DeviceError as Odometry.track().")
       .def_prop_ro("key_rigs", &LoadedMap::key_rigs, "Number of keyframes in the map.")

@@ -4,7 +4,8 @@
 ///   fastdds_side DOMAIN FRAMES     FRAMES: width, height, count (int32), fx, cx, cy, baseline (double), then of every
 ///                                  frame the stamp [ns] (int64) and both images
 ///
-/// Prints a line per message that it reads, numbers in full: odometry, tf, diagnostics, edges.
+/// Prints a line per message that it reads, numbers in full: odometry, tf, diagnostics, edges. Afterwards it calls the
+/// services, and prints a line per reply.
 
 #include <atomic>
 #include <chrono>
@@ -186,6 +187,45 @@ void play(DomainParticipant* participant, const char* name) {
   }
 }
 
+/// A reader or writer of one half of a service, with the qualities of rmw_fastrtps_cpp.
+template <class Qos>
+Qos of_service() {
+  Qos qos;
+  qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
+  qos.history().depth = 10;
+  return qos;
+}
+
+/// Calls a service of std_srvs/srv/Trigger as rmw_fastrtps_cpp does: the number of the request is beside the message.
+void call(DomainParticipant* participant, const std::string& name) {
+  DataWriter* requests = participant->create_publisher(PUBLISHER_QOS_DEFAULT)
+                             ->create_datawriter(topic<std_srvs::srv::dds_::Trigger_Request_PubSubType>(
+                                                     participant, ("rq" + name + "Request").c_str()),
+                                                 of_service<DataWriterQos>());
+  DataReader* replies = participant->create_subscriber(SUBSCRIBER_QOS_DEFAULT)
+                            ->create_datareader(topic<std_srvs::srv::dds_::Trigger_Response_PubSubType>(
+                                                    participant, ("rr" + name + "Reply").c_str()),
+                                                of_service<DataReaderQos>());
+  wait_for_readers({requests});
+  SubscriptionMatchedStatus matched;
+  for (int i = 0; i < 600 && replies->get_subscription_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
+                  matched.current_count == 0;
+       ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std_srvs::srv::dds_::Trigger_Request_ request;
+  eprosima::fastrtps::rtps::WriteParams asked;
+  std_srvs::srv::dds_::Trigger_Response_ reply;
+  SampleInfo info;
+  bool came = false;
+  for (int i = 0; i < 6 && !came; ++i) {  // again where the server has not found this reader yet
+    requests->write(&request, asked);
+    came = replies->wait_for_unread_message({5, 0}) &&
+           replies->take_next_sample(&reply, &info) == ReturnCode_t::RETCODE_OK && info.valid_data;
+  }
+  const bool names_request = came && info.related_sample_identity == asked.sample_identity();
+  std::printf("reply %s %d %d %d %s\n", name.c_str(), came, names_request, reply.success(), reply.message().c_str());
+}
+
 int main(int, char** arguments) {
   DomainParticipant* participant = join(std::stoi(arguments[1]));
   const Printer<nav_msgs::msg::dds_::Odometry_PubSubType> odometry(participant, "rt/quadedge/odometry", print_odometry);
@@ -207,6 +247,9 @@ int main(int, char** arguments) {
   });
 
   play(participant, arguments[2]);
+  std::this_thread::sleep_for(std::chrono::seconds(2));  // what waits is tracked before the reset
+  for (const char* service : {"/quadedge/reset", "/quadedge/save_map", "/quadedge/load_map"})
+    call(participant, service);
   std::this_thread::sleep_for(std::chrono::seconds(2));
   std::fflush(stdout);
   std::_Exit(0);

@@ -8,6 +8,10 @@ _CONSTANT = re.compile(r"^\S+\s+\w+\s*=")
 # What ROS 2 changed: the name of the type of stamps, which is no base there, and Header's number.
 _RENAMED = {"time": "builtin_interfaces/Time", "Header": "std_msgs/Header"}
 _OF_ROS2 = {"builtin_interfaces/msg/Time": [("int32", "sec", ""), ("uint32", "nanosec", "")]}
+# std_srvs/srv/Trigger, as rosidl names its two halves in DDS.
+TRIGGER = ("module std_srvs { module srv { module dds_ { "
+           "struct Trigger_Request_ { octet structure_needs_at_least_one_member; }; "
+           "struct Trigger_Response_ { boolean success; string message; }; }; }; };\n")
 _IDL = {"bool": "boolean", "byte": "octet", "uint8": "octet", "char": "octet", "int8": "char", "int16": "short",
         "uint16": "unsigned short", "int32": "long", "uint32": "unsigned long", "int64": "long long",
         "uint64": "unsigned long long", "float32": "float", "float64": "double", "string": "string"}  # fmt: skip

@@ -77,6 +77,18 @@ def test_a_frame_of_an_unknown_place_has_no_pose_and_a_reason(saved):
     assert found.status.startswith("lost_") and found.message
 
 
+def test_masks_hide_what_is_not_to_be_searched(walk, saved):
+    places, frame = quadedge.Map.load(saved[0]), list(walk)[5]
+    white, black = np.full(frame.left.shape, 255, np.uint8), np.zeros(frame.left.shape, np.uint8)
+    found = [places.localise(frame.left, frame.right, 0, *masks) for masks in ((), (white, white))]
+    assert found[0].map_from_left.tobytes() == found[1].map_from_left.tobytes()
+    assert places.localise(frame.left, frame.right, left_mask=black).status == "lost_too_few_edges"
+    with pytest.raises(quadedge.DataError, match="the right mask has 320x199 pixels"):
+        places.localise(frame.left, frame.right, right_mask=white[:199])
+    with pytest.raises(TypeError, match="left_mask is an array of uint16"):
+        places.localise(frame.left, frame.right, left_mask=white.astype(np.uint16))
+
+
 def test_invalid_maps_and_images_are_refused(walk, saved, tmp_path):
     path, _, _ = saved
     damaged = tmp_path / "damaged.map"

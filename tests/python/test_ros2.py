@@ -36,7 +36,7 @@ from quadedge.estimates import Estimates, of_base, twist_between  # noqa: E402
 from quadedge.ros_messages import (BODY_FROM_OPTICAL, UNKNOWN, diagnostics_message, message_store,  # noqa: E402
                                    quaternion, stamp_ns, transforms_message)
 from robot import OUT, Robot, image_message  # noqa: E402
-from ros_definitions import FOLDER, fields, idl, with_parts  # noqa: E402
+from ros_definitions import FOLDER, TRIGGER, fields, idl, with_parts  # noqa: E402
 
 SECOND = 1_000_000_000
 FULL = "a folder with results"
@@ -131,7 +131,7 @@ def test_everything_that_is_published(robot, room, frames, tmp_path):
     reset.publish(message_store().types["std_msgs/msg/Empty"](0))
     robot.said("reset: the odometry starts again, at the origin")
     stamp = robot.play(frames[:1], 2 * SECOND) - 50_000_000
-    assert pose_of(robot.poses()[stamp])[:3] == [0, 0, 0]
+    assert pose_of(robot.poses()[stamp])[:3] == [0, 0, 0] and robot.poses()[stamp].pose.covariance[0] < 1
 
 
 def test_frames_of_tf_static_and_other_names(robot, frames, tmp_path):
@@ -521,6 +521,9 @@ def test_an_empty_domain_and_one_without_cameras(tmp_path):
     (["--config", "no.toml"], "5", "no.toml"),
     (["--left", "/a", "--right", "/a"], "5", "found /a twice"),
     (["--odom-frame", "base_link"], "5", "found base_link, base_link, map, expected three names"),
+    (["--left-mask", "/a", "--right-mask", "/a"], "5", "found /a twice"),
+    (["--left", "/a", "--right", "/b", "--right-mask", "/a"], "5", "found /a, the topic of a camera"),
+    (["--mask-wait", "-1"], "5", "found -1, expected a finite number"),
     (["--tolerance", "nan"], "5", "found nan, expected a finite number"),
     (["--gravity", "0,0,0"], "5", "--gravity: found '0,0,0', expected three numbers"),
     (["--map", "no.map"], "5", "no.map: found no such file"),
@@ -622,7 +625,7 @@ def fast_dds(tmp_path_factory):
     if not shutil.which("fastddsgen") or not (FOLDER / "nav_msgs").is_dir():
         pytest.skip("fastddsgen or ros-nav-msgs is not installed: Fast DDS cannot be the other side")
     folder = tmp_path_factory.mktemp("fastdds")
-    (folder / "Messages.idl").write_text(idl(KINDS))
+    (folder / "Messages.idl").write_text(idl(KINDS) + TRIGGER)
     subprocess.run(["fastddsgen", "-replace", "Messages.idl"], cwd=folder, check=True, capture_output=True)
     subprocess.run(["c++", "-std=c++17", "-O1", "-w", f"-I{folder}", Path(__file__).parent / "fastdds_side.cpp",
                     "Messages.cxx", "MessagesPubSubTypes.cxx", "-lfastrtps", "-lfastcdr", "-o", "side"],
@@ -661,6 +664,13 @@ def test_with_fast_dds_on_the_other_side(fast_dds, robot, room, frames, tmp_path
     assert [int(line[1]) for line in lines if line[0] == "tf"] == list(odometry)
     assert all(line[3] == "12" and int(line[4]) == 12 * int(line[2]) and line[5] == "z"
                for line in lines if line[0] == "edges")
+    # The requests of a client of Fast DDS are carried out and answered, but what it takes for the number of the request
+    # is no part of the message, so that Cyclone DDS cannot send it.
+    assert [line for line in done.stdout.splitlines() if line.startswith("reply ")] == [
+        "reply /quadedge/reset 1 0 1 the odometry starts again at the origin",
+        "reply /quadedge/save_map 1 0 0 found no --save-map FILE, expected it with --loops when the program starts",
+        "reply /quadedge/load_map 1 0 0 found no --map FILE, expected it when the program starts"]
+    assert "reset: the odometry starts again, at the origin" in alone.words and "| restarts = 1 |" in done.stdout
     assert "| status = tracked | reason =  |" in done.stdout and f"| pairs tracked = {len(odometry)} |" in done.stdout
 
 

@@ -18,7 +18,8 @@ _SIDES = (("left", "right"), ("cam0", "cam1"), ("cam_0", "cam_1"), ("camera0", "
 _NO_GREY = re.compile(r"depth|disparity|compressedDepth|theora|mask|label")
 
 
-def _milliseconds(text: str) -> float:
+def milliseconds(text: str) -> float:
+    """A time from the command line, from 0 on."""
     value = float(text)
     if not 0 <= value < math.inf:
         raise argparse.ArgumentTypeError(f"found {text}, expected a finite number from 0 on")
@@ -36,7 +37,7 @@ def add_topic_options(parser: argparse.ArgumentParser) -> None:
                         help="the images are rectified: P of camera_info describes them, not K and D")
     parser.add_argument("--calibration", metavar="FILE[,FILE]",
                         help="calibration to use instead of camera_info; one file, or left and right")
-    parser.add_argument("--tolerance", type=_milliseconds, default=TOLERANCE_NS / 1e6, metavar="MS",
+    parser.add_argument("--tolerance", type=milliseconds, default=TOLERANCE_NS / 1e6, metavar="MS",
                         help="largest difference between the stamps of a pair [ms]; default: %(default)g")
 
 

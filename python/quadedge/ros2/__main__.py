@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from ..bag.topics import add_topic_options
+from ..bag.topics import add_topic_options, milliseconds
 from ..session import add_session_options, say_on_stderr, stopped_by_signals
 from ..shell import exit_code
 
@@ -25,6 +25,13 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m quadedge.ros2", description=_HELP,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add_topic_options(parser)
+    for side in ("left", "right"):
+        parser.add_argument(f"--{side}-mask", default="", metavar="TOPIC",
+                            help=f"masks of the {side} images, with their stamps: sensor_msgs/Image, mono8, 0 where "
+                                 "nothing is tracked")
+    parser.add_argument("--mask-wait", type=milliseconds, default=100.0, metavar="MS",
+                        help="how long a pair waits for its masks at most [ms], before it is tracked without; default: "
+                             "%(default)g")
     parser.add_argument("--reliable", action="store_true",
                         help="request lost images again (reliable QoS); default: best effort, as for sensors")
     parser.add_argument("--remap", action="append", default=[], metavar="FROM:=TO", help="publish under another name")

@@ -37,7 +37,7 @@ class Localisation:
         self._thread: threading.Thread | None = None
 
     def offer(self, rig, result, images: list, odom_from_base: numpy.ndarray, mount: numpy.ndarray) -> None:
-        """Gives the newest pair with its pose; one that waits still is dropped."""
+        """Gives the newest pair with its pose; one that waits still is dropped. images: left, right, their masks."""
         with self._changed:
             self._pair = result.stamp_ns, images, odom_from_base, mount
             self._rig = rig
@@ -97,7 +97,8 @@ class Localisation:
                     self._changed.wait_for(lambda: self._ends or self._loads)
 
     def _search(self, places, stamp_ns: int, images: list, odom_from_base: numpy.ndarray, mount: numpy.ndarray) -> None:
-        found = places.localise(*images, stamp_ns)
+        left, right, *masks = images
+        found = places.localise(left, right, stamp_ns, *masks)
         self._tried += 1
         self._state = found.message or found.status
         if found.map_from_left is None:

@@ -14,6 +14,7 @@ from ..ros_messages import cloud_message, odometry_message, pose_message, stamp_
 from ..session import Session
 from .domain import Domain
 from .localisation import Localisation
+from .masks import Masks, MaskTopic
 from .mount import StaticFrames, levelled, mount_of
 from .pairs import LEFT, RIGHT, PairQueue
 from .place import Place, Placed
@@ -37,6 +38,9 @@ class Node:
         image_topics = (topics.left, topics.right)
         self._images = [domain.subscribe(name, kinds[name], reliable=options.reliable) for name in image_topics]
         self._watch = Watch(domain, image_topics, self._images, self._queue, tolerance_ns, say)
+        self._masks = Masks({side: MaskTopic(domain, name, SIDES[side], options.reliable, say) for side, name in
+                             enumerate((options.left_mask, options.right_mask)) if name},
+                            tolerance_ns, options.mask_wait / 1e3)
         self._infos, self._info_topics = [None, None], [None, None]
         if not options.calibration:
             self._info_topics = [domain.subscribe(name, CAMERA_INFO) for name in (topics.left_info, topics.right_info)]
@@ -68,14 +72,16 @@ class Node:
 
     def run(self, stopped: list) -> None:
         """Tracks until ``stopped`` has an element."""
+        pair = None
         try:
             while not stopped:
-                self._domain.wait(0.1)
+                self._domain.wait(0.0 if pair else self._masks.rest_s(0.1))  # the next pair may have come meanwhile
                 self._receive()
+                pair = None
                 if self._lacks_info():
                     self._watch.pair()
-                elif pair := self._queue.newest():
-                    self._track(*pair, time.monotonic())
+                elif pair := self._queue.newest(self._masks.ready):
+                    self._track(*pair, self._masks.arrived)
                     self._watch.pair()  # afterwards: the first pair builds kernels
                     self._receive()
                 if time.monotonic() - self._second >= 1:
@@ -100,8 +106,10 @@ class Node:
             for message in topic.take():
                 self._watch.hear(side)
                 if back := self._queue.add(side, message):
+                    self._masks.forget()
                     self._start_again(f"the stamps of {self._image_topic(side)} went back by {back / 1e9:.3f} s (a "
                                       "clock that was set, or a recording that starts again)")
+        self._masks.receive()
         if self._reset.take():
             self._start_again("reset", keep_pose=False)
         for service in self._services:
@@ -220,15 +228,16 @@ class Node:
     def _track(self, left, right, arrived: float) -> None:
         try:
             images = [grey_image(message, self._image_topic(side)) for side, message in enumerate((left, right))]
+            masks = self._masks.take((stamp_ns(left), stamp_ns(right)), images)
             if self._session is None:
                 self._start_session(self._rig(numpy.iinfo(images[LEFT].dtype).max), left.header.frame_id)
-            result = self._session.odometry.track(stamp_ns(left), *images)
+            result = self._session.odometry.track(stamp_ns(left), *images, *masks)
         except (DataError, TypeError) as error:
             return self._refuse(error)
         doubt = self._doubt(result, images)
         placed = self._place.add(result, bool(doubt))
         if self._localisation:
-            self._localise(result, images, placed)
+            self._localise(result, [*images, *masks], placed)
         if placed and not (result.ambiguous_motion and self._options.withhold_ambiguous):
             self._publish(result, placed, left.header.frame_id)
         self._count(result, placed, doubt)
@@ -236,7 +245,7 @@ class Node:
         self._session.keep(result)
 
     def _localise(self, result, images: list, placed: Placed | None) -> None:
-        """Publishes what was found in the map, and gives this pair for a search."""
+        """Publishes what was found in the map, and gives this pair, its images and masks, for a search."""
         for found in self._localisation.take():
             self._map_from_odom = found.map_from_odom
             self._map_pose.publish(pose_message(found.stamp_ns, self._options.map_frame, found.map_from_base,
@@ -281,8 +290,9 @@ class Node:
 
     def _publish_state(self) -> None:
         """Looks for what is silent or doubled, and publishes the state of the last second."""
-        problems, faults = self._watch.problems(), self._watch.faults(self._name(_ODOMETRY))
-        values = self._queue.counts.by_name() | (self._localisation.values() if self._localisation else {})
+        values = self._queue.counts.by_name() | self._masks.values()
+        values |= self._localisation.values() if self._localisation else {}
+        problems, faults = self._watch.problems(), self._watch.faults(self._name(_ODOMETRY)) + self._masks.faults()
         now_ns = self._clock_ns if self._clock else time.time_ns()
         self._diagnostics.publish(self._state.message(now_ns, problems, faults, values))
         self._second = time.monotonic()

@@ -22,6 +22,10 @@ def check_options(options: argparse.Namespace) -> None:
     options.remaps = _remaps(options.remap)
     if options.left and options.left == options.right:
         raise UsageError(f"--left, --right: found {options.left} twice, expected the topics of two cameras")
+    if options.left_mask and options.left_mask == options.right_mask:
+        raise UsageError(f"--left-mask, --right-mask: found {options.left_mask} twice, expected two topics")
+    for mask in {options.left_mask, options.right_mask} & {options.left, options.right} - {""}:
+        raise UsageError(f"--left-mask, --right-mask: found {mask}, the topic of a camera, expected one of masks")
     frames = (options.base_frame, options.odom_frame, options.map_frame)
     if len(set(frames)) < 3 or not all(frames):
         raise UsageError(f"--base-frame, --odom-frame, --map-frame: found {', '.join(frames)}, expected three names")

@@ -1,5 +1,6 @@
 """Pairs left and right images as they arrive."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ..bag.pairing import pair_stamps
@@ -99,14 +100,18 @@ class PairQueue:
             del self._waiting[side][stamp]
         self.counts.alone[side] += len(stamps)
 
-    def newest(self) -> tuple | None:
-        """The newest pair of messages, left and right, and drops all that are older; None without a pair."""
+    def newest(self, ready: Callable[[list, bool], int] | None = None) -> tuple | None:
+        """The newest pair of messages, left and right, and drops all that are older; None without a pair. ready: as
+        Masks.ready(), where pairs wait for masks.
+        """
         stamps = [list(waiting) for waiting in self._waiting]
-        pairs = pair_stamps(*stamps, self._tolerance_ns).pairs
+        pairs = [(stamps[LEFT][i], stamps[RIGHT][j]) for i, j in pair_stamps(*stamps, self._tolerance_ns).pairs]
+        if ready:
+            pairs = pairs[:ready(pairs, _MOST_WAITING in map(len, stamps))]
         if not pairs:
             return None
         self.clock_is_doubtful, self._has_late = self._has_late, False
-        self._given = [stamps[side][place] for side, place in enumerate(pairs[-1])]
+        self._given = list(pairs[-1])
         self.counts.behind += len(pairs) - 1
         messages = tuple(waiting[stamp] for waiting, stamp in zip(self._waiting, self._given))
         for side, waiting in enumerate(self._waiting):

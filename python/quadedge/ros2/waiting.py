@@ -18,6 +18,7 @@ def awaited_topics(domain: Domain, options: argparse.Namespace, say: Callable,
     given = StereoTopics(options.left, options.right, options.left_info, options.right_info)
     while not stopped:
         kinds, now, problem = dict(domain.publications()), time.monotonic(), ""
+        kinds = {topic: kind for topic, kind in kinds.items() if topic not in (options.left_mask, options.right_mask)}
         try:
             topics = find_topics(kinds, f"domain {domain.number}", given)
             if not options.calibration and not (topics.left_info and topics.right_info):
