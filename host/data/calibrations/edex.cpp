@@ -11,20 +11,20 @@ namespace quadedge::data {
 namespace {
 
 /// cuVSLAM's lens models with the number of their coefficients. Brown's order is k1 k2 k3 p1 p2, the others' is ours.
-struct Model {
+struct EdexModel {
   const char* name;
   LensModel model;
   std::size_t coefficients;
 };
-constexpr Model kModels[] = {
+constexpr EdexModel kEdexModels[] = {
     {"pinhole", LensModel::radial_tangential, 0}, {"fisheye", LensModel::equidistant, 4},
     {"fisheye4", LensModel::equidistant, 4},      {"brown5k", LensModel::radial_tangential, 5},
     {"brown", LensModel::radial_tangential, 5},   {"polynomial", LensModel::radial_tangential, 8},
 };
 
-StatedLens read_lens(const YamlMap& camera) {
+StatedLens edex_lens(const YamlMap& camera) {
   const std::string name = camera.word("distortion_model");
-  for (const Model& model : kModels) {
+  for (const EdexModel& model : kEdexModels) {
     if (name != model.name) continue;
     StatedLens stated(camera.file(), camera.name("focal"), camera.name("distortion_params"));
     const auto focal = camera.numbers("focal", 2), principal = camera.numbers("principal", 2);
@@ -61,8 +61,8 @@ StatedCalibration read_edex(const YamlMap& header) {
   if (cameras.size() < 2) header.complain("cameras", counted(cameras.size(), "camera"), "two, left and right");
   const YamlMap &left = cameras[0].second, &right = cameras[1].second;
   StatedCalibration stated;
-  stated.left = read_lens(left.map("intrinsics"));
-  stated.right = read_lens(right.map("intrinsics"));
+  stated.left = edex_lens(left.map("intrinsics"));
+  stated.right = edex_lens(right.map("intrinsics"));
   const Eigen::Isometry3d pose = right.transform("transform").inverse() * left.transform("transform");
   stated.right_from_left = with_turned_axes(pose);
   if (header.has("cuvslam_version_major") && !stated.right_from_left.isApprox(pose, 1e-6))

@@ -10,7 +10,7 @@
 namespace quadedge::data {
 namespace {
 
-StatedLens read_lens(const YamlMap& camera) {
+StatedLens mrcal_lens(const YamlMap& camera) {
   const std::string name = camera.word("lensmodel");
   for (const std::size_t coefficients : {0U, 4U, 5U, 8U, 12U}) {  // of the models that OpenCV's equations hold
     if (name != (coefficients == 0 ? "LENSMODEL_PINHOLE" : "LENSMODEL_OPENCV" + std::to_string(coefficients))) continue;
@@ -64,8 +64,8 @@ std::string yaml_of_python(const std::string& python) {
 
 StatedCalibration read_mrcal(const YamlMap& left, const YamlMap& right) {
   StatedCalibration stated;
-  stated.left = read_lens(left);
-  stated.right = read_lens(right);
+  stated.left = mrcal_lens(left);
+  stated.right = mrcal_lens(right);
   stated.right_from_left = camera_from_reference(right) * camera_from_reference(left).inverse();
   return stated;
 }
