@@ -169,7 +169,8 @@ def judge(options, recording, trajectory):
         lengths = ",".join(map(str, RECORDINGS[recording.name][2]))
         call([options.quadedge, "evaluate", "trajectory", trajectory, recording.truth, "--lengths", lengths, "--json",
               file, "--force"])
-        judged["errors"] = json.loads(file.read_text(encoding="utf-8"))
+        accuracy = json.loads(file.read_text(encoding="utf-8"))["accuracy"]
+        judged["errors"] = {"accuracy": {name: accuracy[name] for name in ("ate_rmse_m", "rpe_interval", "sub_paths")}}
     return judged
 
 

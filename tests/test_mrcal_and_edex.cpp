@@ -212,7 +212,7 @@ TEST_CASE("calibration forms: EDEX without a stereo pair, or of unknown axes, is
   CHECK_THROWS_WITH(read(edex(left + ", " + right).substr(0, 250)),
                     Contains("stereo.edex") && Contains("is not YAML") && Contains("EDEX"));
   CHECK_THROWS_WITH(read("[[\"cameras\"]]"), Contains("stereo.edex") && Contains("no entries"));
-  CHECK_THROWS_WITH(read("[]"), Contains("one of these forms") && Contains("EDEX") && Contains("mrcal"));
+  CHECK_THROWS_WITH(read("[]"), Contains("one of these formats") && Contains("EDEX") && Contains("mrcal"));
   const std::string twice = "\"version\": \"0.9\", \"version\": \"0.9\"";
   CHECK_THROWS_WITH(read(edex(left + ", " + right, twice)), Contains("a second entry version"));
   // Dumps state the axes of the interface, which changed; where both give the same, they are read.
