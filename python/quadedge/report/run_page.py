@@ -51,7 +51,7 @@ def name_of(run: Run) -> str:
     """What was tracked, in words."""
     kind = run.report["input"].get("format", "")
     if kind == "synthetic":
-        return f"built-in {run.name.replace('-', ', ')}"
+        return f"built-in {run.name.replace('-', ', ')} (rendered)"
     return f"{run.name} ({LAYOUTS.get(kind, kind)})" if kind else run.name
 
 
