@@ -373,7 +373,9 @@ def whole_recordings(results):
                      f"{cells[3]}; {cells[5]}"))
     head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
     seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
-    return table(head, rows, f"{seeds} {stamp(part)}")
+    commits = {WHOLE[row["recording"]]: row["commit"] for row in part["rows"] if row["recording"] in HEADLINE}
+    measured = "; ".join(f"{title}: commit {commit}" for title, commit in commits.items())
+    return table(head, rows, f"{seeds} {measured}. {part['date']}.\n")
 
 
 def evidence(results):
