@@ -83,7 +83,7 @@ def add(peers, title, kernels, times):
     peers["libviso2"]["in_turn"][named] = stamped(times | {"threads": os.cpu_count()})
     for row in peers["rows"]:
         if row[0] == "libviso2" and named == "KITTI 06":
-            row[1] = f"{other:.0f} ms (QuadEdge in turn with it: {own:.0f} ms)"
+            row[1] = f"{other:.0f} ms (QuadEdge in alternating runs: {own:.0f} ms)"
 
 
 def main():

@@ -176,8 +176,8 @@ def pace(results):
     for title, timed in others["libviso2"]["in_turn"].items():
         rates = [f"{1000 / statistics.median(timed[name]):.0f}" if name in timed else "-"
                  for name in ("quadedge_ms", "fast_ms", "libviso2_ms")]
-        rows.append([f"{title}, in turn", *rates, "-", origin(timed)])
-    return table(["frames per second", "QuadEdge", "`fast`", "libviso2", "OpenCV SIFT + PnP", "QuadEdge of"], rows,
+        rows.append([f"{title}, alternating runs", *rates, "-", origin(timed)])
+    return table(["frames per second", "QuadEdge", "`fast`", "libviso2", "OpenCV SIFT + PnP", "QuadEdge commit"], rows,
                  others["timed"] + "\n")
 
 
