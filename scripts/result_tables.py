@@ -59,7 +59,8 @@ PAGES = {
         "## Extensions\n\nErrors from frame to frame of the default without an extension, and of the paper's method"
         " with one alone, where it has the step.", "paper-extensions", "## Commands", "paper-commands")),
 }
-NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
+NAMES = ("DATA is the folder with the [excerpts](../accuracy.md#excerpts), OUT a folder for results; in a complete "
+         "recording, `--frames` selects the excerpt.")
 
 
 def render(name, results):
