@@ -158,7 +158,8 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=REPOSITORY / "doc" / "results" / "ros2.json")
     parser.add_argument("--rates", type=int, nargs="+", default=RATES)
     parser.add_argument("--pairs", type=int, default=5000, help="pairs for the memory")
-    parser.add_argument("--note", default="shared with the sender of the images, nothing else running", help="what else ran on the machine")
+    parser.add_argument("--note", default="shared with the sender of the images, nothing else running",
+                        help="what else ran on the machine")
     options = parser.parse_args()
     rows, numbers = [], iter(range(20, 230))
     with tempfile.TemporaryDirectory() as folder:
