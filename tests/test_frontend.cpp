@@ -4,6 +4,7 @@
 #include "common/filter_limits.hpp"
 #include "frontends.hpp"
 #include "quadedge/error.hpp"
+#include "rig/rectification_follower.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -142,7 +143,9 @@ TEST_CASE("frontend: rows that lie beside those of the calibration are found, wi
     const auto edges_of = [&](double offset, double* correction) {
       StereoRig rig = scene.rig;
       rig.right.cy -= offset;  // the image lies lower than the calibration says
+      rig::RectificationFollower rows(rig, scene.config.stereo);
       const auto frontend = frontend::make_frontend(rig, device, scene.config);
+      frontend->correct_rows(&rows);
       const StereoEdges edges = frontend->process(scene.frame(0))->edges;
       *correction = frontend->counts().epipolar_correction;
       return edges;
