@@ -17,6 +17,7 @@
 #include "quadedge/self_test.hpp"
 #include "report/json_values.hpp"
 #include "report/statistics.hpp"
+#include "rig/rectification_follower.hpp"
 
 namespace quadedge::bench {
 namespace {
@@ -36,6 +37,7 @@ std::vector<std::string> booked_as(const std::string& stage) {
 /// One variant with its own pipeline.
 struct Candidate {
   std::shared_ptr<Device> device;
+  std::unique_ptr<rig::RectificationFollower> rows;
   std::unique_ptr<frontend::Frontend> frontend;
   frontend::FrontendOutput output;
   std::vector<double> times;
@@ -123,7 +125,9 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
       if (!row.agrees) {
         row.why = "differs from the reference at " + test.stage + ": " + test.difference;
       } else {
+        candidate.rows = std::make_unique<rig::RectificationFollower>(input.rig, config.stereo);
         candidate.frontend = frontend::make_frontend(input.rig, *candidate.device, config);
+        candidate.frontend->correct_rows(candidate.rows.get());
         candidate.output = run_frontend(*candidate.frontend, input.first.view(), input.second.view(), config);
       }
     } catch (const DeviceError& error) {
