@@ -40,6 +40,7 @@ RECORDINGS = {
     "mh_01": ("EuRoC MH_01", "EuRoC MAV, MH_01_easy", (0.5, 1, 2, 5),
               "https://projects.asl.ethz.ch/datasets/euroc-mav/"),
 }
+PEER_SECONDS = 1200  # a peer that takes longer for a recording is left out
 
 
 class Recording:
@@ -104,9 +105,9 @@ class Recording:
         return "".join(lines)
 
 
-def call(command, environment=None):
+def call(command, environment=None, seconds=None):
     done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          check=False, env={**os.environ, **(environment or {})})
+                          check=False, env={**os.environ, **(environment or {})}, timeout=seconds)
     if done.returncode != 0:
         raise RuntimeError(f"{Path(command[0]).name} ended with {done.returncode}: {done.stderr.strip()[-300:]}")
     return done.stdout
@@ -139,7 +140,7 @@ def run_peer(options, recording, folder, system):
     else:
         # ORB-SLAM3 reads memory that it has not written; glibc then hands out zeros.
         printed = call([options.peers, REPOSITORY / "scripts/evidence_peers.py", system, recording.pairs, poses],
-                       {"MALLOC_PERTURB_": "255"})
+                       {"MALLOC_PERTURB_": "255"}, PEER_SECONDS)
         about = json.loads(printed.strip().splitlines()[-1])
         version, median = about["version"], 1000 * statistics.median(about["seconds"][2:])
         stamped_poses = []
@@ -205,7 +206,7 @@ def measure(options, recording, work):
                 version, trajectory, median = run_peer(options, recording, work / f"{system}_{seed}", system)
                 runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": {"median": median}})
             add(system, version, runs)
-        except (RuntimeError, OSError, ImportError, TypeError, ValueError) as error:
+        except (RuntimeError, OSError, ImportError, TypeError, ValueError, subprocess.TimeoutExpired) as error:
             print(f"{recording.name}: {system} is left out: {error}", file=sys.stderr)
     if options.opencv_baseline:
         folder = work / "opencv"
