@@ -236,19 +236,19 @@ def main():
     options = parse()
     measured = commit()
     before = json.loads(options.out.read_text(encoding="utf-8"))["rows"] if options.out.exists() else []
-    rows = []
+    rows = {name: [row for row in before if row["recording"] == name] for name in RECORDINGS}
     try:
         for name in RECORDINGS:
             folder = getattr(options, name)
             if folder is None:
-                rows += [row for row in before if row["recording"] == name]
                 continue
             recording = Recording(name, folder, options.work / name)
-            rows += [{"commit": measured, **row} for row in measure(options, recording, options.work / name)]
+            rows[name] = [{"commit": measured, **row} for row in measure(options, recording, options.work / name)]
+            whole = {"seeds": options.seeds, "rows": [row for part in rows.values() for row in part]}
+            write(stamped(whole, measured), options.out)  # after each: nothing measured is lost
     except (RuntimeError, OSError) as error:
         print(f"evidence: {error}", file=sys.stderr)
         return 1
-    write(stamped({"seeds": options.seeds, "rows": rows}, measured), options.out)
     if options.out.parent == result_tables.RESULTS:
         result_tables.write()
     return 0

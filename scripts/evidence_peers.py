@@ -111,7 +111,7 @@ def orb_slam3(pairs, folder):
 
     width, height = pairs.size()
     fps = (len(pairs.times) - 1) / (pairs.times[-1] - pairs.times[0])
-    settings, vocabulary = folder / "orb_slam3.yaml", folder / "orb_vocabulary.txt"
+    settings, vocabulary = folder / "orb_slam3.yaml", folder.parent / "orb_vocabulary.txt"  # trained once
     settings.write_text(ORB_SETTINGS.format(f=pairs.f, cx=pairs.cx, cy=pairs.cy, bf=pairs.f * pairs.baseline,
                                             width=width, height=height, fps=fps))
     if not vocabulary.exists():

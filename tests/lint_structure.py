@@ -29,7 +29,7 @@ MOST_LINES = {
     "host/data/calibrations": 1980,
     "host/evaluation": 600,
     "host/frontend": 2790,
-    "host/odometry": 2960,
+    "host/odometry": 2980,
     "host/opencl": 1830,
     "host/paper": 1150,
     "host/places": 1760,
@@ -37,14 +37,14 @@ MOST_LINES = {
     "host/pose": 3460,
     "host/reference": 2520,
     "host/report": 2510,
-    "host/rig": 4400,
+    "host/rig": 4640,
     "host/stages": 2270,
     "host/synthetic": 2980,
     "include": 2240,
     "kernels": 5210,
     "python": 11460,
     "scripts": 3060,
-    "tests": 33520,
+    "tests": 33900,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

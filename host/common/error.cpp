@@ -35,6 +35,7 @@ const char* to_string(WarningKind kind) {
     case WarningKind::displaced_images: return "displaced_images";
     case WarningKind::changed_rig: return "changed_rig";
     case WarningKind::poor_images: return "poor_images";
+    case WarningKind::doubtful_lenses: return "doubtful_lenses";
   }
   return "unknown";
 }

@@ -1,8 +1,10 @@
 /// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
 #include <cmath>
+#include <optional>
 #include <tbb/task_group.h>
 #include <utility>
 
+#include "common/corrected_rig.hpp"
 #include "common/disparity_range.hpp"
 #include "common/images.hpp"
 #include "common/parallel.hpp"
@@ -25,6 +27,7 @@
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
 #include "rig/learned_rig.hpp"
+#include "rig/shared_lens.hpp"
 
 namespace quadedge {
 namespace {
@@ -122,6 +125,7 @@ class StereoOdometry::Implementation {
   Eigen::Matrix<double, 6, 1> offset_sensitivity(const odometry::MotionStep& step) const;
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void adopt_rig(const odometry::MotionStep& step);
+  void judge_lenses(const odometry::MotionStep& step);
   void report(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
 
@@ -131,6 +135,7 @@ class StereoOdometry::Implementation {
   Config config_;
   odometry::FramePreparation preparation_;
   rig::LearnedRig learned_;
+  std::optional<rig::SharedLens> lenses_{std::in_place};  ///< nothing once images were displaced, which looks alike
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
@@ -373,10 +378,20 @@ void StereoOdometry::Implementation::adopt_rig(const odometry::MotionStep& step)
   }
 }
 
+/// Warns if motions show that both lenses are off alike.
+void StereoOdometry::Implementation::judge_lenses(const odometry::MotionStep& step) {
+  if (step.rig.displacement != 0) lenses_.reset();
+  if (!lenses_ || config_.is_paper() || step.verdict.ambiguity.exists()) return;
+  lenses_->add(corrected_rig(rig_, step.rig), step.quads.scoring, step.motion.inlier,
+               step.motion.current_from_previous);
+  if (const auto found = lenses_->judge()) preparation_.warn(rig::warning(*found));
+}
+
 /// States what was found of the motion, beside the pose.
 void StereoOdometry::Implementation::report(const odometry::MotionStep& step, FrameResult& result) {
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
+  judge_lenses(step);
   adopt_rig(step);
   result.rig = current_->rig();
   if (const auto large =

@@ -139,6 +139,27 @@ constexpr int kBlock = 8;  ///< side of a block [px]
 /// difference of their saturated parts that hides corners.
 constexpr double kUnevenBrightness = 1.5, kUnevenSaturation = 0.15;
 
+// Lens errors that both cameras share (shared_lens.cpp).
+
+/// A motion that turns by this [rad] counts, every kLensEvery-th of them, since successive ones share their edges;
+/// quads of it that are looked at, about.
+constexpr double kLensTurn = 0.005;
+constexpr int kLensEvery = 3;
+constexpr std::size_t kLensQuads = 150;
+/// Noise of an edge across itself, and of a disparity [px].
+constexpr double kLensEdgeSigma = 0.12, kLensDisparitySigma = 0.2;
+/// How far focal lengths (as a part) and k1 may be off, as standard deviations, before anything is known.
+constexpr double kFocalRange = 0.5, kLensRange = 0.1;
+/// How far disparities may change over the image [px], likewise.
+constexpr double kSlopeRange = 5;
+/// Errors of the edges of a motion are not independent: standard deviations are larger by this.
+constexpr double kLensInflation = 4;
+/// What is reported: errors of so many standard deviations, and at least of this part and this k1. Rigs at hand have up
+/// to 0.035 and 0.003 (KITTI's and Karlsruhe's, which are known to be off; EuRoC's 0.008 and 0.003).
+constexpr double kLensSigmas = 4, kWrongFocal = 0.04, kWrongLens = 0.015;
+/// Standard deviation of the focal lengths from which on no more is learned.
+constexpr double kSettledFocal = 0.004;
+
 // Parts of the image that do not move (static_region.cpp).
 
 constexpr int kStaticCell = 32;  ///< size of the cells that are compared [px]

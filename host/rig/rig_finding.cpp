@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/printed.hpp"
+#include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
 namespace {
@@ -117,6 +118,16 @@ std::string interlaced(double ratio) {
          "deinterlaces it";
 }
 
+std::string shared_lens(double focal, double k1) {
+  const double excess = -focal / (1 + focal);
+  const std::string lengths =
+      "both cameras' focal lengths seem to be " + percent(std::abs(excess)) + " too " + (excess > 0 ? "long" : "short");
+  const std::string distortion = "both cameras' distortion seems to be wrong, k1 by about " + number(std::abs(k1), 2);
+  return "turns do not fit depths: " + (std::abs(focal) > kWrongFocal ? lengths : distortion) +
+         "; were the images cropped, scaled, or taken in another sensor mode or under water? Calibrate the rig with "
+         "images like these";
+}
+
 /// Where nothing moves, and what follows from it.
 std::string static_text(const RigFinding& finding) {
   const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
@@ -170,6 +181,8 @@ Warning warning(const RigFinding& finding) {  // LONG: a sentence per kind
               " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
               "wrong?" +
               kMends};
+    case RigFindingKind::shared_lens:
+      return {WarningKind::doubtful_lenses, shared_lens(finding.shared_focal, finding.shared_k1)};
     case RigFindingKind::interlaced: return {WarningKind::unsynchronised_cameras, interlaced(finding.combed_ratio)};
     case RigFindingKind::static_region:
     case RigFindingKind::masked_region: return {WarningKind::static_region, static_text(finding)};

@@ -33,6 +33,7 @@ enum class RigFindingKind {
   saturated_images,           ///< corners leave their lines in images with many saturated pixels
   compressed_images,          ///< the same in images that show the blocks of a strong compression
   uneven_images,              ///< the same where one image is much brighter than the other
+  shared_lens,                ///< motions show that both lenses are off alike
   interlaced,                 ///< odd and even rows show different times
   static_region,              ///< a part of the image does not move while the rest does
   masked_region,              ///< the same, certain enough to be masked
@@ -50,19 +51,20 @@ constexpr bool is_mismatch(RigFindingKind kind) { return kind <= RigFindingKind:
 /// A finding and the figures that its sentence states; other figures keep their initial values.
 struct RigFinding {
   RigFindingKind kind;
-  RigEvidence evidence = {};         ///< of the frame
-  int corners = 0;                   ///< of the left image, searched for in the right one
-  double inverted_ratio = 0;         ///< of these, found as their negative
-  ImageTurn turn = ImageTurn::none;  ///< of turned_image
-  EpipolarFit fit = {};              ///< of the distances from the epipolar lines
-  double max_disparity = 0;          ///< largest disparity searched [px]
-  double time_offset = 0;            ///< of late_camera [frame intervals]
-  double disparity_offset = 0;       ///< of large_disparity_offset [px]
-  ImageDelay delay = {};             ///< of delayed_images
-  double poor = 0;                   ///< figure of saturated, compressed or uneven images
-  double combed_ratio = 0;           ///< of interlaced
-  StaticRegion region = {};          ///< of static_region and masked_region
-  Side camera = Side::left;          ///< the camera that is frozen or has an implausible number
+  RigEvidence evidence = {};               ///< of the frame
+  int corners = 0;                         ///< of the left image, searched for in the right one
+  double inverted_ratio = 0;               ///< of these, found as their negative
+  ImageTurn turn = ImageTurn::none;        ///< of turned_image
+  EpipolarFit fit = {};                    ///< of the distances from the epipolar lines
+  double max_disparity = 0;                ///< largest disparity searched [px]
+  double time_offset = 0;                  ///< of late_camera [frame intervals]
+  double disparity_offset = 0;             ///< of large_disparity_offset [px]
+  ImageDelay delay = {};                   ///< of delayed_images
+  double poor = 0;                         ///< figure of saturated, compressed or uneven images
+  double shared_focal = 0, shared_k1 = 0;  ///< what shared_lens lacks, see SharedLens::Error
+  double combed_ratio = 0;                 ///< of interlaced
+  StaticRegion region = {};                ///< of static_region and masked_region
+  Side camera = Side::left;                ///< the camera that is frozen or has an implausible number
   /// The implausible number: baseline [m], focal length [image widths], fx / fy.
   double number = 0;
   Eigen::Vector2d principal_point = Eigen::Vector2d::Zero();  ///< [px]

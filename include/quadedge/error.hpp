@@ -64,6 +64,7 @@ enum class WarningKind {
   displaced_images,         ///< single right images are displaced along the epipolar lines
   changed_rig,              ///< one of the cameras has turned since the recording began
   poor_images,              ///< saturated, unequally exposed or strongly compressed images
+  doubtful_lenses,          ///< the focal lengths or the distortion of both cameras seem to be wrong alike
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);

@@ -10,10 +10,11 @@ namespace attack {
 
 /// What a case requires.
 enum class Demand {
-  sound,     ///< all steps are right, without a warning
-  right,     ///< no step is wrong, and most are right; warnings are allowed
-  reported,  ///< no step is wrong without a warning
-  scale,     ///< wrong by a scale that images cannot reveal; counted separately
+  sound,      ///< all steps are right, without a warning
+  right,      ///< no step is wrong, and most are right; warnings are allowed
+  blameless,  ///< the same, and no warning blames the calibration
+  reported,   ///< no step is wrong without a warning
+  scale,      ///< wrong by a scale that images cannot reveal; counted separately
 };
 
 constexpr int kSolved = -1;
@@ -40,6 +41,7 @@ struct Verdict {
   int warned = 0;  ///< wrong in a run with a warning, or in a flagged frame
   int lost = 0;
   bool has_warning = false;
+  bool blames_calibration = false;
   std::string words;  ///< the first message or warning
 };
 

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     else
       part = argv[i];
   }
-  const char* const demands[] = {"sound", "right", "reported", "scale"};
+  const char* const demands[] = {"sound", "right", "no blame", "reported", "scale"};
   int right = 0, wrong = 0, warned = 0, lost = 0, runs = 0, failed = 0, open = 0, skipped = 0, scaled = 0;
   std::printf("%-50s %-8s %6s %6s %6s %6s  message\n", "case", "demand", "right", "wrong", "warned", "lost");
   for (const auto& row : attack::geometry_cases()) {

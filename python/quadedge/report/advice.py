@@ -23,6 +23,8 @@ OF_KIND = {
                         "one bar.",
     "poor_images": "Shorten the exposure, light both cameras alike or compress less: what is hidden cannot be matched, "
                    "and says nothing about the calibration.",
+    "doubtful_lenses": "Use the calibration of these images: crops, scaled images and other sensor modes need their "
+                       "own, and so does water.",
     "changed_rig": "Fasten the cameras and calibrate again; earlier and later frames have different calibrations."}
 OF_LOSS = {
     "too few edges": "The images are dark, blurred or without contours there: more light, a shorter exposure, or a "
