@@ -12,7 +12,7 @@ namespace {
 
 /// Changes the pixels of every image. \param change grey level of the changed image, before it is clipped
 Alteration every_pixel(
-    std::function<double(const Image& image, int x, int y, bool is_left, std::size_t frame)> change) {
+    const std::function<double(const Image& image, int x, int y, bool is_left, std::size_t frame)>& change) {
   return [change](Sequence& s) {
     for (const bool is_left : {true, false}) {
       auto& images = is_left ? s.left : s.right;
