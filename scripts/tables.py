@@ -333,9 +333,9 @@ HEADLINE = {"street": (100, 200), "mh_01": (1, 5)}  # lengths of sub-paths on th
 
 
 def spread(values, digits=3):
-    """The median and, of several different values, the range."""
+    """The median and, of values that differ in all but the last digit, the range."""
     middle, least, most = statistics.median(values), min(values), max(values)
-    if number(least, digits) == number(most, digits):
+    if any(number(least, shown) == number(most, shown) for shown in (digits - 1, digits)):
         return number(middle, digits)
     return f"{number(middle, digits)} ({number(least, digits)} to {number(most, digits)})"
 
