@@ -135,7 +135,7 @@ class StereoOdometry::Implementation {
   Config config_;
   odometry::FramePreparation preparation_;
   rig::LearnedRig learned_;
-  std::optional<rig::SharedLens> lenses_{std::in_place};  ///< nothing once images were displaced, which looks alike
+  std::optional<rig::SharedLens> lenses_{std::in_place};  ///< nothing once told, or images displaced, which looks alike
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
@@ -213,6 +213,7 @@ void StereoOdometry::Implementation::restart() {
   earlier_.clear();
   keeps_key_ = true;
   learned_.forget_displacements();
+  lenses_.emplace();
   has_returned_ = was_lost_ = at_start_ = false;
   current_from_last_ = std::nullopt;
   motion_search_->restart();
@@ -384,7 +385,10 @@ void StereoOdometry::Implementation::judge_lenses(const odometry::MotionStep& st
   if (!lenses_ || config_.is_paper() || step.verdict.ambiguity.exists()) return;
   lenses_->add(corrected_rig(rig_, step.rig), step.quads.scoring, step.motion.inlier,
                step.motion.current_from_previous);
-  if (const auto found = lenses_->judge()) preparation_.warn(rig::warning(*found));
+  const auto found = lenses_->judge();
+  if (!found) return;
+  preparation_.warn(rig::warning(*found));
+  lenses_.reset();
 }
 
 /// States what was found of the motion, beside the pose.

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "common/printed.hpp"
-#include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
 namespace {
@@ -123,7 +122,7 @@ std::string shared_lens(double focal, double k1) {
   const std::string lengths =
       "both cameras' focal lengths seem to be " + percent(std::abs(excess)) + " too " + (excess > 0 ? "long" : "short");
   const std::string distortion = "both cameras' distortion seems to be wrong, k1 by about " + number(std::abs(k1), 2);
-  return "turns do not fit depths: " + (std::abs(focal) > kWrongFocal ? lengths : distortion) +
+  return "turns do not fit depths: " + (focal != 0 ? lengths : distortion) +
          "; were the images cropped, scaled, or taken in another sensor mode or under water? Calibrate the rig with "
          "images like these";
 }

@@ -61,7 +61,7 @@ struct RigFinding {
   double disparity_offset = 0;             ///< of large_disparity_offset [px]
   ImageDelay delay = {};                   ///< of delayed_images
   double poor = 0;                         ///< figure of saturated, compressed or uneven images
-  double shared_focal = 0, shared_k1 = 0;  ///< what shared_lens lacks, see SharedLens::Error
+  double shared_focal = 0, shared_k1 = 0;  ///< of shared_lens, see SharedLens::Error; 0: not certain
   double combed_ratio = 0;                 ///< of interlaced
   StaticRegion region = {};                ///< of static_region and masked_region
   Side camera = Side::left;                ///< the camera that is frozen or has an implausible number

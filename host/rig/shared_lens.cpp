@@ -90,8 +90,8 @@ class QuadProjection {
 
 void SharedLens::add(const StereoRig& rig, const pose::ScoringArrays& quads, const std::vector<std::uint8_t>& inlier,
                      const Eigen::Isometry3d& current_from_base) {
-  if (is_settled() || Eigen::AngleAxisd(current_from_base.linear()).angle() < kLensTurn) return;
-  if (turns_++ % kLensEvery != 0) return;
+  if (Eigen::AngleAxisd(current_from_base.linear()).angle() < kLensTurn || turns_++ % kLensEvery != 0) return;
+  if (error().sigma[0] < kSettledFocal) return;
   const auto inliers = static_cast<std::size_t>(std::count(inlier.begin(), inlier.end(), 1));
   const std::size_t every = inliers / kLensQuads + 1;
   const QuadProjection projection(rig, quads, current_from_base);
@@ -129,19 +129,14 @@ SharedLens::Error SharedLens::error() const {
   return {(covariance * right_side_).head<2>(), covariance.diagonal().head<2>().cwiseSqrt()};
 }
 
-/// Whether further motions would change nothing.
-bool SharedLens::is_settled() const {
-  const Error found = error();
-  return found.sigma[0] < kSettledFocal;
-}
-
 std::optional<RigFinding> SharedLens::judge() const {
   const Error found = error();
   const Eigen::Array2d size = found.value.array().abs();
-  if (!(size > kLensSigmas * found.sigma.array() && size > Eigen::Array2d(kWrongFocal, kWrongLens)).any())
-    return std::nullopt;
+  const auto is_wrong =
+      (size > kLensSigmas * found.sigma.array() && size > Eigen::Array2d(kWrongFocal, kWrongLens)).eval();
+  if (!is_wrong.any()) return std::nullopt;
   RigFinding finding{RigFindingKind::shared_lens};
-  finding.shared_focal = found.value[0];
+  finding.shared_focal = is_wrong[0] ? found.value[0] : 0;
   finding.shared_k1 = found.value[1];
   return finding;
 }

@@ -41,7 +41,6 @@ class SharedLens {
   using Shared = Eigen::Matrix<double, kShared, kShared>;
 
   static Shared information_before();
-  bool is_settled() const;
 
   Fit fit_;                         ///< of a motion; kept for its memory
   std::vector<Fit::Row> rows_;      ///< likewise

@@ -1,4 +1,4 @@
-/// \file image_faults.cpp  Bad images, and calibrations that both cameras share.
+/// \file image_faults.cpp  Bad images.
 #include "image_faults.hpp"
 
 #include <algorithm>
@@ -65,13 +65,6 @@ void put(const Drop& drop, Image& image) {
     }
 }
 
-void crop(int left, int top, Image& image) {
-  Image part(image.width - 2 * left, image.height - 2 * top, image.max_value);
-  for (int y = 0; y < part.height; ++y)
-    for (int x = 0; x < part.width; ++x) part.set(x, y, image.view().value(x + left, y + top));
-  image = std::move(part);
-}
-
 }  // namespace
 
 Alteration brighter(double left, double right) {
@@ -113,21 +106,6 @@ Alteration lamp() {
     const double u = x / static_cast<double>(image.width) - 0.5, v = y / static_cast<double>(image.height) - 0.5;
     return image.view().value(x, y) * (0.3 + 2.2 * std::exp(-(u * u + v * v) / 0.04));
   });
-}
-
-Alteration focal_lengths(double factor) {
-  return [=](Sequence& s) {
-    for (PinholeCamera* camera : {&s.rig.left, &s.rig.right}) camera->fx *= factor, camera->fy *= factor;
-  };
-}
-
-Alteration cropped(double part) {
-  return [=](Sequence& s) {
-    const int left = static_cast<int>(part * s.rig.left.width), top = static_cast<int>(part * s.rig.left.height);
-    for (auto* images : {&s.left, &s.right})
-      for (Image& image : *images) crop(left, top, image);
-    for (PinholeCamera* camera : {&s.rig.left, &s.rig.right}) camera->width -= 2 * left, camera->height -= 2 * top;
-  };
 }
 
 void show_posters(Sequence& sequence, double distance, double speed) {

@@ -1,6 +1,5 @@
 #pragma once
-/// \file image_faults.hpp  Faults of images, while the rig is as calibrated; and calibrations that are wrong in both
-/// cameras alike.
+/// \file image_faults.hpp  Faults of images, while the rig is as calibrated.
 
 #include "attack_sequence.hpp"
 
@@ -16,10 +15,6 @@ Alteration compressed(int quality);
 Alteration drops(int count);
 /// A lamp at the camera, which lights the middle of the view and leaves its border in the dark.
 Alteration lamp();
-/// Both focal lengths of the calibration are wrong.
-Alteration focal_lengths(double factor);
-/// Both images lose a part of their width and height on all sides; the calibration is that of whole images.
-Alteration cropped(double part);
 /// A wall with two equal posters, `distance` px apart, which the camera passes sideways by `speed` px per frame.
 void show_posters(Sequence& sequence, double distance, double speed);
 
