@@ -40,7 +40,7 @@ RECORDINGS = {
     "mh_01": ("EuRoC MH_01", "EuRoC MAV, MH_01_easy", (0.5, 1, 2, 5),
               "https://projects.asl.ethz.ch/datasets/euroc-mav/"),
 }
-PEER_SECONDS = 1200  # a peer that takes longer for a recording is left out
+PEER_SECONDS = 600  # a peer that takes longer for a recording is left out
 
 
 class Recording:
