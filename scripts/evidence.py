@@ -8,10 +8,10 @@ The folders are the recordings of RECORDINGS, which says where they come from; a
 rows of --out with their commit. Peers run on the same machine in the same call:
   --viso2            libviso2 (GPL, no part of this repository): a program of yours that is called as
                      VISO2 LEFT_FOLDER RIGHT_FOLDER F CU CV BASELINE POSES, writes one row of KITTI's format per pair
-                     to POSES and prints "median X ms"
+                     to POSES and prints "median X ms, p99 Y ms"
   --peers            a Python with pyorbslam3, toy-vo, opencv-python-headless and NumPy (evidence_peers.py)
   --opencv-baseline  build/bench/opencv_baseline
-A peer that is not given or fails is left out, with the reason on stderr. They get pairs that OpenCV has rectified
+A peer that is not given is left out, one that fails is named with the reason. They get pairs that OpenCV has rectified
 (alpha 0); their poses are turned back to the recorded left camera. QuadEdge gets the recording as it is.
 Writes doc/results/evidence.json; then scripts/result_tables.py writes the tables.
 Exit code: 0 done, 1 a measurement failed, 2 wrong usage.
@@ -21,6 +21,7 @@ import argparse
 import json
 import os
 import re
+import resource
 import statistics
 import subprocess
 import sys
@@ -106,23 +107,27 @@ class Recording:
 
 
 def call(command, environment=None, seconds=None):
+    """What a program prints, and its processor time [s], that of decoding and starting included."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           check=False, env={**os.environ, **(environment or {})}, timeout=seconds)
     if done.returncode != 0:
         raise RuntimeError(f"{Path(command[0]).name} ended with {done.returncode}: {done.stderr.strip()[-300:]}")
-    return done.stdout
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done.stdout, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def run_quadedge(options, recording, folder, seed, arguments):
-    """Runs the program. Returns its command, the time of a frame and what report.json says of the run."""
-    call([options.quadedge, "run", recording.folder, "-o", folder, "--force", "--quiet", "--seed", seed, *arguments])
+    """Runs the program. Returns its command, its trajectory, what report.json says of the run, processor time [s]."""
+    _, used = call([options.quadedge, "run", recording.folder, "-o", folder, "--force", "--quiet", "--seed", seed,
+                    *arguments])
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     shown = ["quadedge", "run", recording.name, "-o", "OUT", "--seed", str(seed), *arguments]
-    return " ".join(shown), folder / "trajectory.txt", report
+    return " ".join(shown), folder / "trajectory.txt", report, used
 
 
 def run_peer(options, recording, folder, system):
-    """Runs a peer on the rectified pairs. Returns its version, its trajectory and the median of its times [ms]."""
+    """Runs a peer on the rectified pairs. Returns its version, trajectory, times per frame [ms], processor time [s]."""
     import numpy
 
     recording.rectify()
@@ -131,18 +136,19 @@ def run_peer(options, recording, folder, system):
     if system == "viso2":
         rows = dict(line.split(":", 1) for line in (recording.pairs / "calib.txt").read_text().splitlines())
         left, right = ([float(value) for value in rows[name].split()] for name in ("P0", "P1"))
-        printed = call([options.viso2, recording.pairs / "image_0", recording.pairs / "image_1", left[0], left[2],
-                        left[6], -right[3] / right[0], poses])
-        median = float(re.search(r"median ([\d.]+) ms", printed)[1])
+        printed, used = call([options.viso2, recording.pairs / "image_0", recording.pairs / "image_1", left[0],
+                              left[2], left[6], -right[3] / right[0], poses])
+        times = {name: float(value) for name, value in re.findall(r"(median|p99) ([\d.]+) ms", printed)}
         matrices = [numpy.vstack([numpy.array(line.split(), float).reshape(3, 4), [0, 0, 0, 1]])
                     for line in poses.read_text().splitlines()]
         stamped_poses, version = list(zip(recording.stamps, matrices)), "libviso2"
     else:
         # ORB-SLAM3 reads memory that it has not written; glibc then hands out zeros.
-        printed = call([options.peers, REPOSITORY / "scripts/evidence_peers.py", system, recording.pairs, poses],
+        printed, used = call([options.peers, REPOSITORY / "scripts/evidence_peers.py", system, recording.pairs, poses],
                        {"MALLOC_PERTURB_": "255"}, PEER_SECONDS)
         about = json.loads(printed.strip().splitlines()[-1])
-        version, median = about["version"], 1000 * statistics.median(about["seconds"][2:])
+        version, each = about["version"], [1000 * seconds for seconds in about["seconds"]]
+        times = {"first": each[0], "median": statistics.median(each[2:]), "p99": numpy.percentile(each[2:], 99)}
         stamped_poses = []
         for line in poses.read_text().splitlines():
             stamp, *values = map(float, line.split())
@@ -156,7 +162,7 @@ def run_peer(options, recording, folder, system):
             stamped_poses.append((nearest, pose))
     trajectory = folder / "trajectory.txt"
     trajectory.write_text(recording.turn_back(stamped_poses), encoding="ascii")
-    return version, trajectory, median
+    return version, trajectory, times, used
 
 
 def judge(options, recording, trajectory):
@@ -179,22 +185,23 @@ def measure(options, recording, work):
     """Rows of a recording: one per system, with the runs of all seeds."""
     rows = []
 
-    def add(system, version, runs, command=None):
+    def add(system, version, runs, command=None, left_out=None):
         rows.append({"recording": recording.name, "official": RECORDINGS[recording.name][1],
                      "source": RECORDINGS[recording.name][3], "system": system, "version": version, "command": command,
                      "frames": len(recording.stamps), "first_stamp_ns": recording.stamps[0],
-                     "last_stamp_ns": recording.stamps[-1], "runs": runs})
-        print(f"{recording.name}, {system}: {len(runs)} runs", file=sys.stderr)
+                     "last_stamp_ns": recording.stamps[-1], "runs": runs, "left_out": left_out})
+        print(f"{recording.name}, {system}: {left_out or len(runs)}", file=sys.stderr)
 
     for system, arguments in (("QuadEdge", []), ("QuadEdge, fast", ["--preset", "fast"]),
                               ("QuadEdge, dense", ["--preset", "dense"])):
         runs, shown = [], None
         for seed in range(1, options.seeds + 1):
             folder = work / f"{system.replace(', ', '_')}_{seed}"
-            command, trajectory, report = run_quadedge(options, recording, folder, seed, arguments)
+            command, trajectory, report, used = run_quadedge(options, recording, folder, seed, arguments)
             shown = shown or command
             runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": report["latency_ms"],
-                         "consistency": report.get("accuracy", {}).get("consistency"), "warnings": report["warnings"]})
+                         "processor_s": used, "consistency": report.get("accuracy", {}).get("consistency"),
+                         "warnings": report["warnings"]})
         add(system, None, runs, shown)
     for system, is_given, repetitions in (("viso2", options.viso2, 1), ("orb_slam3", options.peers, options.seeds),
                                           ("toy_vo", options.peers, 1)):
@@ -203,15 +210,19 @@ def measure(options, recording, work):
         runs = []
         try:
             for seed in range(1, repetitions + 1):
-                version, trajectory, median = run_peer(options, recording, work / f"{system}_{seed}", system)
-                runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": {"median": median}})
+                version, trajectory, times, used = run_peer(options, recording, work / f"{system}_{seed}", system)
+                runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": times,
+                             "processor_s": used})
             add(system, version, runs)
-        except (RuntimeError, OSError, ImportError, TypeError, ValueError, subprocess.TimeoutExpired) as error:
-            print(f"{recording.name}: {system} is left out: {error}", file=sys.stderr)
+        except subprocess.TimeoutExpired:
+            add(system, None, [], left_out=f"not finished after {PEER_SECONDS // 60} minutes")
+        except (RuntimeError, OSError, ImportError, TypeError, ValueError) as error:
+            add(system, None, [], left_out=f"failed: {error}")
     if options.opencv_baseline:
         folder = work / "opencv"
-        call([options.opencv_baseline, recording.folder, "-o", folder, "--force"])
-        add("OpenCV SIFT + PnP", None, [{**judge(options, recording, folder / "trajectory.txt"), "seed": 1}])
+        _, used = call([options.opencv_baseline, recording.folder, "-o", folder, "--force"])
+        add("OpenCV SIFT + PnP", None, [{**judge(options, recording, folder / "trajectory.txt"), "seed": 1,
+                                         "processor_s": used}])
     return rows
 
 

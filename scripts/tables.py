@@ -349,23 +349,27 @@ def sub_paths(run, length):
 
 
 def whole_row(row, lengths):
-    """One recording and system: frames with a pose, errors over sub-paths, absolute error, time per frame."""
+    """One recording and system: frames with a pose, errors over sub-paths, absolute error, times per frame."""
     runs, cells = row["runs"], []
     for length in lengths:
         found = [sub_paths(run, length) for run in runs]
         cells += [spread(values) for values in zip(*found)] if all(found) else ["-", "-"]
     errors = [run["errors"]["accuracy"] for run in runs if "errors" in run]
     ate = spread([of["ate_rmse_m"] for of in errors]) if errors else "-"
-    times = [run["latency_ms"]["median"] for run in runs if run.get("latency_ms")]
+    times = []
+    for name in ("median", "p99", "first"):
+        values = [run["latency_ms"][name] for run in runs if name in (run.get("latency_ms") or {})]
+        times.append(spread(values, 2) if values else "-")
+    used = [1000 * run["processor_s"] / row["frames"] for run in runs if "processor_s" in run]
     return (PEERS.get(row["system"], row["system"]), f"{spread([run['poses'] for run in runs])} of {row['frames']}",
-            *cells, ate, spread(times, 2) if times else "-")
+            *cells, ate, *times, spread(used, 2) if used else "-")
 
 
 def whole_recordings(results):
     """The headline: errors over two lengths of sub-paths, of QuadEdge and the peers."""
     part, rows = results["evidence"], []
     for row in part["rows"]:
-        if row["recording"] not in HEADLINE or row["system"] in ("QuadEdge, fast", "QuadEdge, dense"):
+        if row["recording"] not in HEADLINE or row["system"].startswith("QuadEdge,") or not row["runs"]:
             continue
         cells = whole_row(row, HEADLINE[row["recording"]])
         short, long = HEADLINE[row["recording"]]
@@ -382,18 +386,21 @@ def evidence(results):
     """Every recording and system with all lengths."""
     part, text = results["evidence"], []
     for name, title in WHOLE.items():
-        rows = [row for row in part["rows"] if row["recording"] == name]
+        all_rows = [row for row in part["rows"] if row["recording"] == name]
+        rows = [row for row in all_rows if row["runs"]]
         if not rows:
             continue
         lengths = sorted({entry["length_m"] for row in rows for run in row["runs"] for entry in
                           run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", [])})
         kinds = ("t_rel [%]", "r_rel [deg/100 m]")
         head = ("system", "frames with a pose", *(f"{kind}, {length:g} m" for length in lengths for kind in kinds),
-                "ATE RMSE [m]", "median time [ms]")
+                "ATE RMSE [m]", "time of a frame: median [ms]", "p99 [ms]", "first frame [ms]",
+                "processor time per frame [ms]")
         first = rows[0]
         text.append(f"## {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
                     f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. Commit "
                     f"{first['commit']}.\n\n" + table(head, [whole_row(row, lengths) for row in rows]))
+        text += [f"{PEERS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
         if not lengths:
             text.append(table(("system", "length of the path [m]"), [
                 (PEERS.get(row["system"], row["system"]), spread([run["length_m"] for run in row["runs"]], 5))
