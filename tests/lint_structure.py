@@ -37,13 +37,13 @@ MOST_LINES = {
     "host/pose": 3460,
     "host/reference": 2520,
     "host/report": 2510,
-    "host/rig": 4640,
+    "host/rig": 4660,
     "host/stages": 2270,
     "host/synthetic": 2980,
     "include": 2240,
     "kernels": 5210,
     "python": 11460,
-    "scripts": 3060,
+    "scripts": 3090,
     "tests": 33900,
 }
 STALE_PHRASES = re.compile(

@@ -3,6 +3,7 @@
 #include "dataset_files.hpp"
 #include "frontends.hpp"
 #include "quadedge/dataset.hpp"
+#include "quadedge/odometry.hpp"
 #include "rig/image_delay.hpp"
 #include "rig/rig_monitor.hpp"
 
@@ -105,6 +106,33 @@ TEST_CASE("image delay: a camera that is one, two or seven frames late is refuse
   CHECK_THAT(one.words, Contains("the right camera is 1 frame late") && Contains("taken 1 frame earlier"));
   CHECK_THAT(two.words, Contains("the left camera is 2 frames late") && Contains("the left images are taken"));
   CHECK(one.false_causes == 0);
+}
+
+/// At most two frames are tracked once the right camera has become late.
+void check_later(const Views& views, std::size_t first, std::size_t late) {
+  INFO(late);
+  Device device("auto");
+  StereoOdometry odometry(views.rig, device);
+  int tracked = 0;
+  for (std::size_t i = 0; i < views.left.size(); ++i) {
+    const Image& right = views.right[i < first ? i : i - late];
+    const auto stamp = static_cast<std::int64_t>(i) * 100'000'000;
+    const FrameResult result = odometry.track({stamp, views.left[i].view(), right.view()});
+    if (i < first) CHECK(result.world_from_left);
+    tracked += i >= first && result.world_from_left && !result.ambiguous_motion ? 1 : 0;
+  }
+  CHECK(tracked <= 2);
+}
+
+TEST_CASE("image delay: recordings whose right images become late", "[rig][real][long]") {
+  for (const char* name : {"kitti_odometry/sequences/06", "kitti_odometry/sequences/01", "kitti_odometry/sequences/05",
+                           "kitti_raw_0926"}) {
+    const std::string path = real_data(name);
+    if (path.empty()) return;
+    INFO(name);
+    const Views views = recorded(path, 24);
+    for (const std::size_t late : {1, 2, 7}) check_later(views, 15, late);
+  }
 }
 
 TEST_CASE("image delay: a view that does not change has no delay", "[rig]") {

@@ -20,8 +20,8 @@ struct OnLines {
   double ratio() const { return searched > 0 ? static_cast<double>(on_line) / searched : 0; }
 };
 
-OnLines count(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity) {
-  const CornerSearch search = matcher.search(frame, max_disparity);
+OnLines count(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity, std::size_t every = 1) {
+  const CornerSearch search = matcher.search(frame, max_disparity, ImageTurn::none, every);
   OnLines corners{search.searched};
   for (const CornerMatch& match : search.found) {
     if (!match.is_aligned) continue;
@@ -48,14 +48,16 @@ void copy(const ImageView& from, Image& to) {
 }  // namespace
 
 std::optional<ImageDelay> ImageDelayFinder::find(const CornerMatcher& matcher, const StereoFrame& frame,
-                                                 double max_disparity) const {
-  if (kept_.empty()) return std::nullopt;
+                                                 double max_disparity, DelaySizes sizes) const {
+  if (kept_.empty() || sizes.least > sizes.most) return std::nullopt;
   const OnLines here = count(matcher, frame, max_disparity);
   if (here.fits()) return std::nullopt;
-  for (int size = 1; size <= kMaxDelay; ++size) {
+  for (int size = sizes.least; size <= sizes.most; ++size) {
     for (const int delay : {size, -size}) {
       const auto pair = delayed(frame, delay);
       if (!pair) continue;
+      const OnLines sample = count(matcher, *pair, max_disparity, kSparseCorners);
+      if (sample.on_line < kPromisingOnLine * sample.aligned) continue;
       if (const auto found = judged(delay, count(matcher, *pair, max_disparity), here)) return found;
     }
   }
@@ -81,10 +83,27 @@ std::optional<StereoFrame> ImageDelayFinder::delayed(const StereoFrame& frame, i
 
 void ImageDelayFinder::keep(const StereoFrame& frame) {
   ++count_;
-  if (kept_.size() < kMaxDelay) kept_.emplace_back();
+  if (kept_.size() < DelaySizes::kMost) kept_.emplace_back();
   std::rotate(kept_.begin(), std::prev(kept_.end()), kept_.end());
   copy(frame.left, kept_.front().left);
   copy(frame.right, kept_.front().right);
+}
+
+DelaySizes DelayRounds::next_frame() {
+  if (wait_ > 0 && --wait_ > 0) return {1, 0};
+  return is_urgent_ ? DelaySizes{} : DelaySizes{size_, size_};
+}
+
+void DelayRounds::add(bool is_found, bool is_lost) {
+  if (is_found || (!is_urgent_ && !is_lost && ++size_ <= DelaySizes::kMost)) return;
+  size_ = 1;
+  wait_ = period_ = is_urgent_ || is_lost ? kDelayPeriod : std::min(2 * period_, kLongestDelayPeriod);
+  is_urgent_ = is_lost;
+}
+
+void DelayRounds::hasten() {
+  is_urgent_ = true;
+  wait_ = 0;
 }
 
 std::optional<int> DelayVotes::add(const std::optional<ImageDelay>& found) {

@@ -19,19 +19,24 @@ struct ImageDelay {
   double on_line_here = 0;  ///< the same in the images as they are paired
 };
 
+/// Range of frames by which one camera or the other may be late.
+struct DelaySizes {
+  static constexpr int kMost = 7;
+  int least = 1, most = kMost;
+};
+
 /// Keeps the last pairs. If many corners of a frame leave their lines, the partner of its images is looked for among
 /// the neighbours: a left image of the last frames for the right image, or the other way round.
 class ImageDelayFinder {
  public:
-  static constexpr int kMaxDelay = 7;  ///< frames
-
   /// Whether some delay can still be seen by the frames that follow the start.
-  bool is_at_start() const { return count_ <= kMaxDelay; }
+  bool is_at_start() const { return count_ <= DelaySizes::kMost; }
   int frames() const { return count_; }  ///< kept so far
 
   /// Looks for a partner of the images of the next frame. \returns the delay with which this frame's corners lie on
   /// their lines while they do not as they are paired; nothing if no delay clearly fits better
-  std::optional<ImageDelay> find(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity) const;
+  std::optional<ImageDelay> find(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
+                                 DelaySizes sizes = {}) const;
   /// How well this frame fits with a delay that is known; nothing if it fits as paired, as it does at rest, and while
   /// too few frames are kept.
   std::optional<ImageDelay> measure(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
@@ -48,6 +53,22 @@ class ImageDelayFinder {
 
   std::vector<Pair> kept_;  ///< the latest first
   int count_ = 0;
+};
+
+/// Which delays a frame is examined for: all as soon as the images fit worse; while they can be tracked all the same,
+/// one per frame, since each takes two searches, in rounds that become rarer.
+class DelayRounds {
+ public:
+  /// The delays due in the next frame, called for every frame; an empty range between rounds.
+  DelaySizes next_frame();
+  /// Adds whether one of them was found, and whether the frame is lost if not: then all are due again soon.
+  void add(bool is_found, bool is_lost);
+  /// The images fit worse than before.
+  void hasten();
+
+ private:
+  bool is_urgent_ = true;
+  int size_ = 1, wait_ = 0, period_ = 0;
 };
 
 /// What successive frames say of the delay.

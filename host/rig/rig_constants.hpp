@@ -60,8 +60,8 @@ constexpr double kTransformedFoundRatio = 0.4;
 // Findings (rig_monitor.cpp).
 
 constexpr int kMinCorners = 20, kMinMatches = 12;
-/// A search for every third corner has to find as many for its verdict to count.
-constexpr std::size_t kSparseCorners = 3, kMinSparseMatches = 24;
+/// The search that only confirms that a rig still is right takes every so many-th corner.
+constexpr std::size_t kSparseCorners = 3;
 /// Fraction of the corners that are found.
 constexpr double kLostFoundRatio = 0.2;
 /// Fraction of the left edges that have a match.
@@ -119,9 +119,10 @@ constexpr double kPartnerOnLine = 0.6;
 constexpr double kLeftLines = 0.6;
 /// Frames that have to agree before every frame is measured.
 constexpr int kDelayVotes = 2;
-/// Aligned corners on their lines, below which a delay is looked for, in the first frames, then after so many.
-constexpr double kDoubtfulOnLine = 0.7;
-constexpr int kDelayPeriod = 5;
+/// Aligned corners on their lines, below which a delay is looked for, and of a sample, below which a partner is none.
+constexpr double kDoubtfulOnLine = 0.7, kPromisingOnLine = 0.4;
+/// Frames between rounds that look for a delay: after the first, and at most.
+constexpr int kDelayPeriod = 5, kLongestDelayPeriod = 50;
 /// Frames for which distances that no fit explains wait for a delay to be seen, and their median from which they do
 /// [px].
 constexpr int kHeldFrames = 2;

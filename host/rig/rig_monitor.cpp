@@ -265,10 +265,11 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   const auto repeated = find_repeated_images(frame);
   const bool is_frozen = repeated && is_mismatch(repeated->kind);
   if (!is_frozen && left_edges > 0 && needs_search(evidence)) {
+    if (searched_ && fits_ && frames_since_search_ < kSearchPeriod) delay_rounds_.hasten();
     // If the rig was right before, a third of the corners suffices to see that it still is.
     const bool is_right = searched_ && fits_ &&
                           search_and_judge(corner_matcher_, rig_, frame, max_disparity, rig, hidden, report,
-                                           kSparseCorners) >= kMinSparseMatches &&
+                                           kSparseCorners) >= static_cast<std::size_t>(kMinMatches) &&
                           report.findings.empty();
     if (!is_right) search_and_judge(corner_matcher_, rig_, frame, max_disparity, rig, hidden, report);
     frames_since_search_ = 0;
@@ -291,22 +292,22 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
 
 /// Whether the frame's corners ask for other partners of its images.
 bool RigMonitor::doubts_partners(const RigReport& report) const {
-  const bool is_due = delays_.is_at_start() || frames_since_delays_ >= kDelayPeriod;
   const double on_line = searched_ ? searched_->on_line_ratio : RigEvidence::kUnknown;
-  return is_due && (on_line < kDoubtfulOnLine || report.evidence.epipolar_residual > kDoubtfulResidual ||
-                    report.mismatch() != nullptr);
+  return on_line < kDoubtfulOnLine || report.evidence.epipolar_residual > kDoubtfulResidual ||
+         report.mismatch() != nullptr;
 }
 
 /// Refuses a frame whose images fit those of other frames. Until that could be seen, distances from the lines that no
 /// fit explains are not blamed on the calibration.
 void RigMonitor::judge_delay(const StereoFrame& frame, double max_disparity, RigReport& report) {
-  ++frames_since_delays_;
+  const bool is_at_start = delays_.is_at_start();
+  const DelaySizes due = is_at_start ? DelaySizes{} : delay_rounds_.next_frame();
   std::optional<ImageDelay> found;
   if (const auto known = delay_votes_.decided()) {
     found = delays_.measure(corner_matcher_, frame, max_disparity, *known);
-  } else if (doubts_partners(report)) {
-    found = delays_.find(corner_matcher_, frame, max_disparity);
-    frames_since_delays_ = 0;
+  } else if (due.least <= due.most && doubts_partners(report)) {
+    found = delays_.find(corner_matcher_, frame, max_disparity, due);
+    if (!is_at_start) delay_rounds_.add(found.has_value(), report.mismatch() != nullptr);
   }
   delay_votes_.add(found);
   delays_.keep(frame);

@@ -91,12 +91,13 @@ class RigMonitor {
   Synchronisation synchronisation_;
   StaticRegionDetector static_region_;
   ImageDelayFinder delays_;
+  DelayRounds delay_rounds_;
   DelayVotes delay_votes_;
   std::optional<RigFinding> held_;           ///< distances from the lines, until neighbours in time were looked at
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration
-  int frames_since_search_ = 0, frames_since_delays_ = 0, frames_ = 0;
+  int frames_since_search_ = 0, frames_ = 0;
   int searches_ = 0;            ///< that found something
   double negative_ratios_ = 0;  ///< sum over these
   bool is_interlaced_ = false;
