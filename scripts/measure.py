@@ -32,6 +32,7 @@ def parse():
                         help="folder with the recorded sequences; without it, only rendered sequences are measured")
     parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *RENDERED), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
+    parser.add_argument("--seeds", type=int, default=5, metavar="N", help="runs of QuadEdge per sequence, for accuracy")
     parser.add_argument("--frames", type=int, default=0, help="limit on the frames of each sequence; requires --out")
     parser.add_argument("--keep", action="store_true", help="reuse the complete runs in WORK")
     parser.add_argument("--out", type=Path, default=result_tables.RESULTS)

@@ -114,10 +114,10 @@ def source_of(run, options):
     return ["demo", "--scene", scene, *path, *(["--frames", options.frames] if options.frames else [])]
 
 
-def track(system, run, programs):
+def track(system, run, seed, programs):
     """Tracks a sequence with a system. Returns the folder of its results, the truth, and the command."""
     options = programs.options
-    output = options.work / system / run
+    output = options.work / (system if seed == 1 else f"{system}_{seed}") / run
     truth = options.data / RECORDED[run] if run in RECORDED and not options.frames else output / "groundtruth.txt"
     if system == "opencv":
         scene, path = (options.data / RECORDED[run], []) if run in RECORDED else scene_of(run)
@@ -125,7 +125,7 @@ def track(system, run, programs):
                    *(["--frames", options.frames] if options.frames else [])]
     else:
         method = [] if system == "default" else ["--preset", system]
-        command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
+        command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--seed", seed, "--quiet"]
     if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
         print(f"{system}: {run}", file=sys.stderr, flush=True)
         shutil.rmtree(output, ignore_errors=True)
@@ -135,9 +135,9 @@ def track(system, run, programs):
     return output, truth, command
 
 
-def judge(system, title, run, first, programs):
+def judge(system, title, run, first, seed, programs):
     """One row: errors and steps of a system on a sequence, origin-aligned."""
-    output, truth, command = track(system, run, programs)
+    output, truth, command = track(system, run, seed, programs)
     estimate, judged = output / "trajectory.txt", output / f"evaluation_{first}.json"
     frames = sum(1 for _ in open(output / "trajectory_kitti.txt", encoding="utf-8"))
     tracked = sum(1 for line in open(estimate, encoding="utf-8") if not line.startswith("#"))
@@ -161,10 +161,30 @@ def judge(system, title, run, first, programs):
     return row
 
 
+def combined(values, how):
+    """`how` (a median, min or max) of figures, which may be in dictionaries and lists; texts are those of the first."""
+    first = values[0]
+    if isinstance(first, dict):
+        return {name: combined([value[name] for value in values], how) for name in first}
+    if isinstance(first, list):
+        return [combined(list(each), how) for each in zip(*values)]
+    return first if first is None or isinstance(first, str) else how(values)
+
+
+def over_seeds(rows):
+    """One row for the runs with several seeds: medians, and the least and the greatest figures as rows of their own."""
+    if any(row.keys() != rows[0].keys() for row in rows):
+        raise Problem(f"{rows[0]['title']}: with some seeds, too few poses to compare")
+    least, most = ({name: value for name, value in combined(rows, how).items() if name != "commands"}
+                   for how in (min, max))
+    return {**combined(rows, statistics.median_low), "seeds": len(rows), "least": least, "most": most}
+
+
 def measure_accuracy(programs):
     options = programs.options
-    return [judge(system, *entry, programs) for entry in JUDGED if entry[1] in options.sequences
-            for system in options.systems
+    return [over_seeds([judge(system, *entry, seed, programs)
+                        for seed in range(1, 2 if system == "opencv" else options.seeds + 1)])
+            for entry in JUDGED if entry[1] in options.sequences for system in options.systems
             if system in ("default", "opencv") or entry[1] in RECORDED or entry[1] in SCENES]
 
 

@@ -5,9 +5,9 @@
 
 VISO2 is a program that you have built: libviso2 is GPL and no part of this repository. It is called as
     VISO2 LEFT_FOLDER RIGHT_FOLDER F CU CV BASELINE
-with folders of rectified images and their camera in pixels and metres, and prints "median X ms". Both programs use as
-many threads as the machine has. MH_01 is rectified for libviso2 with OpenCV's Python package (without it, KITTI 06
-alone is timed). Then scripts/result_tables.py writes the tables.
+with folders of rectified images and their camera in pixels and metres, and prints "median X ms". libviso2 uses one
+thread, QuadEdge as many as the machine has. MH_01 is rectified for libviso2 with OpenCV's Python package (without it,
+KITTI 06 alone is timed). Then scripts/result_tables.py writes the tables.
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 

@@ -24,7 +24,7 @@ PART_OF = {"quads": "matching", "pace": "speed"} | {
     name: "paper" for name in TABLES if name.startswith("paper-")} | {
     name: "nvidia" for name in TABLES if name.startswith("gpu-")} | dict.fromkeys(
     ("whole", "evidence-nees"), "evidence") | dict.fromkeys(
-    ("beside", "compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
+    ("compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
 # Part -> (title, introduction, tables and headings)
 PAGES = {
     "accuracy": ("Accuracy", "Errors are origin-aligned means: absolute (APE) and from frame to frame (RPE)."

@@ -37,12 +37,26 @@ def number(value, digits=3):
     return "-" if value is None else f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
 
 
-def length(metres):
-    """In metres, centimetres or millimetres, whichever suits the size."""
-    if metres is None:
-        return "-"
-    factor, unit = (1, "m") if metres >= 0.1 else (100, "cm") if metres >= 0.01 else (1000, "mm")
-    return f"{number(factor * metres)} {unit}"
+def spread(middle, least, most, digits=3):
+    """A median and, where the last digit but one differs, the range."""
+    if middle is None or any(number(least, shown) == number(most, shown) for shown in (digits - 1, digits)):
+        return number(middle, digits)
+    return f"{number(middle, digits)} ({number(least, digits)} to {number(most, digits)})"
+
+
+def over_seeds(row, *keys, factor=1, digits=3):
+    """A figure of a row of several seeds, with its range."""
+    values = []
+    for part in (row, row.get("least", row), row.get("most", row)):
+        for key in keys:
+            part = part.get(key) if isinstance(part, dict) else part[key]
+        values.append(None if part is None else factor * part)
+    return spread(*values, digits)
+
+
+def mm(row, name, digits=3):
+    """A length of a row of several seeds, in millimetres."""
+    return over_seeds(row, name, factor=1e3, digits=digits)
 
 
 def percent(value):
@@ -51,7 +65,7 @@ def percent(value):
 
 def drift(row):
     """In percent of the path length; a dash for a camera at rest."""
-    return f"{number(row['end_drift_percent'], 2)} %" if row.get("path_length_m", 0) > 0.5 else "-"
+    return over_seeds(row, "end_drift_percent", digits=2) if row.get("path_length_m", 0) > 0.5 else "-"
 
 
 def origin(result):
@@ -81,14 +95,19 @@ def errors(results, systems):
         if row["system"] not in systems:
             continue
         cells = ["" if named(row) == shown else named(row), SYSTEMS[row["system"]],
-                 f"{row['tracked']} / {row['frames']}"]
+                 f"{over_seeds(row, 'tracked')} / {row['frames']}"]
         for kind in ("ape", "rpe"):
-            cells += [number(row.get(f"{kind}_rotation_deg")), length(row.get(f"{kind}_translation_m"))]
+            cells += [over_seeds(row, f"{kind}_rotation_deg"), mm(row, f"{kind}_translation_m")]
         rows.append([*cells, drift(row)])
         shown = named(row)
-    head = ["sequence", "system", "tracked", "APE rotation [deg]", "APE translation", "RPE rotation [deg]",
-            "RPE translation", "end drift"]
-    return table(head, rows, stamp(results["accuracy"]))
+    head = ["sequence", "system", "tracked", "APE rotation [deg]", "APE translation [mm]", "RPE rotation [deg]",
+            "RPE translation [mm]", "end drift [%]"]
+    return table(head, rows, seeds_and_stamp(results["accuracy"]))
+
+
+def seeds_and_stamp(result):
+    seeds = max(row.get("seeds", 1) for row in result["rows"])
+    return ("One seed. " if seeds == 1 else f"Medians of {seeds} seeds, and their range. ") + stamp(result)
 
 
 def compared(results):
@@ -101,9 +120,10 @@ def systems(results):
 
 def steps(results):
     judged = [row for row in results["accuracy"]["rows"] if row["sequence"] == STEPS and "steps" in row]
-    rows = [[SYSTEMS[row["system"]], *(row["steps"][name] for name in ("right", "wrong", "lost"))] for row in judged]
+    rows = [[SYSTEMS[row["system"]], *(over_seeds(row, "steps", name) for name in ("right", "wrong", "lost"))]
+            for row in judged]
     head = [named(judged[0]) if judged else "", "steps right", "wrong, reported as tracked", "reported lost"]
-    return table(head, rows, stamp(results["accuracy"]))
+    return table(head, rows, seeds_and_stamp(results["accuracy"]))
 
 
 def paths(results):
@@ -112,15 +132,15 @@ def paths(results):
     for row in results["accuracy"]["rows"]:
         if row["sequence"] == STEPS or not row["title"].startswith("rendered"):
             continue
-        steps_of = row.get("steps", {})
         rows.append([row["title"].removeprefix("rendered "), SYSTEMS[row["system"]],
-                     f"{row['tracked']} / {row['frames']}",
-                     *(steps_of.get(name, "-") for name in ("right", "wrong", "lost")),
-                     number(row.get("rpe_rotation_deg")), length(row.get("rpe_translation_m")),
-                     length(row.get("path_length_m")), drift(row) if "end_drift_percent" in row else "-"])
-    head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost", "RPE rotation [deg]", "RPE translation",
-            "path length", "end drift"]
-    return table(head, rows, stamp(results["accuracy"]))
+                     f"{over_seeds(row, 'tracked')} / {row['frames']}",
+                     *(over_seeds(row, "steps", name) if "steps" in row else "-"
+                       for name in ("right", "wrong", "lost")),
+                     over_seeds(row, "rpe_rotation_deg"), mm(row, "rpe_translation_m"),
+                     number(row.get("path_length_m")), drift(row) if "end_drift_percent" in row else "-"])
+    head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost", "RPE rotation [deg]",
+            "RPE translation [mm]", "path length [m]", "end drift [%]"]
+    return table(head, rows, seeds_and_stamp(results["accuracy"]))
 
 
 def step_error(row):
@@ -146,23 +166,6 @@ def disturbances(results):
             rows.append(["", scene, *cells, *[""] * (width - len(cells))])
     head = ["error per step [mm]", f"{counted(kept[0]['frames'], 'frame')} each", *[""] * width]
     return table(head, rows, stamp(results["disturbances"]))
-
-
-def beside(results):
-    """Errors from frame to frame beside other systems, for the README."""
-    others = results["peers"]
-    by_title = {}
-    for row in judged_rows(results):
-        by_title.setdefault(row["title"], {})[row["system"]] = row
-
-    def error(row):
-        judged = row and "rpe_translation_m" in row
-        return f"{number(row['rpe_rotation_deg'], 2)} / {number(1e3 * row['rpe_translation_m'], 2)}" if judged else "-"
-
-    rows = [[named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
-             error(found.get("opencv"))] for title, found in by_title.items()]
-    return table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
-                 stamp(results["accuracy"]))
 
 
 def pace(results):
@@ -233,9 +236,9 @@ def presets(results):
         cells = [f"{row['median_ms']:.0f} ms, {row['frame_over_sift']:.2f} S" if row else "-" for row in found]
         rows.append([f"time per frame, {title.removesuffix(', flight')}", *cells])
     for title, found in errors_of.items():
-        cells = [f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if row else "-"
+        cells = [f"{over_seeds(row, 'rpe_rotation_deg', digits=2)}; {mm(row, 'rpe_translation_m')}" if row else "-"
                  for row in map(found.get, PRESETS)]
-        rows.append([f"error per frame, {title}", *cells])
+        rows.append([f"error per frame [deg; mm], {title}", *cells])
     speed_at, accuracy_at = (stamp(results[part]).replace("Commit", "commit") for part in ("speed", "accuracy"))
     return table(["", *(f"`--preset {preset}`" for preset in PRESETS)], rows,
                  f"Times: {speed_at.rstrip()} Errors: {accuracy_at}")
@@ -289,29 +292,35 @@ def consistency(results):
     """Errors of motions over several lengths beside the deviations that their covariances predict."""
     rows, shown = [], None
     for row in judged_rows(results):
-        for step in row.get("consistency", []):
+        for index, step in enumerate(row.get("consistency", [])):
             if step["frames"] not in (1, 10, 20, 40, 100):
                 continue
-            squares = [step[f"normalised_error_squared{by}"]["pose"] for by in ("_by_edges", "")]
-            rows.append(["" if named(row) == shown else named(row), step["frames"], length(step["error_m"]),
-                         length(step["promised_m"]), number(step["error_deg"]), number(step["promised_deg"]),
-                         *(number(value) for value in squares)])
+            rows.append(["" if named(row) == shown else named(row), step["frames"],
+                         *(over_seeds(row, "consistency", index, name, factor=1e3)
+                           for name in ("error_m", "promised_m")),
+                         *(over_seeds(row, "consistency", index, name) for name in ("error_deg", "promised_deg")),
+                         *(normalised(row, index, by) for by in ("_by_edges", ""))])
             shown = named(row)
-    head = ["sequence", "frames apart", "translation: error, rms", "predicted", "rotation: error [deg]", "predicted",
-            "NEES, edges alone", "NEES, with the calibration"]
-    return table(head, rows, stamp(results["accuracy"]))
+    head = ["sequence", "frames apart", "translation: error, rms [mm]", "predicted [mm]", "rotation: error [deg]",
+            "predicted [deg]", "NEES, edges alone", "NEES, with the calibration"]
+    return table(head, rows, seeds_and_stamp(results["accuracy"]))
+
+
+def normalised(row, index, by):
+    """The NEES of the poses of a row, `by` "_by_edges" alone or with the calibration ("")."""
+    return over_seeds(row, "consistency", index, f"normalised_error_squared{by}", "pose")
 
 
 def normalised_errors(results):
     """Normalised squared errors of motions over 1 and 20 frames, per sequence."""
     rows = []
     for row in judged_rows(results):
-        steps = [step for step in row.get("consistency", []) if step["frames"] in (1, 20)]
-        if steps:
-            rows.append([named(row), *(number(step[f"normalised_error_squared{by}"]["pose"])
-                                       for by in ("_by_edges", "") for step in steps)])
-    head = ["NEES", "edges alone, 1 frame", "20 frames", "with the calibration, 1 frame", "20 frames"]
-    return table(head, rows, stamp(results["accuracy"]))
+        wanted = [index for index, step in enumerate(row.get("consistency", [])) if step["frames"] in (1, 5, 10, 20)]
+        if wanted:
+            rows.append([named(row), *(normalised(row, index, "_by_edges") for index in (wanted[0], wanted[-1])),
+                         *(normalised(row, index, "") for index in wanted)])
+    head = ["NEES", "edges alone, 1 frame", "20 frames", "with the calibration, 1 frame", "5", "10", "20"]
+    return table(head, rows, seeds_and_stamp(results["accuracy"]))
 
 
 def ros2(results):
@@ -332,12 +341,8 @@ WHOLE = {"street": "KITTI street, 300 m", "karlsruhe": "Karlsruhe, 226 m", "mh_0
 HEADLINE = {"street": (100, 200), "mh_01": (1, 5)}  # lengths of sub-paths on the first page [m]
 
 
-def spread(values, digits=3):
-    """The median and, of values that differ in all but the last digit, the range."""
-    middle, least, most = statistics.median(values), min(values), max(values)
-    if any(number(least, shown) == number(most, shown) for shown in (digits - 1, digits)):
-        return number(middle, digits)
-    return f"{number(middle, digits)} ({number(least, digits)} to {number(most, digits)})"
+def spread_of(values, digits=3):
+    return spread(statistics.median(values), min(values), max(values), digits)
 
 
 def sub_paths(run, length):
@@ -353,16 +358,16 @@ def whole_row(row, lengths):
     runs, cells = row["runs"], []
     for length in lengths:
         found = [sub_paths(run, length) for run in runs]
-        cells += [spread(values) for values in zip(*found)] if all(found) else ["-", "-"]
+        cells += [spread_of(values) for values in zip(*found)] if all(found) else ["-", "-"]
     errors = [run["errors"]["accuracy"] for run in runs if "errors" in run]
-    ate = spread([of["ate_rmse_m"] for of in errors]) if errors else "-"
+    ate = spread_of([of["ate_rmse_m"] for of in errors]) if errors else "-"
     times = []
     for name in ("median", "p99", "first"):
         values = [run["latency_ms"][name] for run in runs if name in (run.get("latency_ms") or {})]
-        times.append(spread(values, 2) if values else "-")
+        times.append(spread_of(values, 2) if values else "-")
     used = [1000 * run["processor_s"] / row["frames"] for run in runs if "processor_s" in run]
-    return (PEERS.get(row["system"], row["system"]), f"{spread([run['poses'] for run in runs])} of {row['frames']}",
-            *cells, ate, *times, spread(used, 2) if used else "-")
+    return (PEERS.get(row["system"], row["system"]), f"{spread_of([run['poses'] for run in runs])} of {row['frames']}",
+            *cells, ate, *times, spread_of(used, 2) if used else "-")
 
 
 def whole_recordings(results):
@@ -403,7 +408,7 @@ def evidence(results):
         text += [f"{PEERS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
         if not lengths:
             text.append(table(("system", "length of the path [m]"), [
-                (PEERS.get(row["system"], row["system"]), spread([run["length_m"] for run in row["runs"]], 5))
+                (PEERS.get(row["system"], row["system"]), spread_of([run["length_m"] for run in row["runs"]], 5))
                 for row in rows]))
     return "\n".join(text)
 
@@ -419,7 +424,7 @@ def evidence_nees(results):
         for frames in (1, 5, 10, 20, 50):
             values = [entry["normalised_error_squared"]["pose"] for of in found for entry in of
                       if entry["frames"] == frames]
-            cells.append(spread(values) if values else "-")
+            cells.append(spread_of(values) if values else "-")
         rows.append((WHOLE[row["recording"]], *cells))
     return table(("NEES", "1 frame", "5", "10", "20", "50"), rows)
 
@@ -452,7 +457,7 @@ def gpu_variants(results):
     return table(("stage", "variant", *(f"{device['name']} [ms, ratio]" for device in devices)), rows)
 
 
-TABLES = {"compared": compared, "systems": systems, "steps": steps, "beside": beside, "pace": pace,
+TABLES = {"compared": compared, "systems": systems, "steps": steps, "pace": pace,
           "paths": paths, "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed,
           "presets": presets, "light": light, "peers": peers, "consistency": consistency, "nees": normalised_errors,
           "drift": drift_over_scenes, "ros2": ros2, "gpu-latency": gpu_latency, "gpu-poses": gpu_poses,

@@ -32,17 +32,20 @@ with tempfile.TemporaryDirectory() as folder:
     # A measurement holds the programs' figures in full precision, with commit and command.
     out, work = Path(folder) / "results", Path(folder) / "work"
     small = ("--quadedge", quadedge, "--out", out, "--work", work, "--frames", "3", "--sequences", "cables",
-             "--systems", "default")
+             "--systems", "default", "--seeds", "2")
     done = run("measure.py", *small, "--only", "accuracy")
     assert done.returncode == 0, done.stderr
     result = json.loads((out / "accuracy.json").read_text())
     (row,) = result["rows"]
-    report = json.loads((work / "default/cables/report.json").read_text())
-    assert row["tracked"] == row["frames"] == 3, row
+    reports = [json.loads((work / f"{seed}/cables/report.json").read_text()) for seed in ("default", "default_2")]
+    assert row["tracked"] == row["frames"] == 3 and row["seeds"] == 2, row
     for name in ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m"):
-        assert abs(row[name] - report["accuracy"]["origin_aligned"][name]["mean"]) < 1e-6, (name, row)
+        of_seeds = sorted(report["accuracy"]["origin_aligned"][name]["mean"] for report in reports)
+        for shown, value in zip((row["least"][name], row["most"][name]), of_seeds):
+            assert abs(shown - value) < 1e-6, (name, row)
     assert row["steps"] == {"right": 2, "wrong": 0, "lost": 0}, row
-    assert row["commands"][0] == "quadedge demo --scene cables --frames 3 -o OUT/default/cables", row["commands"]
+    command = "quadedge demo --scene cables --frames 3 -o OUT/default/cables --seed 1"
+    assert row["commands"][0] == command, row["commands"]
     assert result["commit"] and len(result["date"]) == 10, result
     page = (out / "accuracy.md").read_text()
     assert "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in page and result["commit"] in page, page
@@ -95,10 +98,12 @@ with tempfile.TemporaryDirectory() as folder:
     results["accuracy"] = {**result, "rows": [row, handheld]}
     assert "handheld" not in result_tables.render("systems", results)
     later = {**row, "title": "KITTI 06, from frame 2", "from_frame": 2}
-    flight = {**row, "title": "EuRoC MH_01, flight", "sequence": "flight"}
+    flight = {**row, "title": "EuRoC MH_01, flight", "sequence": "flight", "rpe_translation_m": 0.002}
+    flight.update({name: {**row[name], "rpe_translation_m": of} for name, of in (("least", 0.001), ("most", 0.0025))})
     others = {part: json.loads((result_tables.RESULTS / f"{part}.json").read_text()) for part in ("peers", "speed")}
-    shown = result_tables.render("beside", {**others, "accuracy": {**result, "rows": [later, flight]}})
+    shown = result_tables.render("compared", {"accuracy": {**result, "rows": [later, flight]}})
     assert "| KITTI 06, 1 frame from frame 2 |" in shown and "| EuRoC MH_01, 3 frames |" in shown, shown
+    assert "| 2 (1 to 2.5) |" in shown and "Medians of 2 seeds" in shown, shown
     shown = result_tables.render("paths", results)
     assert "| cables | QuadEdge | 3 / 3 | 2 | 0 | 0 |" in shown and "| cables, handheld | QuadEdge |" in shown, shown
     swept = [
