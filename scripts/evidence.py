@@ -192,8 +192,7 @@ def measure(options, recording, work):
                      "last_stamp_ns": recording.stamps[-1], "runs": runs, "left_out": left_out})
         print(f"{recording.name}, {system}: {left_out or len(runs)}", file=sys.stderr)
 
-    for system, arguments in (("QuadEdge", []), ("QuadEdge, fast", ["--preset", "fast"]),
-                              ("QuadEdge, dense", ["--preset", "dense"])):
+    for system, arguments in (("QuadEdge", []), ("QuadEdge, fast", ["--preset", "fast"])):
         runs, shown = [], None
         for seed in range(1, options.seeds + 1):
             folder = work / f"{system.replace(', ', '_')}_{seed}"
