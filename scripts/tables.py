@@ -172,15 +172,17 @@ def pace(results):
     """Frames per second, and beside libviso2 where both ran in turn, for the README."""
     others, rows = results["peers"], []
     for title, timed in others["frames_per_second"].items():
-        own = {row.get("preset", "default"): f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
-               if row["title"].startswith(title)}
-        rows.append([title.removesuffix(", flight"), own["default"], own["fast"], "-", timed.get("OpenCV", "-"),
+        own = {row.get("preset", "default"): row for row in results["speed"]["rows"] if row["title"].startswith(title)}
+        both = [own[preset] for preset in ("default", "fast")]
+        rows.append([title.removesuffix(", flight"), *(f"{1000 / row['median_ms']:.0f}" for row in both), "-",
+                     timed.get("OpenCV", "-"), ", ".join(f"{row['processor_ms']:.0f}" for row in both),
                      origin(results["speed"])])
     for title, timed in others["libviso2"]["in_turn"].items():
         rates = [f"{1000 / statistics.median(timed[name]):.0f}" if name in timed else "-"
                  for name in ("quadedge_ms", "fast_ms", "libviso2_ms")]
-        rows.append([f"{title}, alternating runs", *rates, "-", origin(timed)])
-    return table(["frames per second", "QuadEdge", "`fast`", "libviso2", "OpenCV SIFT + PnP", "QuadEdge commit"], rows,
+        rows.append([f"{title}, alternating runs", *rates, "-", "-", origin(timed)])
+    return table(["frames per second", "QuadEdge", "`fast`", "libviso2", "OpenCV SIFT + PnP",
+                  "processor time per frame: QuadEdge, `fast` [ms]", "QuadEdge commit"], rows,
                  others["timed"] + "\n")
 
 
