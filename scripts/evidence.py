@@ -32,7 +32,8 @@ from stamped import commit, stamped, write
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 # Name, official name, part of it (first and last stamp [ns] of the left images), where it comes from, lengths of
-# sub-paths [m]. The truth of Karlsruhe has no orientation that could be used, so only its length is compared.
+# sub-paths [m]. The truth of Karlsruhe has no orientation that could be used, so only its length is compared, with
+# that of the inertial system's positions at the frames [m] in path_length.txt.
 RECORDINGS = {
     "street": ("KITTI street", "KITTI raw, 2011_09_26, 14:05, unrectified cameras 0 and 1", (10, 20, 50, 100, 200),
                "https://www.cvlibs.net/datasets/kitti/raw_data.php"),
@@ -52,6 +53,8 @@ class Recording:
         self.rotation = None  # rectified_from_left, if the images had to be rectified
         truth = folder / "truth.txt"
         self.truth = truth if truth.exists() else None
+        length = folder / "path_length.txt"
+        self.true_length = float(length.read_text(encoding="ascii")) if length.exists() else None
         left = sorted((folder / "mav0/cam0/data").glob("*.png"))
         if left:
             self.stamps = [int(file.stem) for file in left]
@@ -189,7 +192,7 @@ def measure(options, recording, work):
         rows.append({"recording": recording.name, "official": RECORDINGS[recording.name][1],
                      "source": RECORDINGS[recording.name][3], "system": system, "version": version, "command": command,
                      "frames": len(recording.stamps), "first_stamp_ns": recording.stamps[0],
-                     "last_stamp_ns": recording.stamps[-1], "runs": runs, "left_out": left_out})
+                     "last_stamp_ns": recording.stamps[-1], "runs": runs, "true_length_m": recording.true_length, "left_out": left_out})
         print(f"{recording.name}, {system}: {left_out or len(runs)}", file=sys.stderr)
 
     for system, arguments in (("QuadEdge", []), ("QuadEdge, fast", ["--preset", "fast"])):
