@@ -109,6 +109,13 @@ class Recording:
         return "".join(lines)
 
 
+def camera_of(calibration):
+    """Focal length, principal point and baseline of KITTI's calib.txt."""
+    rows = {name: [float(value) for value in values.split()] for name, values in
+            (line.split(":", 1) for line in calibration.read_text(encoding="utf-8").splitlines() if ":" in line)}
+    return rows["P0"][0], rows["P0"][2], rows["P0"][6], -rows["P1"][3] / rows["P1"][0]
+
+
 def call(command, environment=None, seconds=None):
     """What a program prints, and its processor time [s], that of decoding and starting included."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -137,10 +144,8 @@ def run_peer(options, recording, folder, system):
     folder.mkdir(parents=True, exist_ok=True)
     poses = folder / "rectified.txt"
     if system == "viso2":
-        rows = dict(line.split(":", 1) for line in (recording.pairs / "calib.txt").read_text().splitlines())
-        left, right = ([float(value) for value in rows[name].split()] for name in ("P0", "P1"))
-        printed, used = call([options.viso2, recording.pairs / "image_0", recording.pairs / "image_1", left[0],
-                              left[2], left[6], -right[3] / right[0], poses])
+        printed, used = call([options.viso2, recording.pairs / "image_0", recording.pairs / "image_1",
+                              *camera_of(recording.pairs / "calib.txt"), poses])
         times = {name: float(value) for name, value in re.findall(r"(median|p99) ([\d.]+) ms", printed)}
         matrices = [numpy.vstack([numpy.array(line.split(), float).reshape(3, 4), [0, 0, 0, 1]])
                     for line in poses.read_text().splitlines()]
@@ -192,7 +197,8 @@ def measure(options, recording, work):
         rows.append({"recording": recording.name, "official": RECORDINGS[recording.name][1],
                      "source": RECORDINGS[recording.name][3], "system": system, "version": version, "command": command,
                      "frames": len(recording.stamps), "first_stamp_ns": recording.stamps[0],
-                     "last_stamp_ns": recording.stamps[-1], "runs": runs, "true_length_m": recording.true_length, "left_out": left_out})
+                     "last_stamp_ns": recording.stamps[-1], "runs": runs,
+                     "true_length_m": recording.true_length, "left_out": left_out})
         print(f"{recording.name}, {system}: {left_out or len(runs)}", file=sys.stderr)
 
     for system, arguments in (("QuadEdge", []), ("QuadEdge, fast", ["--preset", "fast"])):
@@ -205,6 +211,8 @@ def measure(options, recording, work):
                          "processor_s": used, "consistency": report.get("accuracy", {}).get("consistency"),
                          "warnings": report["warnings"]})
         add(system, None, runs, shown)
+    commands = {"viso2": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
+                **{peer: f"PYTHON scripts/evidence_peers.py {peer} PAIRS POSES" for peer in ("orb_slam3", "toy_vo")}}
     for system, is_given, repetitions in (("viso2", options.viso2, 1), ("orb_slam3", options.peers, options.seeds),
                                           ("toy_vo", options.peers, 1)):
         if not is_given:
@@ -215,7 +223,7 @@ def measure(options, recording, work):
                 version, trajectory, times, used = run_peer(options, recording, work / f"{system}_{seed}", system)
                 runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": times,
                              "processor_s": used})
-            add(system, version, runs)
+            add(system, version, runs, commands[system])
         except subprocess.TimeoutExpired:
             add(system, None, [], left_out=f"not finished after {PEER_SECONDS // 60} minutes")
         except (RuntimeError, OSError, ImportError, TypeError, ValueError) as error:
@@ -224,7 +232,8 @@ def measure(options, recording, work):
         folder = work / "opencv"
         _, used = call([options.opencv_baseline, recording.folder, "-o", folder, "--force"])
         add("OpenCV SIFT + PnP", None, [{**judge(options, recording, folder / "trajectory.txt"), "seed": 1,
-                                         "processor_s": used}])
+                                         "processor_s": used}],
+            f"opencv_baseline {recording.name} -o OUT")
     return rows
 
 

@@ -12,6 +12,7 @@ Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
 import argparse
+import importlib.util
 import json
 import os
 import re
@@ -21,43 +22,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-import numpy
 import result_tables
+from evidence import Recording, camera_of
 from measurements import RECORDED, REPOSITORY
 from stamped import stamped, write
-
-try:
-    import cv2
-    import yaml
-except ImportError:
-    cv2 = None
-
-
-def camera_of(calibration):
-    """Focal length, principal point and baseline of KITTI's calib.txt."""
-    rows = {name: [float(value) for value in values.split()] for name, values in
-            (line.split(":", 1) for line in calibration.read_text(encoding="utf-8").splitlines() if ":" in line)}
-    return rows["P0"][0], rows["P0"][2], rows["P0"][6], -rows["P1"][3] / rows["P1"][0]
-
-
-def rectified(flight, folder):
-    """Writes the images of a EuRoC sequence, rectified, to image_0 and image_1 of a folder. Returns their camera."""
-    rows = [[(flight / "mav0" / name / "sensor.yaml"), flight / "mav0" / name / "data"] for name in ("cam0", "cam1")]
-    sensors = [yaml.safe_load(file.read_text(encoding="utf-8")) for file, _ in rows]
-    body = [numpy.reshape(sensor["T_BS"]["data"], (4, 4)) for sensor in sensors]
-    right_from_left = numpy.linalg.inv(body[1]) @ body[0]
-    lenses = [(numpy.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), numpy.array(sensor["distortion_coefficients"]))
-              for sensor in sensors for fx, fy, cx, cy in [sensor["intrinsics"]]]
-    size = tuple(sensors[0]["resolution"])
-    turn_0, turn_1, made_0, made_1, *_ = cv2.stereoRectify(*lenses[0], *lenses[1], size, right_from_left[:3, :3],
-                                                           right_from_left[:3, 3:], alpha=0)
-    for camera, (matrix, lens), turn, made, (_, images) in zip("01", lenses, (turn_0, turn_1), (made_0, made_1), rows):
-        maps = cv2.initUndistortRectifyMap(matrix, lens, turn, made, size, cv2.CV_32FC1)
-        (folder / f"image_{camera}").mkdir()
-        for image in sorted(images.glob("*.png")):
-            pixels = cv2.imread(str(image), cv2.IMREAD_GRAYSCALE)
-            cv2.imwrite(str(folder / f"image_{camera}" / image.name), cv2.remap(pixels, *maps, cv2.INTER_LINEAR))
-    return made_0[0, 0], made_0[0, 2], made_0[1, 2], -made_1[0, 3] / made_1[0, 0]
 
 
 def median_of_viso2(program, images, camera):
@@ -103,8 +71,10 @@ def main():
     try:
         with tempfile.TemporaryDirectory() as folder:
             timed = [("KITTI 06", street, street, camera_of(street / "calib.txt"))]
-            if cv2:
-                timed.append(("EuRoC MH_01", flight, Path(folder), rectified(flight, Path(folder))))
+            if flight.exists() and importlib.util.find_spec("cv2"):
+                recording = Recording("mh_01", flight, Path(folder))
+                recording.rectify()
+                timed.append(("EuRoC MH_01", flight, recording.pairs, camera_of(recording.pairs / "calib.txt")))
             for title, sequence, images, camera in timed:
                 times = {"quadedge_ms": [], "fast_ms": [], "libviso2_ms": []}
                 for _ in range(options.rounds):

@@ -31,7 +31,8 @@ PAGES = {
                  " [accuracy.md](../accuracy.md) explains them.", ("systems", "steps", "paths", "consistency")),
     "evidence": ("Whole recordings", "t_rel and r_rel are errors over sub-paths"
                  " ([definition](../reference.md#trajectory-errors)); figures over less than 100 m are not those of"
-                 " KITTI's leaderboard. Several seeds: median (range). ORB-SLAM3 runs without loop closing.", (
+                 " KITTI's leaderboard. Several seeds: median (range). ORB-SLAM3 runs without loop closing. PAIRS: the"
+                 " images rectified by OpenCV. Processor times include decoding and starting.", (
                      "evidence", "## Consistency of the covariances", "evidence-nees")),
     "matching": ("Matching", "Recall and precision after the last filter, for left edges whose counterpart exists"
                  " (paired) and for all left edges (all). [matching.md](../matching.md) defines the terms.",

@@ -413,6 +413,7 @@ def evidence(results):
                     f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. Commit "
                     f"{first['commit']}.\n\n" + table(head, [whole_row(row, lengths) for row in rows]))
         text += [f"{PEERS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
+        text.append("Commands: " + ", ".join(f"`{row['command']}`" for row in rows if row["command"]) + ".\n")
         if not lengths:
             text.append(table(("system", f"length of the path [m], inertial {first['true_length_m']:.1f}"), [
                 (PEERS.get(row["system"], row["system"]), spread_of([run["length_m"] for run in row["runs"]], 5))

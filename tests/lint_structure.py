@@ -43,7 +43,7 @@ MOST_LINES = {
     "include": 2240,
     "kernels": 5210,
     "python": 11460,
-    "scripts": 3090,
+    "scripts": 3080,
     "tests": 33900,
 }
 STALE_PHRASES = re.compile(
