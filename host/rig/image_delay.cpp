@@ -90,7 +90,8 @@ void ImageDelayFinder::keep(const StereoFrame& frame) {
 }
 
 DelaySizes DelayRounds::next_frame() {
-  if (wait_ > 0 && --wait_ > 0) return {1, 0};
+  wait_ = std::max(0, wait_ - 1);
+  if (wait_ > 0) return {1, 0};
   return is_urgent_ ? DelaySizes{} : DelaySizes{size_, size_};
 }
 

@@ -183,7 +183,9 @@ class Domain:
         """Topic and kind of every publisher of a topic of ROS in the domain, also of this participant."""
         found = []
         for endpoint in self._publications.read(_MOST):
+            if endpoint.sample_info.instance_state != InstanceState.Alive or not endpoint.type_name:
+                continue  # what has left may come without names
             name, (package, _, kind) = endpoint.topic_name, endpoint.type_name.partition(_KIND)
-            if endpoint.sample_info.instance_state == InstanceState.Alive and name.startswith("rt/") and kind:
+            if name.startswith("rt/") and kind:
                 found.append((name[2:], f"{package}/msg/{kind.removesuffix('_')}"))
         return found
