@@ -2,7 +2,7 @@
 """Measures the figures of README and doc/: accuracy, matching, speed, disturbances, light and drift.
 Writes doc/results.
 
-    scripts/measure.py                         all parts, several minutes; recorded data from --data or QUADEDGE_DATA
+    scripts/measure.py                         all parts, over an hour; recorded data from --data or QUADEDGE_DATA
     scripts/measure.py --only speed            one part; the others remain unchanged
     scripts/measure.py --keep                  resumes after an interruption: complete runs are reused
     scripts/measure.py --frames 6 --out try    a quick test in another folder

@@ -314,7 +314,7 @@ def normalised(row, index, by):
 
 
 def normalised_errors(results):
-    """Normalised squared errors of motions over 1 and 20 frames, per sequence."""
+    """Normalised squared errors of motions over 1 to 20 frames, per sequence."""
     rows = []
     for row in judged_rows(results):
         wanted = [index for index, step in enumerate(row.get("consistency", [])) if step["frames"] in (1, 5, 10, 20)]
@@ -373,12 +373,14 @@ def whole_row(row, lengths):
 
 
 def whole_recordings(results):
-    """The headline: errors over two lengths of sub-paths, of QuadEdge and the peers."""
+    """The headline: errors of four systems over two lengths of sub-paths."""
     part, rows = results["evidence"], []
     for row in part["rows"]:
-        if row["system"].startswith("QuadEdge,") or not row["runs"]:
+        if row["system"] not in ("QuadEdge", "viso2", "orb_slam3", "OpenCV SIFT + PnP") or not row["runs"]:
             continue
         if row["recording"] not in HEADLINE:
+            if not row["true_length_m"]:
+                continue
             longer = [100 * (run["length_m"] / row["true_length_m"] - 1) for run in row["runs"]]
             rows.append((f"{WHOLE[row['recording']]}: whole path", *whole_row(row, ())[:2],
                          f"{spread_of(longer, 2)} longer", "-"))
@@ -389,6 +391,7 @@ def whole_recordings(results):
                      f"{cells[3]}; {cells[5]}"))
     head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
     seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
+    rows = [row if index == 0 or row[0] != rows[index - 1][0] else ("", *row[1:]) for index, row in enumerate(rows)]
     commits = {WHOLE[row["recording"]]: row["commit"] for row in part["rows"]}
     measured = "; ".join(f"{title}: commit {commit}" for title, commit in commits.items())
     return table(head, rows, f"{seeds} {measured}. {part['date']}.\n")
@@ -415,7 +418,8 @@ def evidence(results):
         text += [f"{PEERS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
         text.append("Commands: " + ", ".join(f"`{row['command']}`" for row in rows if row["command"]) + ".\n")
         if not lengths:
-            text.append(table(("system", f"length of the path [m], inertial {first['true_length_m']:.1f}"), [
+            true = f", inertial system: {first['true_length_m']:.1f}" if first["true_length_m"] else ""
+            text.append(table(("system", f"length of the path [m]{true}"), [
                 (PEERS.get(row["system"], row["system"]), spread_of([run["length_m"] for run in row["runs"]], 5))
                 for row in rows]))
     return "\n".join(text)

@@ -49,7 +49,7 @@ void copy(const ImageView& from, Image& to) {
 
 std::optional<ImageDelay> ImageDelayFinder::find(const CornerMatcher& matcher, const StereoFrame& frame,
                                                  double max_disparity, DelaySizes sizes) const {
-  if (kept_.empty() || sizes.least > sizes.most) return std::nullopt;
+  if (kept_.empty()) return std::nullopt;
   const OnLines here = count(matcher, frame, max_disparity);
   if (here.fits()) return std::nullopt;
   for (int size = sizes.least; size <= sizes.most; ++size) {
@@ -57,7 +57,7 @@ std::optional<ImageDelay> ImageDelayFinder::find(const CornerMatcher& matcher, c
       const auto pair = delayed(frame, delay);
       if (!pair) continue;
       const OnLines sample = count(matcher, *pair, max_disparity, kSparseCorners);
-      if (sample.on_line < kPromisingOnLine * sample.aligned) continue;
+      if (sample.on_line <= kPromisingOnLine * sample.aligned) continue;
       if (const auto found = judged(delay, count(matcher, *pair, max_disparity), here)) return found;
     }
   }

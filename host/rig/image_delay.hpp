@@ -19,7 +19,7 @@ struct ImageDelay {
   double on_line_here = 0;  ///< the same in the images as they are paired
 };
 
-/// Range of frames by which one camera or the other may be late.
+/// Range of delays, in frames, of one camera or the other.
 struct DelaySizes {
   static constexpr int kMost = 7;
   int least = 1, most = kMost;
@@ -56,7 +56,7 @@ class ImageDelayFinder {
 };
 
 /// Which delays a frame is examined for: all as soon as the images fit worse; while they can be tracked all the same,
-/// one per frame, since each takes two searches, in rounds that become rarer.
+/// those of one size per frame, since each takes a search, in rounds that become rarer.
 class DelayRounds {
  public:
   /// The delays due in the next frame, called for every frame; an empty range between rounds.

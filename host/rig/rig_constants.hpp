@@ -119,7 +119,7 @@ constexpr double kPartnerOnLine = 0.6;
 constexpr double kLeftLines = 0.6;
 /// Frames that have to agree before every frame is measured.
 constexpr int kDelayVotes = 2;
-/// Aligned corners on their lines, below which a delay is looked for, and of a sample, below which a partner is none.
+/// Aligned corners on their lines below which a delay is looked for, and in a sample those above which all are tried.
 constexpr double kDoubtfulOnLine = 0.7, kPromisingOnLine = 0.4;
 /// Frames between rounds that look for a delay: after the first, and at most.
 constexpr int kDelayPeriod = 5, kLongestDelayPeriod = 50;
