@@ -67,9 +67,7 @@ NAMES = ("DATA is the folder with the [excerpts](../accuracy.md#excerpts), OUT a
 def render(name, results):
     """A table, or a note that it is missing."""
     part = PART_OF.get(name, name)
-    if part in results:
-        return TABLES[name](results)
-    return f"*Not measured yet: `scripts/measure.py --only {part}`.*\n"
+    return TABLES[name](results) if part in results else f"*Not measured yet: `scripts/measure.py --only {part}`.*\n"
 
 
 def page(part, results):
