@@ -45,12 +45,12 @@ PAGES = {
                    "## Poses\n\nAgainst those of PoCL on a CPU.", "gpu-poses",
                    "## Kernel variants\n\nMedian, and its ratio to that of the default.", "gpu-variants")),
     "disturbances": ("Disturbances", "Mean error of a step in mm, with the numbers of wrong and lost steps if there are"
-                     " any, in images of 640 x 332 pixels. [accuracy.md](../accuracy.md#disturbances) sums up.",
+                     " any, in images of 640 x 332 pixels. [disturbances.md](../disturbances.md) sums up.",
                      ("disturbances",)),
     "light": ("Low light and low contrast", "Contrast scales the final image, including its noise: 0.05 in 8 bits"
               " leaves about ten grey levels. Light applies to all frames, with camera noise of 8 grey levels, gamma to"
               " both cameras. The fixed edge threshold is 2 grey levels per pixel."
-              " [accuracy.md](../accuracy.md#disturbances) sums up.", ("light",)),
+              " [disturbances.md](../disturbances.md) sums up.", ("light",)),
     "paper": ("The paper's method", "[paper.md](../paper.md) explains the tables.", (
         "## Table 1: stereo\n\nRecall / precision [%] / ambiguity. Precision is the mean over edges with candidates,"
         " ambiguity the paper's: candidates per edge of the pool less 1.", "paper-stereo",
