@@ -23,10 +23,10 @@ SIZED = {"host", "include", "kernels", "python", "bench", "scripts", "tests"}
 MOST_LINES = {
     "bench": 570,
     "host/benchmark": 990,
-    "host/cli": 4720,
+    "host/cli": 4780,
     "host/common": 2360,
     "host/data": 6130,
-    "host/data/calibrations": 1980,
+    "host/data/calibrations": 2150,
     "host/evaluation": 600,
     "host/frontend": 2790,
     "host/odometry": 2980,
@@ -44,7 +44,7 @@ MOST_LINES = {
     "kernels": 5210,
     "python": 11460,
     "scripts": 3080,
-    "tests": 33900,
+    "tests": 34070,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

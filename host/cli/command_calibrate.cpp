@@ -1,6 +1,7 @@
 /// \file command_calibrate.cpp  quadedge calibrate: the calibration of a rig, learned from a recording with it.
 #include <cstdio>
 
+#include "cli/calibration_export.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/rig_learning.hpp"
@@ -25,6 +26,7 @@ class CalibrateCommand : public Command {
         "-o,--output", output_,
         "file for the given or the learned calibration, whichever is better, in the program's own format, for "
         "--calibration");
+    export_.declare(options);
     options.output("--picture", picture_,
                    "draw the displacement of pixels of both images between the two calibrations (PNG)");
     options.output("--json", json_, "write verdict, numbers and covariance");
@@ -45,6 +47,7 @@ class CalibrateCommand : public Command {
       throw UsageError("--most-frames " + std::to_string(limits_.frames) + ": expected 2 or more");
     set_frames(dataset_, frames_);
     for (const std::string& file : {output_, picture_, json_}) report::check_output_file(file, force_);
+    export_.check(force_);
     const Dataset dataset = source_.open(dataset_);
     const Interruption interruption;
     const DriveCalibration result = learn_rig(dataset, limits_, quiet_, interruption);
@@ -55,11 +58,13 @@ class CalibrateCommand : public Command {
     std::printf("%s\n", result.text().c_str());
     if (!output_.empty() && result.verdict != CalibrationVerdict::better)
       std::printf("%s holds the given calibration\n", output_.c_str());
+    export_.write(result.calibration);
     return 0;
   }
 
  private:
   std::string output_, picture_, json_, frames_;
+  CalibrationExport export_;
   SourceOptions source_;
   DatasetOptions dataset_;
   LearningLimits limits_;

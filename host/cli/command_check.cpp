@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "cli/calibration_check.hpp"
+#include "cli/calibration_export.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/source_options.hpp"
@@ -31,9 +32,10 @@ class CheckCommand : public Command {
     options.text("--sequence", options_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
     options.output("--write-calibration", calibration_,
                    "write the cameras in the program's own format, for --calibration");
+    export_.declare(options);
     options.flag("--correct", correct_,
                  "also correct the right camera's pitch, roll and focal length, as estimated from vertical residuals");
-    options.flag("--force", force_, "replace the file that --write-calibration names");
+    options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);
     source_.declare_restarts(options);
@@ -41,8 +43,10 @@ class CheckCommand : public Command {
   int run() override {
     path_ = source_.path();
     if (!source_.is_given()) throw UsageError("nothing to check: expected PATH, or --left, --right and --calibration");
-    if (correct_ && calibration_.empty()) throw UsageError("--correct is for --write-calibration");
+    if (correct_ && calibration_.empty() && export_.empty())
+      throw UsageError("--correct is for --write-calibration, --kalibr, --opencv and --ros");
     report::check_output_file(calibration_, force_);
+    export_.check(force_);
     if (!source_.is_own_camera() && is_tree()) return check_tree();
     return print(check_recording());
   }
@@ -57,9 +61,10 @@ class CheckCommand : public Command {
     const StereoCalibration corrected = evidence.finish(check);
     if (!check.errors.empty()) return check;
     const Dataset& dataset = evidence.dataset();
-    if (!calibration_.empty())
-      write_calibration(calibration_,
-                        correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
+    const StereoCalibration written =
+        correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig));
+    if (!calibration_.empty()) write_calibration(calibration_, written);
+    export_.write(written);
     return check;
   }
 
@@ -78,7 +83,7 @@ class CheckCommand : public Command {
   /// Is PATH a folder of recordings instead of one? (A KITTI folder with a single sequence counts as that sequence.)
   bool is_tree() {
     std::error_code ignored;
-    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() ||
+    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() || !export_.empty() ||
         source_.has_camera_options() || !std::filesystem::is_directory(path_, ignored))
       return false;
     const auto members = data::find_members(path_);
@@ -108,6 +113,7 @@ class CheckCommand : public Command {
   }
 
   std::string path_, calibration_;
+  CalibrationExport export_;
   SourceOptions source_;
   DatasetOptions options_;
   bool correct_ = false, force_ = false, quiet_ = false;

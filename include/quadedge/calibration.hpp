@@ -30,8 +30,14 @@ struct StereoCalibration {
 /// value expected.
 StereoCalibration read_calibration(const std::string& files, bool rectified = false);
 
-/// Writes the native format: ten entries, see doc/your-own-data.md. \throws DataError if the file cannot be written.
-void write_calibration(const std::string& file, const StereoCalibration& calibration);
+/// The formats that write_calibration() knows: kalibr, native (QuadEdge's own), opencv, ros.
+std::vector<std::string> calibration_formats();
+
+/// Writes a format of doc/your-own-data.md, with exact numbers. `files`: one path, or two separated by a comma (left,
+/// right) for ros, whose R and P rectify the images. \throws UsageError if the format is unknown or cannot hold the
+/// lenses, DataError if a file cannot be written.
+void write_calibration(const std::string& files, const StereoCalibration& calibration,
+                       const std::string& format = "native");
 
 /// Derives the rig of pinhole cameras to which the recorded images are resampled, at the same image size. The rig has
 /// undistortion tables for lenses with distortion, and masks for pinhole pixels without a recorded counterpart. `fov`:

@@ -63,11 +63,15 @@ void bind_calibration(nb::module_& module) {
           "The rig to track with: the learned one if it is better, else the given one. fov: as in Rig.from_file().")
       .def(
           "write",
-          [](const Self& self, const std::filesystem::path& path) {
-            write_calibration(path.string(), self.calibration);
+          [](const Self& self, const std::filesystem::path& path, const std::string& format) {
+            write_calibration(path.string(), self.calibration, format);
           },
-          "path"_a, nb::sig("def write(self, path: str | os.PathLike) -> None"),
-          "Writes the calibration to use in QuadEdge's own format, which Rig.from_file() and the program read.")
+          "path"_a, "format"_a = "native",
+          nb::sig("def write(self, path: str | os.PathLike, format: str = 'native') -> None"),
+          "Writes the calibration to use. format: \"native\", QuadEdge's own; \"kalibr\"; \"opencv\"; or \"ros\", "
+          "whose\n"
+          "path is \"LEFT,RIGHT\". Rig.from_file() and the program read all of them.\n\n"
+          "Raises UsageError if the format cannot hold the lenses.")
       .def("__repr__", [](const Self& self) { return std::string("<Calibration: ") + to_string(self.verdict) + ">"; });
 
   module.def(

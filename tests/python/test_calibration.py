@@ -24,6 +24,10 @@ def test_a_sound_rig_stays_and_a_turned_camera_is_learned(walk, tmp_path):
     numpy.testing.assert_array_equal(sound.rig().right_from_left, dataset.rig.right_from_left)
     sound.write(given)
     assert quadedge.Rig.from_file(given).baseline == dataset.rig.baseline
+    sound.write(tmp_path / "stereo.yml", "opencv")
+    assert quadedge.Rig.from_file(tmp_path / "stereo.yml").baseline == dataset.rig.baseline
+    with pytest.raises(quadedge.UsageError, match="matlab.*kalibr, native, opencv"):
+        sound.write(tmp_path / "rig.txt", "matlab")
 
     turned = tmp_path / "turned.yaml"
     turned.write_text(re.sub(r"rotation: \[.*\]", "rotation: [0.0035, 0, 0]", given.read_text()))

@@ -2,9 +2,13 @@
 /// echo` print it: the recording camera (K, D), the rotation that rectifies its images (R), and the rectified camera
 /// (P, whose fourth column is -fx' times its distance from the reference camera).
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "data/calibrations/forms.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -68,7 +72,60 @@ const Names& names_of(const YamlMap& camera) {
   return kNames[camera.has("camera_matrix") ? 0 : camera.has("K") ? 1 : 2];
 }
 
+/// Rotations from both cameras to images whose rows are epipolar lines, and the pinhole camera of these images. What is
+/// on the optical axes stays where it is in the recorded images, on average.
+struct RectifiedPair {
+  Eigen::Matrix3d from_left, from_right;
+  double focal = 0;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+};
+
+RectifiedPair rectify(const StereoCalibration& calibration) {
+  const Eigen::Matrix3d left_from_right = calibration.right_from_left.linear().transpose();
+  const Eigen::Vector3d baseline = -(left_from_right * calibration.right_from_left.translation());
+  if (std::abs(baseline.x()) < std::abs(baseline.y()))
+    throw UsageError("format ros: expected cameras beside one another, not one above the other");
+  RectifiedPair pair;
+  const Eigen::Vector3d x = baseline.normalized(),
+                        y = (Eigen::Vector3d::UnitZ() + left_from_right.col(2)).cross(x).normalized();
+  pair.from_left << x.transpose(), y.transpose(), x.cross(y).transpose();
+  pair.from_right = pair.from_left * left_from_right;
+  pair.focal = 0.5 * (calibration.left.camera.fy + calibration.right.camera.fy);
+  const auto add = [&](const PinholeCamera& camera, const Eigen::Vector3d& axis) {
+    pair.centre += 0.5 * (Eigen::Vector2d(camera.cx, camera.cy) - pair.focal * axis.hnormalized());
+  };
+  add(calibration.left.camera, pair.from_left.col(2));
+  add(calibration.right.camera, pair.from_right.col(2));
+  return pair;
+}
+
+std::string camera_info(const Lens& lens, Side side, const RectifiedPair& pair, double offset) {
+  std::vector<double> coefficients = lens.parameters;
+  std::string model = "equidistant";
+  if (lens.model == LensModel::radial_tangential) {
+    while (coefficients.size() > 8 && coefficients.back() == 0) coefficients.pop_back();
+    model = coefficients.size() > 5 ? "rational_polynomial" : "plumb_bob";
+    if (coefficients.size() < 5) coefficients.resize(5);
+  }
+  if (coefficients.size() > 8 || (lens.model != LensModel::radial_tangential && lens.model != LensModel::equidistant))
+    refuse_lens("ros", lens, side, "equidistant, or radtan with at most k1 k2 p1 p2 k3 k4 k5 k6");
+  const PinholeCamera& camera = lens.camera;
+  const double f = pair.focal, x = pair.centre.x(), y = pair.centre.y();
+  return "image_width: " + std::to_string(camera.width) + "\nimage_height: " + std::to_string(camera.height) +
+         "\ncamera_name: " + (side == Side::left ? "left" : "right") + "\n" +
+         matrix_lines("camera_matrix", 3, row_major(camera.matrix())) + "distortion_model: " + model + "\n" +
+         matrix_lines("distortion_coefficients", 1, coefficients) +
+         matrix_lines("rectification_matrix", 3, row_major(side == Side::left ? pair.from_left : pair.from_right)) +
+         matrix_lines("projection_matrix", 3, {f, 0, x, f * offset, 0, f, y, 0, 0, 0, 1, 0});
+}
+
 }  // namespace
+
+std::vector<std::string> write_camera_infos(const StereoCalibration& calibration) {
+  const RectifiedPair pair = rectify(calibration);
+  return {camera_info(calibration.left, Side::left, pair, 0),
+          camera_info(calibration.right, Side::right, pair, -calibration.right_from_left.translation().norm())};
+}
 
 LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word) {
   for (const char* name : {"plumb_bob", "rational_polynomial", "radtan", "radial-tangential", "none", ""})

@@ -8,9 +8,11 @@
 
 #include "common/calibration.hpp"
 #include "common/printed.hpp"
+#include "data/atomic_file.hpp"
 #include "data/file_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
+#include "data/toml_file.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 
@@ -182,9 +184,9 @@ const std::vector<CalibrationForm>& calibration_forms() {
       {"euroc", "EuRoC's sensor.yaml (T_BS)", true,
        [](Text text) { return text.has("T_BS") || text.has("sensor_type"); }, of_maps<read_euroc_sensors>},
       {"ros", "ROS camera_info, as files or as `rostopic echo` prints it (camera_matrix or K, D, R, P)", true,
-       is_camera_info, of_maps<read_camera_infos>},
+       is_camera_info, of_maps<read_camera_infos>, write_camera_infos},
       {"kalibr", "a Kalibr camera chain (cam0, cam1)", false, [](Text text) { return text.has("cam0"); },
-       of_map<read_kalibr_chain>},
+       of_map<read_kalibr_chain>, write_kalibr_chain},
       {"orb-slam", "ORB-SLAM2 or ORB-SLAM3 settings (Camera1.fx or Camera.fx)", false,
        [](Text text) { return text.has("Camera1.fx") || (text.has("Camera.fx") && !text.has("Camera.setup")); },
        of_map<read_orb_slam_settings>},
@@ -213,9 +215,9 @@ const std::vector<CalibrationForm>& calibration_forms() {
       {"stereo-dso", "Stereo DSO's camera.txt (with the baseline in its fifth line)", false, is_dso_camera,
        of_text<read_stereo_dso>},
       {"native", "a file written by `quadedge check --write-calibration` (left_model ...)", false,
-       [](Text text) { return text.has("left_model"); }, of_map<read_native_calibration>},
+       [](Text text) { return text.has("left_model"); }, of_map<read_native_calibration>, write_native_calibration},
       {"opencv", "OpenCV's stereo calibration in one or two files (M1 D1 M2 D2 R T, or K1 or cameraMatrix1 ...)", false,
-       is_opencv_stereo, read_opencv_stereo},
+       is_opencv_stereo, read_opencv_stereo, write_opencv_stereo},
       {"single", "", false,
        [](Text text) {
          return text.has("model_type") || text.has("projection_parameters") || text.has("camera_matrix") ||
@@ -266,6 +268,26 @@ StereoCalibration judged(const StatedCalibration& stated, const std::string& for
   for (const StatedCalibration& other : stated.of_rectified)
     calibration.of_rectified.push_back(judged(other, format, files));
   return calibration;
+}
+
+std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
+  return values;
+}
+
+std::string matrix_lines(const std::string& name, std::size_t rows, const std::vector<double>& values,
+                         const std::string& type) {
+  return name + ":" + (type.empty() ? "" : " " + type) + "\n   rows: " + std::to_string(rows) +
+         "\n   cols: " + std::to_string(values.size() / rows) + (type.empty() ? "" : "\n   dt: d") +
+         "\n   data: " + toml_text(values) + "\n";
+}
+
+void refuse_lens(const std::string& form, const Lens& lens, Side side, const std::string& expected) {
+  throw UsageError("format " + form + ": the " + (side == Side::left ? "left" : "right") + " lens is " +
+                   to_string(lens.model) + " with " + counted(lens.parameters.size(), "parameter") + ", expected " +
+                   expected);
 }
 
 Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where) {
@@ -388,6 +410,28 @@ StereoCalibration read_calibration(const std::string& files, bool rectified) {
     return data::judged(rectified ? stated.of_rectified.front() : stated, form.name, files);
   }
   data::fail_unknown(texts);
+}
+
+std::vector<std::string> calibration_formats() {
+  std::vector<std::string> names;
+  for (const data::CalibrationForm& form : data::calibration_forms())
+    if (form.write != nullptr) names.emplace_back(form.name);
+  return names;
+}
+
+void write_calibration(const std::string& files, const StereoCalibration& calibration, const std::string& format) {
+  std::string expected;
+  for (const data::CalibrationForm& form : data::calibration_forms()) {
+    if (form.write == nullptr) continue;
+    expected += (expected.empty() ? "" : ", ") + std::string(form.name);
+    if (form.name != format) continue;
+    const std::vector<std::string> texts = form.write(calibration),
+                                   names = form.has_two_files ? data::file_list(files) : std::vector{files};
+    if (names.size() != texts.size()) throw UsageError(files + ": expected two files for " + format + ": LEFT,RIGHT");
+    for (std::size_t i = 0; i < names.size(); ++i) data::write_atomically(names[i], texts[i]);
+    return;
+  }
+  throw UsageError("calibration format " + data::in_quotes(format) + ": expected one of " + expected);
 }
 
 }  // namespace quadedge

@@ -48,6 +48,8 @@ struct CalibrationForm {
   bool (*recognise)(const CalibrationText& text);
   /// \throws DataError
   StatedCalibration (*read)(const std::vector<CalibrationText>& texts);
+  /// The texts of the files; null: the form is only read. \throws UsageError for what it cannot hold
+  std::vector<std::string> (*write)(const StereoCalibration& calibration) = nullptr;
 };
 
 /// All forms, in the order in which they are tried.
@@ -74,6 +76,11 @@ StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& 
 StatedCalibration read_kitti_pair(const YamlMap& cameras);
 StatedCalibration read_native_calibration(const YamlMap& file);
 
+std::vector<std::string> write_kalibr_chain(const StereoCalibration& calibration);
+std::vector<std::string> write_camera_infos(const StereoCalibration& calibration);
+std::vector<std::string> write_opencv_stereo(const StereoCalibration& calibration);
+std::vector<std::string> write_native_calibration(const StereoCalibration& calibration);
+
 bool is_opencv_stereo(const CalibrationText& text);
 bool is_zed(const CalibrationText& text);
 bool is_realsense(const CalibrationText& text);
@@ -87,6 +94,14 @@ std::string yaml_of_python(const std::string& python);
 
 /// Reads a text and its entries, if it has any. \throws DataError as read_text()
 CalibrationText read_calibration_text(const std::string& file);
+
+/// Row-major numbers as the YAML of ROS; `type` "!!opencv-matrix": as that of OpenCV.
+std::string matrix_lines(const std::string& name, std::size_t rows, const std::vector<double>& values,
+                         const std::string& type = "");
+std::vector<double> row_major(const Eigen::MatrixXd& matrix);
+
+/// \throws UsageError that names the side and says which lenses the form can hold
+[[noreturn]] void refuse_lens(const std::string& form, const Lens& lens, Side side, const std::string& expected);
 
 /// Judges what a form states: numbers of the lenses, baseline, units; rounds the transform (see StereoCalibration).
 /// \throws DataError

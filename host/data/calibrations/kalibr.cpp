@@ -5,6 +5,7 @@
 #include "common/printed.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
+#include "data/toml_file.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -27,7 +28,50 @@ void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& ov
   right.complain("T_cn_cnm1", found, "T_cam_imu of cam1 times the inverse of cam0's: is the order right?");
 }
 
+/// The entries of a camera but its pose.
+std::string camera_lines(const Lens& lens, Side side) {
+  std::vector<double> coefficients = lens.parameters, intrinsics;
+  std::string model = "pinhole", distortion = "radtan";
+  const auto lead = [&](std::ptrdiff_t count) {  // parameters that stand before the focal lengths
+    intrinsics.assign(coefficients.begin(), coefficients.begin() + count);
+    coefficients.erase(coefficients.begin(), coefficients.begin() + count);
+  };
+  switch (lens.model) {
+    case LensModel::radial_tangential: break;
+    case LensModel::equidistant: distortion = "equidistant"; break;
+    case LensModel::field_of_view: distortion = "fov"; break;
+    case LensModel::omnidirectional:
+      model = "omni";
+      lead(1);
+      break;
+    case LensModel::double_sphere:
+    case LensModel::extended_unified:
+      model = lens.model == LensModel::double_sphere ? "ds" : "eucm";
+      distortion = "none";
+      lead(2);
+      break;
+  }
+  if (distortion == "radtan") {
+    while (coefficients.size() > 4 && coefficients.back() == 0) coefficients.pop_back();
+    if (coefficients.size() > 4) refuse_lens("kalibr", lens, side, "at most k1 k2 p1 p2, as Kalibr's radtan has them");
+    coefficients.resize(4);
+  }
+  const PinholeCamera& camera = lens.camera;
+  intrinsics.insert(intrinsics.end(), {camera.fx, camera.fy, camera.cx, camera.cy});
+  return "  camera_model: " + model + "\n  distortion_model: " + distortion +
+         "\n  distortion_coeffs: " + toml_text(coefficients) + "\n  intrinsics: " + toml_text(intrinsics) +
+         "\n  resolution: [" + std::to_string(camera.width) + ", " + std::to_string(camera.height) + "]\n";
+}
+
 }  // namespace
+
+std::vector<std::string> write_kalibr_chain(const StereoCalibration& calibration) {
+  std::string text = "cam0:\n" + camera_lines(calibration.left, Side::left) + "cam1:\n" +
+                     camera_lines(calibration.right, Side::right) + "  T_cn_cnm1:\n";
+  for (Eigen::Index i = 0; i < 4; ++i)
+    text += "  - " + toml_text(row_major(calibration.right_from_left.matrix().row(i))) + "\n";
+  return {text};
+}
 
 StatedCalibration read_kalibr_chain(const YamlMap& whole) {
   const YamlMap chain = whole.as("a Kalibr chain of two cameras, cam0 and cam1");

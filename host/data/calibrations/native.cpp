@@ -1,13 +1,11 @@
 /// \file native.cpp  The program's own calibration format: ten entries, exact numbers.
 
 #include "common/calibration.hpp"
-#include "data/atomic_file.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
 
-namespace quadedge {
-namespace data {
+namespace quadedge::data {
 namespace {
 
 /// The names that to_string() gives, and those of Kalibr, EuRoC and ROS.
@@ -60,18 +58,15 @@ StatedCalibration read_native_calibration(const YamlMap& file) {
   return calibration;
 }
 
-}  // namespace data
-
-void write_calibration(const std::string& file, const StereoCalibration& calibration) {
+std::vector<std::string> write_native_calibration(const StereoCalibration& calibration) {
   const Eigen::Vector3d rotation = rounded_rotation(calibration.right_from_left),
                         translation = rounded(calibration.right_from_left.translation());
-  data::write_atomically(
-      file,
+  return {
       "# Stereo calibration: pixels, metres, radians. Intrinsics fx fy cx cy; x_right = R x_left + translation, R "
       "the rotation by a vector.\n" +
-          data::lens_lines(calibration.left, "left_") + data::lens_lines(calibration.right, "right_") +
-          "rotation: " + data::list({rotation.x(), rotation.y(), rotation.z()}) +
-          "translation: " + data::list({translation.x(), translation.y(), translation.z()}));
+      lens_lines(calibration.left, "left_") + lens_lines(calibration.right, "right_") +
+      "rotation: " + list({rotation.x(), rotation.y(), rotation.z()}) +
+      "translation: " + list({translation.x(), translation.y(), translation.z()})};
 }
 
-}  // namespace quadedge
+}  // namespace quadedge::data

@@ -7,6 +7,7 @@
 
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -110,6 +111,30 @@ StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts) 
         rectified_cameras(*left->map, left->key, size(stated.left), *right->map, right->key, size(stated.right)));
   }
   return stated;
+}
+
+std::vector<std::string> write_opencv_stereo(const StereoCalibration& calibration) {
+  const Lens &left = calibration.left, &right = calibration.right;
+  if (left.camera.width != right.camera.width || left.camera.height != right.camera.height)
+    throw UsageError("format opencv: expected images of one size from both cameras");
+  std::string text = "%YAML:1.0\n---\nimage_width: " + std::to_string(left.camera.width) +
+                     "\nimage_height: " + std::to_string(left.camera.height) + "\n";
+  if (left.model == LensModel::equidistant) text += "distortion_model: equidistant\n";
+  const auto matrix = [&](const std::string& name, std::size_t rows, const std::vector<double>& values) {
+    text += matrix_lines(name, rows, values, "!!opencv-matrix");
+  };
+  for (const Side side : kSides) {
+    const Lens& lens = side == Side::left ? left : right;
+    if (lens.model != left.model ||
+        (lens.model != LensModel::radial_tangential && lens.model != LensModel::equidistant))
+      refuse_lens("opencv", lens, side, "both lenses to be radtan, or both equidistant");
+    const std::string number = side == Side::left ? "1" : "2";
+    matrix("M" + number, 3, row_major(lens.camera.matrix()));
+    matrix("D" + number, 1, lens.parameters.empty() ? std::vector<double>(5) : lens.parameters);
+  }
+  matrix("R", 3, row_major(calibration.right_from_left.linear()));
+  matrix("T", 3, row_major(calibration.right_from_left.translation()));
+  return {text};
 }
 
 }  // namespace quadedge::data
