@@ -23,7 +23,7 @@ SIZED = {"host", "include", "kernels", "python", "bench", "scripts", "tests"}
 MOST_LINES = {
     "bench": 570,
     "host/benchmark": 990,
-    "host/cli": 4780,
+    "host/cli": 4810,
     "host/common": 2360,
     "host/data": 6130,
     "host/data/calibrations": 2150,
@@ -37,14 +37,14 @@ MOST_LINES = {
     "host/pose": 3460,
     "host/reference": 2520,
     "host/report": 2510,
-    "host/rig": 4660,
+    "host/rig": 4690,
     "host/stages": 2270,
     "host/synthetic": 2980,
     "include": 2240,
     "kernels": 5210,
-    "python": 11460,
+    "python": 11510,
     "scripts": 3080,
-    "tests": 34070,
+    "tests": 34120,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

@@ -204,6 +204,15 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(again.text() == mended.text());
 }
 
+TEST_CASE("drive calibration: a rig so wrong that most points count as outliers is not as good as given", "[rig]") {
+  StereoCalibration wrong = room_calibration();
+  wrong.right_from_left.linear() = rotation_by({1.3 * kDegree, 0, 0});  // 5.2 px
+  const DriveCalibration mended = learned_in_room(wrong);
+  INFO(mended.text());
+  CHECK(mended.verdict != CalibrationVerdict::as_good);
+  CHECK((mended.unseen_given[0] >= 2 && mended.unseen_given[1] >= 2));
+}
+
 TEST_CASE("drive calibration: a camera that stands shows nothing, and says what to do", "[rig]") {
   const StereoCalibration truth = room_calibration();
   DriveCalibrator calibrator(truth, make_rig(truth));
@@ -239,4 +248,7 @@ TEST_CASE("run: --calibrate says what it learned and leaves it beside the result
   CHECK_THAT(run.err, Contains("this recording cannot show it"));
   CHECK_THAT(read_text(folder / "out/rig.json"), Contains("cannot_show"));
   CHECK_THAT(read_text(folder / "out/rig.yaml"), Contains("left_model: radtan"));
+  const auto again = run_program({"run", small_sequence(), "-o", folder / "out", "--calibrate", "--quiet"});
+  CHECK(again.code == 2);
+  CHECK_THAT(again.err, Contains("holds results") && !Contains("cannot show it"));  // before it learns
 }

@@ -5,6 +5,7 @@
 #include "quadedge/dataset.hpp"
 #include "quadedge/odometry.hpp"
 #include "rig/image_delay.hpp"
+#include "rig/rig_constants.hpp"
 #include "rig/rig_monitor.hpp"
 
 using namespace quadedge;
@@ -165,4 +166,19 @@ TEST_CASE("image delay: recordings whose right images are late by one, two and s
     for (const int delay : judge(views, 0).delays) CHECK(delay == 0);
     for (const int late : {1, 2, 7}) check_late(views, late, 2);
   }
+}
+
+TEST_CASE("image delay: a delay is forgotten once the images have fitted for long", "[rig]") {
+  rig::DelayVotes votes;
+  const rig::ImageDelay late{1, 0.9, 0.2};
+  votes.add(late);
+  CHECK_FALSE(votes.decided());
+  votes.add(late);
+  CHECK(votes.decided() == 1);
+  for (int i = 1; i < rig::kDelayForgotten; ++i) votes.add(std::nullopt);
+  CHECK(votes.decided() == 1);
+  votes.add(std::nullopt);
+  CHECK_FALSE(votes.decided());
+  votes.add(late);
+  CHECK_FALSE(votes.decided());  // as at the start
 }

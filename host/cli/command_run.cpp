@@ -71,7 +71,10 @@ class RunCommand : public Command {
     if (!name_.empty()) dataset.name = name_;
     if (run_.output.empty()) run_.output = report::default_output_folder(dataset.name);
     const Interruption interruption;
-    if (calibrates_) calibrate(dataset, interruption);
+    if (calibrates_) {
+      report::refuse_results(run_.output, run_.force);
+      calibrate(dataset, interruption);
+    }
     FrameSource source(
         std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());
     if (run_.draw_every == 0 && run_.thumbnails == 0) {

@@ -58,7 +58,9 @@ PointsOutput::PointsOutput(const PointFiles& files, const Config& config) : file
 void PointsOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   if (!cloud_ || !cloud_->add(frame.view(), result, odometry)) return;
   const StereoRig& rig = odometry.rig();
-  if (cloud_->views().size() == 1) rig_ = corrected_rig(rig, {});
+  RigEstimate known = result.rig;  // a displacement is that of one image
+  known.displacement = known.displacement_sigma = 0;
+  rig_ = corrected_rig(rig, known);
   if (files_.colmap.empty()) return;
   const int number = cloud_->views().back().frame;
   write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);

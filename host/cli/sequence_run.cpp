@@ -127,6 +127,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
                   report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
+  if (options.profile && device.is_reference())
+    throw UsageError("--profile measures kernels, and the reference device has none");
   bench::add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, known, run);
   StereoOdometry& odometry = *pipeline;
@@ -174,6 +176,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       show_progress(run, lost, progress);
       if (interruption.signal() != 0) break;
     }
+    write_loops(false);
   } catch (const Error&) {
     if (run.frames.empty()) throw;
     try {
@@ -182,7 +185,6 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     }
     throw;
   }
-  write_loops(false);
   if (run.input.frames == 0) run.input.frames = static_cast<int>(run.frames.size());
   run.input.dropped = source.dropped();
   run.device_peak_mb = device_peak_mb(device, odometry);
@@ -194,7 +196,6 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
                     const Interruption& interruption, report::RunRecord& run) {
   source.rewind();
   Device device = method.open_device(true);
-  if (device.is_reference()) throw UsageError("--profile measures kernels, and the reference device has none");
   StereoOdometry odometry(source.rig(), device, run.config);
   source.prepare();
   Progress progress(options.quiet, "frames");
@@ -316,7 +317,15 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   if (run.frames.empty()) end_if_interrupted(interruption, source);
   points.write();
   run.points = points.facts();
-  if (options.profile && interruption.signal() == 0) profile_frames(source, method, options, interruption, run);
+  if (options.profile && interruption.signal() == 0) {
+    try {
+      profile_frames(source, method, options, interruption, run);
+    } catch (const Error& error) {
+      run.kernel_times.clear();
+      end_with_error(error, run.frames.size(), options.output,
+                     {[&] { write_results(source, options, sample, known, run); }});
+    }
+  }
   if (interruption.signal() != 0) {
     const bool knows_all = run.input.frames > static_cast<int>(run.frames.size());
     run.ended_early = "interrupted after " + (knows_all ? std::to_string(run.frames.size()) + " of " : "") +

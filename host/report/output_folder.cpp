@@ -29,6 +29,16 @@ bool is_result(const fs::path& file) {
          std::find(std::begin(kResultFiles), std::end(kResultFiles), name) != std::end(kResultFiles);
 }
 
+/// In alphabetical order; none for a folder that does not exist.
+std::vector<fs::path> results_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (is_result(entry.path().filename())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 bool is_picture(const fs::path& file) {
   const std::string name = file.filename().string();
   if (file.extension() == ".jpg") return name.rfind("thumbnail_", 0) == 0 || name.rfind("pair_", 0) == 0;
@@ -123,21 +133,20 @@ bool FolderLock::is_removed() const {
   return stat(name_.c_str(), &named) != 0 || held.st_ino != named.st_ino || held.st_dev != named.st_dev;
 }
 
+void refuse_results(const std::string& path, bool force) {
+  const std::vector<fs::path> old = results_in(path);
+  if (force || old.empty()) return;
+  throw UsageError(path + ": the folder holds results (" + old.front().filename().string() +
+                   "); choose another folder with -o, or replace them with --force");
+}
+
 FolderLock prepare_output_folder(const std::string& path, bool force) {
   const fs::path folder(path);
   data::make_folder(folder / "pictures");
   std::error_code error;
   FolderLock lock((folder / ".lock").string(), path);
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_result(entry.path().filename())) old.push_back(entry.path());
-  std::sort(old.begin(), old.end());
-  for (const fs::path& file : old) {
-    if (!force)
-      throw UsageError(path + ": the folder holds results (" + file.filename().string() +
-                       "); choose another folder with -o, or replace them with --force");
-    data::remove_all(file);
-  }
+  refuse_results(path, force);
+  for (const fs::path& file : results_in(folder)) data::remove_all(file);
   for (const auto& entry : fs::directory_iterator(folder / "pictures", error)) {
     if (is_picture(entry.path())) fs::remove(entry.path(), error);
   }

@@ -36,6 +36,9 @@ class FolderLock {
 /// that cannot be made or written.
 [[nodiscard]] FolderLock prepare_output_folder(const std::string& path, bool force);
 
+/// Before long work: refuses a folder that prepare_output_folder() would refuse for its results. \throws UsageError.
+void refuse_results(const std::string& path, bool force);
+
 /// Refuses outputs that name the same file, and one that names a file of `inputs`; folders, devices and empty names
 /// aside. \throws UsageError.
 void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);

@@ -77,10 +77,15 @@ class DriveCalibrator::Implementation {
                     std::to_string(image.height) + " pixels, expected " + std::to_string(camera.width) + " x " +
                     std::to_string(camera.height) + " as the calibration says");
   }
-  std::array<double, 2> unseen(const Pairs& pairs, const Eigen::VectorXd& values) const {
+  /// Medians of the distances, and how many points they are of.
+  struct Unseen {
+    std::array<double, 2> distances;
+    int points;
+  };
+  Unseen unseen(const Pairs& pairs, const Eigen::VectorXd& values) const {
     rig::PairAdjustment adjustment(unknowns_, pairs);
     adjustment.fit(values);
-    return adjustment.residuals();
+    return {adjustment.residuals(), adjustment.points()};
   }
 
   StereoCalibration given_;
@@ -101,11 +106,14 @@ void DriveCalibrator::Implementation::judge_unseen(DriveCalibration& result) con
   for (std::size_t i = 0; i < pairs_.size(); ++i) halves[4 * i / pairs_.size() % 2].push_back(&pairs_[i]);
   for (int half = 0; half < 2; ++half) {
     const Eigen::VectorXd values = rig::PairAdjustment(unknowns_, halves[half]).learn();
-    const auto given = unseen(halves[1 - half], Eigen::VectorXd::Zero(unknowns_.count())),
-               learned = unseen(halves[1 - half], values);
+    const Unseen given = unseen(halves[1 - half], Eigen::VectorXd::Zero(unknowns_.count())),
+                 learned = unseen(halves[1 - half], values);
+    // A calibration that is far off leaves few points below the limit of outliers, whose median says nothing: those
+    // above it are the most.
+    const double least = 2 * given.points < learned.points ? rig::PairAdjustment::kFitLimit : 0;
     for (std::size_t side = 0; side < 2; ++side) {
-      result.unseen_given[side] += given[side] / 2;
-      result.unseen_learned[side] += learned[side] / 2;
+      result.unseen_given[side] += std::max(least, given.distances[side]) / 2;
+      result.unseen_learned[side] += learned.distances[side] / 2;
     }
   }
 }

@@ -107,9 +107,13 @@ void DelayRounds::hasten() {
   wait_ = 0;
 }
 
-std::optional<int> DelayVotes::add(const std::optional<ImageDelay>& found) {
-  if (found && ++votes_[found->frames] >= kDelayVotes) decided_ = found->frames;
-  return decided_;
+void DelayVotes::add(const std::optional<ImageDelay>& found) {
+  if (found) {
+    frames_without_ = 0;
+    if (++votes_[found->frames] >= kDelayVotes) decided_ = found->frames;
+  } else if (++frames_without_ >= kDelayForgotten) {
+    *this = {};
+  }
 }
 
 }  // namespace quadedge::rig

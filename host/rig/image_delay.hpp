@@ -71,15 +71,18 @@ class DelayRounds {
   int size_ = 1, wait_ = 0, period_ = 0;
 };
 
-/// What successive frames say of the delay.
+/// What successive frames say of the delay. Forgets it once enough of them in a row fit as they are paired: a pair that
+/// a driver once mixed up must not cost frames hours later.
 class DelayVotes {
  public:
-  /// Adds what a frame says. \returns the delay on which enough frames agree, the last such one; nothing before
-  std::optional<int> add(const std::optional<ImageDelay>& found);
+  /// Adds what a frame says.
+  void add(const std::optional<ImageDelay>& found);
+  /// The delay on which enough frames agree, the last such one; nothing before.
   std::optional<int> decided() const { return decided_; }
 
  private:
   std::map<int, int> votes_;
+  int frames_without_ = 0;  ///< since one was found
   std::optional<int> decided_;
 };
 

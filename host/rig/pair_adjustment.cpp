@@ -410,7 +410,7 @@ void PairAdjustment::fit(const Eigen::VectorXd& fixed) {
   start(values_);
   settle_points(values_, 12);
   cull(values_, 20);
-  optimise(values_, false, {{2, 8}, {4, 4}});
+  optimise(values_, false, {{2, 8}, {4, kFitLimit}});
 }
 
 std::vector<PairAdjustment::Residual> PairAdjustment::all_residuals() const {

@@ -37,6 +37,9 @@ class PairAdjustment {
     Eigen::VectorXd slope;        ///< half the derivative of the cost
   };
 
+  /// Distance of a point from a view up to which fit() keeps it [px].
+  static constexpr double kFitLimit = 4;
+
   /// \param unknowns, pairs must outlive the object
   PairAdjustment(const RigUnknowns& unknowns, const std::vector<const FramePair*>& pairs);
 

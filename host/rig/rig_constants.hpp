@@ -117,8 +117,9 @@ constexpr double kFittingOnLine = 0.7, kFittingFound = 0.3;
 constexpr double kPartnerOnLine = 0.6;
 /// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
 constexpr double kLeftLines = 0.6;
-/// Frames that have to agree before every frame is measured.
-constexpr int kDelayVotes = 2;
+/// Frames that have to agree before every frame is measured, and frames without a delay after which it is forgotten: as
+/// many as a vehicle may wait at a light, where images of all moments fit.
+constexpr int kDelayVotes = 2, kDelayForgotten = 600;
 /// Aligned corners on their lines below which a delay is looked for, and in a sample those above which all are tried.
 constexpr double kDoubtfulOnLine = 0.7, kPromisingOnLine = 0.4;
 /// Frames between rounds that look for a delay: after the first, and at most.

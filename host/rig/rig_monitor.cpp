@@ -281,9 +281,11 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
   if (!is_interlaced_ && frames_++ % kCombPeriod == 0) is_interlaced_ = judge_rows(frame.left, report);
   const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
-  if (!region || report.mismatch() != nullptr) return report;
+  if (!region) return report;
+  if (auto_mask_ && region->is_released) report.new_mask = region->mask;  // else nobody would uncover it
+  if (report.mismatch() != nullptr) return report;
   const bool is_masked = !region->mask.empty();
-  if (auto_mask_ && (is_masked || region->is_released)) report.new_mask = region->mask;
+  if (auto_mask_ && is_masked) report.new_mask = region->mask;
   if (region->is_released || (is_masked && !auto_mask_)) return report;
   report.findings.push_back({is_masked ? RigFindingKind::masked_region : RigFindingKind::static_region});
   report.findings.back().region = *region;

@@ -362,6 +362,7 @@ void bind_result_files(nb::module_& module) {
           "__init__",
           [](ResultFiles* self, const std::filesystem::path& folder, Odometry& odometry, const std::string& name,
              const std::string& command, bool force) {
+            const ReleasedGil released;
             new (self) ResultFiles(std::move(*odometry.result_files(folder.string(), {name, command}, force)));
           },
           "folder"_a, "odometry"_a, "name"_a, "command"_a = "", "force"_a = false)
@@ -455,7 +456,7 @@ void bind_odometry(nb::module_& module) {
                    "Kernel variant of every stage, by the stage's name; empty on the plain C++ reference.")
       .def("set_tap", &Odometry::set_tap, kReleasesGil, "tap"_a.none(), nb::keep_alive<1, 2>(),
            "Observes all filters in the following frames with a Tap; None stops.")
-      .def("restart", &Odometry::restart,
+      .def("restart", &Odometry::restart, kReleasesGil,
            "Forgets all earlier frames: the next one may have any stamp, and starts a new segment at the last pose,\n"
            "which is no measurement. For clocks that were set, and recordings that were joined.")
       .def("close", &Odometry::close, kReleasesGil,

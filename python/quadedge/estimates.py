@@ -84,7 +84,8 @@ class Estimates:
     """The base in every tracked frame. base_from_camera: pose (4, 4) of the left camera's optical frame in the base's.
 
     The pose and the twist of an ambiguous frame are not known, nor is the pose of a frame that was measured from one
-    whose own is not, nor that of any segment after the first.
+    whose own is not, nor that of any segment after the first. A twist is known only from a frame whose place is, or
+    that the motion was measured from.
     """
 
     def __init__(self, base_from_camera: numpy.ndarray):
@@ -93,10 +94,12 @@ class Estimates:
         self._keys: dict[int, bool] = {}  # by the number of a keyframe, whether its pose is known
         self._new_key: bool | None = None  # the same of the newest one, until a frame names its number
         self._is_known = True  # the same of the last frame with a pose
+        self._doubt = False  # of the last frame
 
     def add(self, result, doubt: bool = False) -> Estimate | None:
         """The base in the next frame; None if it is lost. doubt: whether images or stamps make the motion doubtful."""
         last, self._last = self._last, result
+        doubted, self._doubt = self._doubt, doubt
         if not result.is_tracked:
             self._twist = None
             return None
@@ -106,7 +109,9 @@ class Estimates:
         if result.new_key_rig and not is_first:
             self._new_key = self._is_known
         pose, covariance = of_base(result.world_from_left, result.covariance, self.base_from_camera)
-        twist = twist_between(last, result, self.base_from_camera) if is_clear else None
+        is_placed = last is None or not last.ambiguous_motion or (
+            last.new_key_rig or result.diagnostics.base_frame != result.reference_frame)  # measured from it
+        twist = twist_between(last, result, self.base_from_camera) if is_clear and is_placed and not doubted else None
         if twist is not None:
             twist = self._at_stamp(*twist, (result.stamp_ns - last.stamp_ns) / 1e9)
         else:

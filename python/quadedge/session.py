@@ -84,8 +84,6 @@ class Session:
 
     def keep(self, result) -> None:
         """Writes the result of the next frame and prints its warnings. Raises DataError if it cannot be written."""
-        if self._files:
-            self._files.add(result)
         last, self._last = self._last, result
         for warning in result.warnings:
             self._say(f"warning: frame {self.frames}: {warning.text}")
@@ -96,6 +94,12 @@ class Session:
         elif last is not None and last.segment != result.segment and not result.warnings:
             self._say(f"warning: frame {self.frames}: {result.message}")
         self.frames += 1
+        if self._files:
+            self._files.add(result)
+
+    def end_files(self) -> None:
+        """Keeps no more results. Those of the frames so far stay as they are, without a report."""
+        self._files = None
 
     def close(self) -> None:
         """Finishes the results and releases the device. Raises DataError for results that cannot be written; the

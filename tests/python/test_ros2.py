@@ -823,14 +823,27 @@ def test_what_is_measured_from_an_ambiguous_frame_is_not_known():
     assert add(new_key_rig=True) == (True, False)  # frame 0
     assert add() == (True, True)
     assert add(ambiguous_motion=True) == (False, False)
-    assert add() == (True, True)  # measured from frame 0
-    assert add(ambiguous_motion=True, new_key_rig=True) == (False, False)  # frame 4
-    assert add(reference_frame=4, base_frame=4) == (False, True)
+    assert add() == (True, False)  # measured from frame 0, not from the ambiguous one
+    assert add() == (True, True)
+    assert add(ambiguous_motion=True, new_key_rig=True) == (False, False)  # frame 5
+    assert add(reference_frame=5, base_frame=5) == (False, True)
     assert add(is_tracked=False) is None
-    assert add(reference_frame=4, base_frame=5, new_key_rig=True) == (False, False)  # frame 7
-    assert add(reference_frame=7, base_frame=7) == (False, True)
+    assert add(reference_frame=5, base_frame=6, new_key_rig=True) == (False, False)  # frame 8
+    assert add(reference_frame=8, base_frame=8) == (False, True)
     assert add() == (True, False)  # measured from frame 0 again
     assert add(segment=1) == (False, False)
+
+
+def test_a_twist_from_a_doubtful_frame_is_not_known():
+    """A driver repeats an image: the next motion is that of two intervals."""
+    def has_twist(doubt=False, **more):
+        return estimates.add(result_at(next(times), numpy.eye(4), **more), doubt).twist is not None
+
+    estimates, times = Estimates(BODY_FROM_OPTICAL), itertools.count(1)
+    assert not has_twist(new_key_rig=True) and has_twist()
+    assert not has_twist(doubt=True) and not has_twist() and has_twist()
+    # Measured from an ambiguous frame itself, as the keyframe is out of view: where that frame is does not matter.
+    assert not has_twist(ambiguous_motion=True) and has_twist(base_frame=5, new_key_rig=True)
 
 
 def test_static_frames_are_followed_through_a_common_one():

@@ -1,6 +1,7 @@
 """``python -m quadedge.bag``: tracks a ROS recording."""
 
 import argparse
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from typing import BinaryIO
 
 import numpy
 
+from ..errors import UsageError
 from ..run_frames import read_frames
 from ..shell import exit_code, program
 from . import Recording, open_bag, write_mcap
@@ -103,9 +105,13 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
             recording.rig  # noqa: B018
         return 0
     recording.rig  # noqa: B018  before the program starts: its messages would name a temporary file
+    folder = Path(options.output) / "odometry"
+    if folder.exists() and "--force" not in more:
+        raise UsageError(f"{folder}: the folder exists; choose another one with -o, or replace it with -- --force")
     code = _run_program(recording, options, more)
     if code in (0, _TOO_FEW_TRACKED):
-        file = write_mcap(Path(options.output) / "odometry", read_frames(options.output),
+        shutil.rmtree(folder, ignore_errors=True)
+        file = write_mcap(folder, read_frames(options.output),
                           optical_axes=options.optical_axes, withhold_ambiguous=options.withhold_ambiguous)
         print(f"odometry   {file}")
     return code

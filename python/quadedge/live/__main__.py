@@ -3,6 +3,7 @@
 import argparse
 import signal
 import sys
+from contextlib import ExitStack, suppress
 
 from ..session import Session, add_session_options, check_session_options, say_on_stderr
 from ..shell import exit_code
@@ -48,13 +49,16 @@ def _run(options: argparse.Namespace) -> None:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     check_session_options(options)
     camera = open_camera(options.kind, **{name: given[name] for name in _OPTIONS if given.get(name)})
-    session = viewer = None
-    try:
+    with suppress(KeyboardInterrupt), ExitStack() as closing:
+        closing.callback(camera.close)
         session = Session(camera.rig, camera.name, options, say)
+        closing.callback(session.close)  # whatever becomes of the others
+        viewer = None
         if options.view or options.web or options.save:
             from ..view import Viewer
 
             viewer = Viewer(camera.name, save=options.save, web=options.web)
+            closing.callback(viewer.close)
             if viewer.address:
                 say(f"open {viewer.address}")
         size = f"{camera.rig.left.width} x {camera.rig.left.height} px"
@@ -65,12 +69,6 @@ def _run(options: argparse.Namespace) -> None:
             if viewer:
                 viewer.log(session.odometry, result, left, right)
         say("the camera delivers no more images")
-    except KeyboardInterrupt:
-        pass
-    finally:
-        for one in (camera, session, viewer):
-            if one:
-                one.close()
 
 
 def main(arguments: list[str] | None = None) -> int:

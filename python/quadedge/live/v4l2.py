@@ -25,7 +25,8 @@ class Camera:
     """A device of Video4Linux, or what else ffmpeg reads: a stream's address, a file, which is played at its rate.
 
     calibration: as for Rig.from_file(). width, height: of both views together [px], by default what ffmpeg chooses.
-    Stamps are the times at which images arrive [ns since 1970], because ffmpeg does not pass on the device's.
+    Stamps are the times at which images arrive [ns since 1970], because ffmpeg does not pass on the device's. A clock
+    that is set meanwhile does not change them.
     """
 
     def __init__(self, source: str = "/dev/video0", calibration=None, width: int = 0, height: int = 0, fps: int = 0):
@@ -58,6 +59,7 @@ class Camera:
             self.close()
             raise
         self._newest, self._came, self._ended = None, threading.Condition(), False
+        self._epoch_ns = time.time_ns() - time.monotonic_ns()
         threading.Thread(target=self._read, daemon=True).start()
 
     def _read(self) -> None:
@@ -65,7 +67,7 @@ class Camera:
         pipe, size = self._ffmpeg.stdout, self._width * self._height
         while pipe.readline() and len(data := pipe.read(size)) == size:
             with self._came:
-                self._newest = time.time_ns(), data
+                self._newest = self._epoch_ns + time.monotonic_ns(), data
                 self._came.notify()
         with self._came:
             self._ended = True

@@ -220,7 +220,8 @@ def write_figure(figure: Figure, folder: Path) -> list[Path]:
         _finish(axes, figure)
         if any(trace["name"] for trace in figure.traces):
             axes.legend(fontsize=8, framealpha=0.6)
-        files = [folder / f"{figure.name}.svg", folder / f"{figure.name}.pdf"]
+        name = figure.name.strip("/").replace("/", "_")  # names of topics and devices have slashes
+        files = [folder / f"{name}.svg", folder / f"{name}.pdf"]
         for file, date in zip(files, ("Date", "CreationDate")):
             picture.savefig(file, metadata={date: None})
         pyplot.close(picture)

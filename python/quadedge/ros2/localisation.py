@@ -34,12 +34,13 @@ class Localisation:
         self._tried = self._located = 0
         self._ends, self._loads = False, True
         self._rig, self._answers = None, []
+        self._age = 0  # of the frame odom: results of a search that began in another are of no use
         self._thread: threading.Thread | None = None
 
     def offer(self, rig, result, images: list, odom_from_base: numpy.ndarray, mount: numpy.ndarray) -> None:
         """Gives the newest pair with its pose; one that waits still is dropped. images: left, right, their masks."""
         with self._changed:
-            self._pair = result.stamp_ns, images, odom_from_base, mount
+            self._pair = self._age, result.stamp_ns, images, odom_from_base, mount
             self._rig = rig
             self._changed.notify()
         if self._thread is None:
@@ -47,9 +48,10 @@ class Localisation:
             self._thread.start()
 
     def forget(self) -> None:
-        """What waits, and what was found, is of no use: the frame odom has changed."""
+        """What waits, is searched, and was found, is of no use: the frame odom has changed."""
         with self._changed:
             self._pair, self._found = None, []
+            self._age += 1
 
     def take(self) -> list[Located]:
         """What was found since the last call."""
@@ -96,7 +98,8 @@ class Localisation:
                 with self._changed:
                     self._changed.wait_for(lambda: self._ends or self._loads)
 
-    def _search(self, places, stamp_ns: int, images: list, odom_from_base: numpy.ndarray, mount: numpy.ndarray) -> None:
+    def _search(self, places, age: int, stamp_ns: int, images: list, odom_from_base: numpy.ndarray,
+                mount: numpy.ndarray) -> None:
         left, right, *masks = images
         found = places.localise(left, right, stamp_ns, *masks)
         self._tried += 1
@@ -106,5 +109,6 @@ class Localisation:
         self._located += 1
         map_from_base, covariance = of_base(found.map_from_left, found.covariance, mount)
         with self._changed:
-            self._found.append(Located(stamp_ns, map_from_base, covariance,
-                                       map_from_base @ numpy.linalg.inv(odom_from_base)))
+            if age == self._age:
+                self._found.append(Located(stamp_ns, map_from_base, covariance,
+                                           map_from_base @ numpy.linalg.inv(odom_from_base)))

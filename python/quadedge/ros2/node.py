@@ -3,6 +3,7 @@
 import argparse
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy
 
@@ -87,9 +88,11 @@ class Node:
                 if time.monotonic() - self._second >= 1:
                     self._publish_state()
         finally:
-            self._end_session()
-            if self._localisation:
-                self._localisation.close()
+            try:
+                self._end_session()
+            finally:
+                if self._localisation:
+                    self._localisation.close()
 
     # What comes in.
 
@@ -140,10 +143,15 @@ class Node:
         return self._topics.right if side == RIGHT else self._topics.left
 
     def _take_info(self, side: int, message) -> None:
-        said = [message.height, message.width, message.distortion_model, *message.d, *message.k, *message.r, *message.p]
+        roi = message.roi
+        said = [message.height, message.width, message.distortion_model, *message.d, *message.k, *message.r, *message.p,
+                message.binning_x, message.binning_y, roi.x_offset, roi.y_offset, roi.width, roi.height]
         before, self._infos[side] = self._infos[side], (said, message)
         if before is not None and before[0] != said:
             self._start_again(f"camera_info of the {SIDES[side]} camera has changed")
+            if self._localisation:  # with the new rig
+                self._localisation.forget()
+                self._localisation.load()
 
     def _lacks_info(self) -> bool:
         """Whether images have to wait for camera_info. Says so when it has had time to come."""
@@ -171,18 +179,27 @@ class Node:
         """Ends the session; the next pair begins another, at the last pose, whose place is then not measured."""
         if not keep_pose:
             self._place.reset()
-        if self._session is None:
-            return
-        self._end_session()
-        if keep_pose:
-            self._place.restart(why)
-        else:
             self._map_from_odom = None
             if self._localisation:
                 self._localisation.forget()
+        if self._session is None:
+            return
+        if keep_pose and self._options.save_map:
+            self._keep_map(f"{self._options.save_map}.{self._sessions}")
+        self._end_session()
+        if keep_pose:
+            self._place.restart(why)
         self._state.restart(why)
         self._say(f"{why}: the odometry starts again, " + ("at the last pose, with an unknown covariance" if keep_pose
                                                            else "at the origin"))
+
+    def _keep_map(self, file: str) -> None:
+        """Saves the map of a session that ends unasked, since the next one begins another."""
+        try:
+            self._session.odometry.save_map(file)
+            self._say(f"the map until then is in {file}")
+        except Error as error:
+            self._say(f"warning: the map until then is lost: {error}")
 
     def _end_session(self) -> None:
         if self._session:
@@ -209,6 +226,9 @@ class Node:
             self._find_mount()
         self._sessions += 1
         output = f"{options.output}_{self._sessions}" if options.output and self._sessions > 1 else None
+        while output and not options.force and Path(output).exists():  # of an earlier start
+            self._sessions += 1
+            output = f"{options.output}_{self._sessions}"
         self._session = Session(rig, f"domain {self._domain.number}: {self._topics.left}", options, self._say, output)
         self._say(f"tracking {rig.left.width} x {rig.left.height} px on {self._session.odometry.device.name}")
 
@@ -242,7 +262,11 @@ class Node:
             self._publish(result, placed, left.header.frame_id)
         self._count(result, placed, doubt)
         self._state.take(result, self._session.rig, doubt, (time.monotonic() - arrived) * 1e3)
-        self._session.keep(result)
+        try:
+            self._session.keep(result)
+        except DataError as error:  # a full disk does not stop a robot
+            self._session.end_files()
+            self._say(f"warning: {error}; the odometry goes on, and its results end here")
 
     def _localise(self, result, images: list, placed: Placed | None) -> None:
         """Publishes what was found in the map, and gives this pair, its images and masks, for a search."""

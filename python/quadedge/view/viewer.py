@@ -176,7 +176,7 @@ class Viewer:
         self.log_edges(odometry.details(), pose, result.new_key_rig)
         self.log_numbers({"stereo_edges": counts.stereo_edges, "quads": counts.quads, "inliers": counts.inliers},
                          {"latency": timing.latency_ms, **timing.stages},
-                         warnings or ("" if result.is_tracked else result.message))
+                         warnings or result.message)
 
     def close(self) -> None:
         """Flushes what has been logged and closes the connection or file."""
