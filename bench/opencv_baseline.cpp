@@ -1,3 +1,4 @@
+/// \file opencv_baseline.cpp  Matches SIFT by Lowe's ratio, triangulates, and solves PnP with RANSAC between frames.
 #include "opencv_baseline.hpp"
 
 #include <opencv2/calib3d.hpp>

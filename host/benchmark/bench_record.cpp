@@ -1,3 +1,4 @@
+/// \file bench_record.cpp  Writes results as JSON; compares two figure by figure, times relative to a yardstick.
 #include "benchmark/bench_record.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file latency.cpp  Times frames after warm-up and kernels in another pass; bisects for a number of edges.
 #include "benchmark/latency.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file variant_comparison.cpp  Self-tests each variant, then times them in alternating order on one frame.
 #include "benchmark/variant_comparison.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file calibration_check.cpp  Corner searches in the first, middle and last frame; rows from evenly spread ones.
 #include "cli/calibration_check.hpp"
 
 #include <algorithm>

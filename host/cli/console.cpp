@@ -1,3 +1,4 @@
+/// \file console.cpp  Rewrites one line on a terminal, prints at intervals elsewhere; tables of runs and evaluations.
 #include "cli/console.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file edge_sample.cpp  Takes evenly spaced inliers per keyframe; a full sample is halved, and so is their number.
 #include "cli/edge_sample.hpp"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+/// \file frame_source.cpp  Wraps a dataset or a renderer, and tests the first pair for images that are rectified.
 #include "cli/frame_source.hpp"
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+/// \file method_options.cpp  Tries devices by preference until one passes the self-test; caches verdicts by a hash.
 #include "cli/method_options.hpp"
 
 #include <filesystem>

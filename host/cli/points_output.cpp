@@ -1,3 +1,4 @@
+/// \file points_output.cpp  Feeds keyframes to the point cloud and frames to the map; adds its time to the latency.
 #include "cli/points_output.hpp"
 
 #include <algorithm>

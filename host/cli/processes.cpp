@@ -1,3 +1,4 @@
+/// \file processes.cpp  Signal handlers that fire once (SA_RESETHAND); tries interpreters until one imports a module.
 #include "cli/processes.hpp"
 
 #include <cerrno>

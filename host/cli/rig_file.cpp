@@ -1,3 +1,4 @@
+/// \file rig_file.cpp  Stores learned sums as TOML beside the calibration that they belong to; compares it on reading.
 #include "cli/rig_file.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+/// \file rig_learning.cpp  Learns from short stretches spread over the recording, or longer ones if these move little.
 #include "cli/rig_learning.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+/// \file rig_observation.cpp  Distances from epipolar lines in every frame, disparity residuals at new keyframes.
 #include "cli/rig_observation.hpp"
 
 #include <initializer_list>

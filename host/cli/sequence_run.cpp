@@ -1,3 +1,4 @@
+/// \file sequence_run.cpp  Tracks and writes frame by frame, profiles in a second pass; then errors, report and trace.
 #include "cli/sequence_run.hpp"
 
 #include <algorithm>

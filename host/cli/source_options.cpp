@@ -1,3 +1,4 @@
+/// \file source_options.cpp  Declares the options of all inputs; opens a recording, a single pair or a rendered scene.
 #include "cli/source_options.hpp"
 
 #include <algorithm>

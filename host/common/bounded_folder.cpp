@@ -1,3 +1,4 @@
+/// \file bounded_folder.cpp  Sorts files by the time of their last use and deletes from the oldest on.
 #include "common/bounded_folder.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file calibration.cpp  Plausible ranges of camera numbers; the pinhole view of a lens and its table, pixel by pixel.
 #include "common/calibration.hpp"
 
 #include <algorithm>

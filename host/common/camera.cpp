@@ -1,3 +1,4 @@
+/// \file camera.cpp  Validates cameras, their scales, the relative pose, and tables and masks of the images' size.
 #include "quadedge/camera.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file corrected_rig.cpp  Moves the right principal point along the direction in which disparities grow.
 #include "common/corrected_rig.hpp"
 
 namespace quadedge {

@@ -1,3 +1,4 @@
+/// \file disparity_range.cpp  A range by the nearest depth; levels of the coarse search if epipolar lines are rows.
 #include "common/disparity_range.hpp"
 
 #include <algorithm>

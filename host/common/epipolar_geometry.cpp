@@ -1,3 +1,4 @@
+/// \file epipolar_geometry.cpp  Lines from the homography at infinity and the epipole; rows as planes of the baseline.
 #include "common/epipolar_geometry.hpp"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+/// \file error.cpp  Escapes control characters of messages (C0, DEL, C1); names of warnings.
 #include "quadedge/error.hpp"
 
 #include "common/printed.hpp"

@@ -1,3 +1,4 @@
+/// \file frame_mask.cpp  Takes the nearest recorded pixel of every pinhole pixel, from offsets that are kept.
 #include "common/frame_mask.hpp"
 
 #include <algorithm>

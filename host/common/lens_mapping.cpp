@@ -1,3 +1,4 @@
+/// \file lens_mapping.cpp  Projection in closed form; inverted by Newton's method (Brown) or bisection (equidistant).
 #include "common/lens_mapping.hpp"
 
 #include <Eigen/Geometry>

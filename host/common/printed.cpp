@@ -1,3 +1,4 @@
+/// \file printed.cpp  Sets this thread's locale to "C" (uselocale); vsnprintf() for the length, then for the text.
 #include "common/printed.hpp"
 
 #include <cstdarg>

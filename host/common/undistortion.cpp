@@ -1,3 +1,4 @@
+/// \file undistortion.cpp  Samples rows bilinearly in vectors; patches follow the lens mapping to first order.
 #include "common/undistortion.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file atomic_file.cpp  Writes NAME.partPID and renames it, also behind links; writes pipes and devices directly.
 #include "data/atomic_file.hpp"
 
 #include <cerrno>

@@ -1,3 +1,4 @@
+/// \file content_hash.cpp  Streams the length and the bytes of every value into XXH3.
 #include "data/content_hash.hpp"
 
 #include <cstdint>

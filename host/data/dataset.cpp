@@ -1,3 +1,4 @@
+/// \file dataset.cpp  Chooses the layout that recognises the folder, then applies the user's cameras and frame range.
 #include "quadedge/dataset.hpp"
 
 #include <algorithm>

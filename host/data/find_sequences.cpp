@@ -1,3 +1,4 @@
+/// \file find_sequences.cpp  Searches folders, each inode once; names have as many path components as tell them apart.
 #include "data/find_sequences.hpp"
 
 #include <algorithm>

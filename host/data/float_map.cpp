@@ -1,3 +1,4 @@
+/// \file float_map.cpp  PFM: rows from the bottom up, the byte order by the sign of the scale.
 #include "data/float_map.hpp"
 
 #include <algorithm>

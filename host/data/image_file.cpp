@@ -1,3 +1,4 @@
+/// \file image_file.cpp  Own parser of headers and PNM; libpng and libjpeg, whose errors return by longjmp().
 #include "data/image_file.hpp"
 
 #include <algorithm>

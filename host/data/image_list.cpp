@@ -1,3 +1,4 @@
+/// \file image_list.cpp  Finds the unit of integer stamps by their rate; pairs images mutually nearest in time.
 #include "data/image_list.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file layout.cpp  The layouts in the order of trial, and what their readers share: frames, sizes, rotations.
 #include "data/layout.hpp"
 
 #include <Eigen/SVD>

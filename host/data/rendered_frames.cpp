@@ -1,3 +1,4 @@
+/// \file rendered_frames.cpp  Renders blocks of frames in parallel; cached views are named by a hash of all options.
 #include "data/rendered_frames.hpp"
 
 #include <algorithm>

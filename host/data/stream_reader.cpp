@@ -1,3 +1,4 @@
+/// \file stream_reader.cpp  Splits images with both views and sets stamps; polls the pipe, so that it can be stopped.
 #include "data/stream_reader.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file text.cpp  Parses by std::from_chars(), which consumes whole tokens and ignores the locale.
 #include "data/text.hpp"
 
 #include <algorithm>

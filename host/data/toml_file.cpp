@@ -1,3 +1,4 @@
+/// \file toml_file.cpp  Flattens toml++ tables to dotted keys in order of lines; bounds what is parsed beforehand.
 #include "data/toml_file.hpp"
 
 #include <algorithm>

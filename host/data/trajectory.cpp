@@ -1,3 +1,4 @@
+/// \file trajectory.cpp  Tells TUM, KITTI and EuRoC apart by their columns; comment lines of TUM files begin segments.
 #include "quadedge/trajectory.hpp"
 
 #include <charconv>

@@ -1,3 +1,4 @@
+/// \file video_file.cpp  Runs ffmpeg and reads raw frames from one pipe, and from another what it says of each.
 #include "data/video_file.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file yaml_file.cpp  Adapts OpenCV's dialect to yaml-cpp, refuses duplicate keys, and converts numbers itself.
 #include "data/yaml_file.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file motion_errors.cpp  Chains covariances to a common keyframe and normalises errors by them (NEES).
 #include "evaluation/motion_errors.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+/// \file common_view.cpp  Clips each pixel's ray, a line in homogeneous pixels, against the sides of the other image.
 #include "frontend/common_view.hpp"
 
 #include <Eigen/Geometry>

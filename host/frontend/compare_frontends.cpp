@@ -1,3 +1,4 @@
+/// \file compare_frontends.cpp  Quantises results to integer rows, and looks up each within a tolerance.
 #include "frontend/compare_frontends.hpp"
 
 #include <algorithm>

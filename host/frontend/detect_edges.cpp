@@ -1,3 +1,4 @@
+/// \file detect_edges.cpp  Threshold, maxima, mask and directions of one image, on the host or on the device.
 #include "common/images.hpp"
 #include "paper/grid_edges.hpp"
 #include "quadedge/error.hpp"

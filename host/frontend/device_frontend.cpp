@@ -1,3 +1,4 @@
+/// \file device_frontend.cpp  Enqueues the stages in order; the host waits only for counts and results.
 #include "frontend/device_frontend.hpp"
 
 #include <algorithm>

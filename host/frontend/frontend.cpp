@@ -1,3 +1,4 @@
+/// \file frontend.cpp  Joins the masks of rig and frame; chooses the paper's, the reference or the device front end.
 #include "frontend/frontend.hpp"
 
 #include "common/images.hpp"

@@ -1,3 +1,4 @@
+/// \file kept_frame_edges.cpp  Quantises evenly chosen edges' patches and descriptors to four bits per value.
 #include "frontend/kept_frame_edges.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file memory_fit.cpp  Bytes per pixel and per edge give the number of edges that three quarters of the memory hold.
 #include "frontend/memory_fit.hpp"
 
 #include <algorithm>

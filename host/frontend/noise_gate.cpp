@@ -1,3 +1,4 @@
+/// \file noise_gate.cpp  Noise, corrected for interpolation by the table, against the gradient, with hysteresis.
 #include "frontend/noise_gate.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+/// \file paper_frontend.cpp  Edges, descriptions and stereo matches frame by frame, quads on request; feeds a tap.
 #include "frontend/paper_frontend.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file prediction.cpp  Search positions, as they were or after a predicted motion, and how far they move.
 #include "frontend/prediction.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+/// \file range_follower.cpp  A quantile of the disparities sets the next range; matched probes beyond it enlarge it.
 #include "frontend/range_follower.hpp"
 
 #include <algorithm>

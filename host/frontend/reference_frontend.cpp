@@ -1,3 +1,4 @@
+/// \file reference_frontend.cpp  Calls the plain C++ twins of the kernels, stage by stage.
 #include "frontend/reference_frontend.hpp"
 
 #include <numeric>

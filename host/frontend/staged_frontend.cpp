@@ -1,3 +1,4 @@
+/// \file staged_frontend.cpp  Repeats the stereo search until range and coarse gate suffice, all until the rows do.
 #include "frontend/staged_frontend.hpp"
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+/// \file earlier_rigs.cpp  When there are too many, drops the keyframe whose view differs least from the next one's.
 #include "odometry/earlier_rigs.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file frame_preparation.cpp  Runs the front end, judges the rig, updates its rows; reports each warning once.
 #include "odometry/frame_preparation.hpp"
 
 #include <utility>

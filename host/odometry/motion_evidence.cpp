@@ -1,3 +1,4 @@
+/// \file motion_evidence.cpp  Counts what agrees with one motion, with standstill and with rivals, per image cell.
 #include "odometry/motion_evidence.hpp"
 
 #include <algorithm>

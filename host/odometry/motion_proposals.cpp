@@ -1,3 +1,4 @@
+/// \file motion_proposals.cpp  Fits a motion to matches within a radius, to global ones, or to those left over.
 #include "odometry/motion_proposals.hpp"
 
 #include <algorithm>

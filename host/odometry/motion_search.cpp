@@ -1,3 +1,4 @@
+/// \file motion_search.cpp  Levels of hypotheses; guided matching repeats until the positions it predicts settle.
 #include "odometry/motion_search.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file motion_selection.cpp  The largest explained area wins; thresholds on ratios tell doubts and refusals.
 #include "odometry/motion_selection.hpp"
 
 #include <algorithm>

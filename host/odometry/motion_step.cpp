@@ -1,3 +1,4 @@
+/// \file motion_step.cpp  Per cell, edges, matches and inliers; areas, spreads and ratios are sums over the cells.
 #include "odometry/motion_step.hpp"
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+/// \file moving_cells.cpp  A binomial test per cell at the rate of the static ones; adjacent cells form groups.
 #include "odometry/moving_cells.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file paper_search.cpp  Continues quads through adjacent frames to the keyframe, then RANSAC and a fit to inliers.
 #include "odometry/paper_search.hpp"
 
 #include <algorithm>

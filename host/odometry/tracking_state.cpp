@@ -1,3 +1,4 @@
+/// \file tracking_state.cpp  Repeats the last motion over whole and partial intervals; limits that end a keyframe.
 #include "odometry/tracking_state.hpp"
 
 #include <cmath>

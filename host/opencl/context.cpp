@@ -1,3 +1,4 @@
+/// \file context.cpp  Reads the device's limits, builds programs or loads cached binaries, sums up profiling events.
 #include "opencl/context.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file kernel.cpp  Compares the arguments that the driver reports with the C++ signature, in canonical spelling.
 #include "opencl/kernel.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file program_cache.cpp  Key, length and checksum precede the binary; files are written aside and renamed.
 #include "opencl/program_cache.hpp"
 
 #include <cstdint>

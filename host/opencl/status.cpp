@@ -1,3 +1,4 @@
+/// \file status.cpp  The table of OpenCL's status codes; pthread_atfork() marks children.
 #include "opencl/status.hpp"
 
 #include <map>

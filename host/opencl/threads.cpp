@@ -1,3 +1,4 @@
+/// \file threads.cpp  Limits TBB by a global control, OpenCL on CPUs by environment variables of PoCL and Intel.
 #include "quadedge/threads.hpp"
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+/// \file variants.cpp  The table of variants, and the programs that CPUs build for several stages at once.
 #include "opencl/variants.hpp"
 
 #include <algorithm>

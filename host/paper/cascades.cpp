@@ -1,3 +1,4 @@
+/// \file cascades.cpp  The filters of both tables in order; refined candidates are clustered by agglomeration.
 #include "paper/cascades.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file consensus.cpp  Draws pairs from the 70 % of quads with least competition; the most inliers win.
 #include "paper/consensus.hpp"
 
 #include <algorithm>

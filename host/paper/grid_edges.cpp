@@ -1,3 +1,4 @@
+/// \file grid_edges.cpp  Derivatives at half pixels by filters of two phases; parabolas through gradient maxima.
 #include "paper/grid_edges.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file side_patches.cpp  Interpolates grey levels and slopes; Gauss-Newton with Huber weights along one or two axes.
 #include "paper/side_patches.hpp"
 
 #include <Eigen/LU>

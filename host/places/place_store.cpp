@@ -1,3 +1,4 @@
+/// \file place_store.cpp  VLAD of projected root descriptors; a full store drops the place most like the next one.
 #include "places/place_store.hpp"
 
 #include <algorithm>

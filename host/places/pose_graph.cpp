@@ -1,3 +1,4 @@
+/// \file pose_graph.cpp  Gauss-Newton on sparse equations, Cauchy weights, and the most certain path by Dijkstra.
 #include "places/pose_graph.hpp"
 
 #include <Eigen/SparseCholesky>

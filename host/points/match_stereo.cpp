@@ -1,4 +1,4 @@
-/// \file match_stereo.cpp
+/// \file match_stereo.cpp  Runs the front end on one pair, with rows and range that it finds itself, and triangulates.
 
 #include "quadedge/match_stereo.hpp"
 

@@ -1,3 +1,4 @@
+/// \file measured_points.cpp  Information of a depth along the ray, and of angles along and across the edge.
 #include "points/measured_points.hpp"
 
 #include <Eigen/Eigenvalues>

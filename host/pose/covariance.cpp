@@ -1,3 +1,4 @@
+/// \file covariance.cpp  Cluster-robust factors over image cells of doubling size; the largest inflates the covariance.
 #include "pose/covariance.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+/// \file least_squares.cpp  Scales by a quickselect without branches; perturbations by unit quaternions.
 #include "pose/least_squares.hpp"
 
 #include <algorithm>

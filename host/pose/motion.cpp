@@ -1,3 +1,4 @@
+/// \file motion.cpp  Consensus, then refinement over all inliers; refuses few quads, few inliers and a small spread.
 #include "pose/motion.hpp"
 
 #include <algorithm>

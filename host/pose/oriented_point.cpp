@@ -1,3 +1,4 @@
+/// \file oriented_point.cpp  Converts between Eigen's types and the plain numbers that the formulas are written for.
 #include "pose/oriented_point.hpp"
 
 #include <cmath>

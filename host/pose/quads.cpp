@@ -1,3 +1,4 @@
+/// \file quads.cpp  Fills the columns for scoring; the slopes of tangents are shrunk by a prior.
 #include "pose/quads.hpp"
 
 #include "common/parallel.hpp"

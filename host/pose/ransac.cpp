@@ -1,3 +1,4 @@
+/// \file ransac.cpp  A pool that grows as in PROSAC, a preview of costs, and local optimisation (LO-RANSAC).
 #include "pose/ransac.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file refinement.cpp  Alternates selection and Gauss-Newton; a Schmidt-Kalman update then learns the offset.
 #include "pose/refinement.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+/// \file reprojection_terms.cpp  Evaluates quads in vector lanes and adds up their equations in blocks of rows.
 #include "pose/reprojection_terms.hpp"
 
 #include "common/parallel.hpp"

@@ -1,3 +1,4 @@
+/// \file residuals.cpp  Divides residuals by their noise: across and along the edge, of its depth and its tangent.
 #include "pose/residuals.hpp"
 
 #include <cmath>

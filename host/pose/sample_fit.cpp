@@ -1,3 +1,4 @@
+/// \file sample_fit.cpp  Gauss-Newton with depth and slope of every quad eliminated, in vector lanes.
 #include "pose/sample_fit.hpp"
 
 #include "common/parallel.hpp"

@@ -1,3 +1,4 @@
+/// \file sampling_order.cpp  Partial Fisher-Yates shuffles; a balanced subset takes quads in turn from all image cells.
 #include "pose/sampling_order.hpp"
 
 #include <algorithm>

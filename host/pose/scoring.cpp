@@ -1,3 +1,4 @@
+/// \file scoring.cpp  Projects in single precision, without branches, and sums costs in independent lanes.
 #include "pose/scoring.hpp"
 
 #include <algorithm>

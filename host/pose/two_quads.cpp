@@ -1,3 +1,4 @@
+/// \file two_quads.cpp  Aligns the orthonormal frames of both pairs and their midpoints; compares six invariants.
 #include "pose/two_quads.hpp"
 
 #include <cmath>

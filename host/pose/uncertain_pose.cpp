@@ -1,3 +1,4 @@
+/// \file uncertain_pose.cpp  Carries covariances by adjoints; one column of sensitivity per error of the calibration.
 #include "pose/uncertain_pose.hpp"
 
 namespace quadedge::pose {

@@ -1,3 +1,4 @@
+/// \file candidates.cpp  Limits of NCC and SIFT first, then those relative to a row's best NCC and best SIFT.
 #include "reference/candidates.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file coarse_disparity.cpp  Birchfield-Tomasi costs, paths in four directions, left-right check, parabola.
 #include "reference/coarse_disparity.hpp"
 
 #include <algorithm>

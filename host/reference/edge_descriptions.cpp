@@ -1,3 +1,4 @@
+/// \file edge_descriptions.cpp  Patches, SIFT and wide descriptors in double precision, stored as on the device.
 #include "reference/edge_descriptions.hpp"
 
 #include <algorithm>

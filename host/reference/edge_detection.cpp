@@ -1,3 +1,4 @@
+/// \file edge_detection.cpp  Threshold from histograms, gradient maxima, Newton step onto F = 0; selection by rows.
 #include "reference/edge_detection.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file images.cpp  Bilinear interpolation by the table; binomial weights from Pascal's triangle, in integers.
 #include "reference/images.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file stereo_matching.cpp  Candidates, alignment along the lines, clusters, relaxation, mutual choice.
 #include "reference/stereo_matching.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-/// ile stereo_matching.hpp  Plain C++ twins of stages 4a and 5, but for the coarse disparity.
+/// \file stereo_matching.hpp  Plain C++ twins of stages 4a and 5, but for the coarse disparity.
 
 #include <cstdint>
 #include <vector>

@@ -1,3 +1,4 @@
+/// \file temporal_matching.cpp  Points sorted by cell, filters in both images, agreement; unique global matches.
 #include "reference/temporal_matching.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file calibration_report.cpp  The numbers as JSON and as a table; displacements as enlarged strokes on a grid.
 #include "report/calibration_report.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file canvas.cpp  Enlarges by whole factors; positions in fixed point, so that OpenCV draws between pixels.
 #include "report/canvas.hpp"
 
 #include <algorithm>

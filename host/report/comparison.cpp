@@ -1,3 +1,4 @@
+/// \file comparison.cpp  Evaluates the trajectory of every system on the ground truth that the batch has kept.
 #include "report/comparison.hpp"
 
 #include <filesystem>

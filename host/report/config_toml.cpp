@@ -1,3 +1,4 @@
+/// \file config_toml.cpp  Walks the list of constants; a value is tried on a copy and checked before it is taken.
 #include "report/config_toml.hpp"
 
 #include <algorithm>

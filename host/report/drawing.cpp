@@ -1,3 +1,4 @@
+/// \file drawing.cpp  Strokes coloured by direction, dots by disparity (viridis), motion of one quad per cell.
 #include "report/drawing.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file json.cpp  Assembles the documents key by key; the trace has the format of Chrome's trace viewer.
 #include "report/json.hpp"
 
 #include <map>

@@ -1,3 +1,4 @@
+/// \file json_values.cpp  The origin, all constants and those that are changed, and the figures of an evaluation.
 #include "report/json_values.hpp"
 
 #include <ctime>

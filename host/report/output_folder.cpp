@@ -1,3 +1,4 @@
+/// \file output_folder.cpp  A lock by flock(), taken again if its file has been removed; deletes only known results.
 #include "report/output_folder.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file result_rows.cpp  Every field is added with its name, so that a default item gives the heading.
 #include "report/result_rows.hpp"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+/// \file rig_maps.cpp  A cell keeps every n-th sample; when full, it drops half of them and doubles n.
 #include "report/rig_maps.hpp"
 
 #include <cmath>

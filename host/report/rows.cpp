@@ -1,3 +1,4 @@
+/// \file rows.cpp  Quotes fields where needed, line breaks become spaces; flushes after every append.
 #include "report/rows.hpp"
 
 #include <cerrno>

@@ -1,3 +1,4 @@
+/// \file run_record.cpp  Medians and percentiles over the frames after the first, which pays for warming up.
 #include "report/run_record.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file statistics.cpp  Sorts a copy and interpolates between the two nearest ranks.
 #include "report/statistics.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file corner_flow.cpp  Pyramids of locally equalised images; Gauss-Newton with the template's slopes on every level.
 #include "rig/corner_flow.hpp"
 
 #include <Eigen/LU>

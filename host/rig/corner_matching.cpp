@@ -1,3 +1,4 @@
+/// \file corner_matching.cpp  Coarse search in views of infinity, there and back; subpixel alignment at equal contrast.
 #include "rig/corner_matching.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+/// \file drive_calibration.cpp  Cross-validates on two halves of the pairs before the calibration from all is accepted.
 #include "quadedge/drive_calibration.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+/// \file image_delay.cpp  Pairs images with those of earlier frames and counts corners on their lines; frames vote.
 #include "rig/image_delay.hpp"
 
 #include <algorithm>

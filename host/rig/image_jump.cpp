@@ -1,3 +1,4 @@
+/// \file image_jump.cpp  A robust fit of excess disparities: a constant, two rotations and a forward motion.
 #include "rig/image_jump.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+/// \file interlacing.cpp  Correlates row differences of alternating sign with the horizontal gradient, per cell.
 #include "rig/interlacing.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file learned_rig.cpp  Divides what a frame shows between offset and displacement, by their variances.
 #include "rig/learned_rig.hpp"
 
 #include <cmath>

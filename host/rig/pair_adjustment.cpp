@@ -1,3 +1,4 @@
+/// \file pair_adjustment.cpp  Levenberg-Marquardt, Cauchy weights; eliminates points, then motions (Schur complement).
 #include "rig/pair_adjustment.hpp"
 
 #include <Eigen/Cholesky>

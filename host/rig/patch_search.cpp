@@ -1,3 +1,4 @@
+/// \file patch_search.cpp  Box sums by integral images; the strongest corner of each cell; exhaustive search by NCC.
 #include "rig/patch_search.hpp"
 
 #include <algorithm>

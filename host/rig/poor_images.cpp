@@ -1,3 +1,4 @@
+/// \file poor_images.cpp  Differences on both sides of block borders, counts of saturated corners, ratio of brightness.
 #include "rig/poor_images.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file rectification_follower.cpp  Judges the row model with hysteresis; several contradicting frames replace it.
 #include "rig/rectification_follower.hpp"
 
 #include <algorithm>

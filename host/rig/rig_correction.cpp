@@ -1,3 +1,4 @@
+/// \file rig_correction.cpp  Solves for pitch, roll and focal length by numeric derivatives of the rows' shape.
 #include "rig/rig_correction.hpp"
 
 #include <Eigen/LU>

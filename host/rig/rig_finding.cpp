@@ -1,3 +1,4 @@
+/// \file rig_finding.cpp  A sentence per kind; the largest term of the fit names the likely cause.
 #include "rig/rig_finding.hpp"
 
 #include <cmath>

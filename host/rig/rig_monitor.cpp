@@ -1,3 +1,4 @@
+/// \file rig_monitor.cpp  Inexpensive measurements decide when to search for corners; thresholds give the findings.
 #include "rig/rig_monitor.hpp"
 
 #include <Eigen/LU>

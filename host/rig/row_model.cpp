@@ -1,3 +1,4 @@
+/// \file row_model.cpp  Recursive robust least squares with forgetting; insignificant terms are dropped one by one.
 #include "rig/row_model.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+/// \file shared_lens.cpp  Fits motion and lenses to frames that turn, eliminates the motion, and adds up the rest.
 #include "rig/shared_lens.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file static_region.cpp  Correlates reduced cells with those at a window's start; what is static has to be nearer.
 #include "rig/static_region.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file candidates.cpp  One launch filters all rows of a list; the variant decides how many work-items share a row.
 #include "stages/candidates.hpp"
 
 #include "common/layouts.hpp"

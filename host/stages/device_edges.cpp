@@ -1,3 +1,4 @@
+/// \file device_edges.cpp  Columns of stereo edges as aligned parts of one buffer, which a single transfer reads.
 #include "stages/device_edges.hpp"
 
 #include <algorithm>

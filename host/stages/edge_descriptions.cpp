@@ -1,3 +1,4 @@
+/// \file edge_descriptions.cpp  Launches for patches, SIFT and wide descriptors; buffers grow with the edges.
 #include "stages/edge_descriptions.hpp"
 
 #include "common/layouts.hpp"

@@ -1,3 +1,4 @@
+/// \file edge_detection.cpp  Launches in one of two forms: strips of rows per work-item, tiles per work-group.
 #include "stages/edge_detection.hpp"
 
 #include <algorithm>

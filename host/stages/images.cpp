@@ -1,3 +1,4 @@
+/// \file images.cpp  Uploads images, resamples them from packed corners, smooths rows and columns, pads planes.
 #include "stages/images.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file stage.cpp  One group scans short lists, many scan long ones; a long loop is checked on the host.
 #include "stages/stage.hpp"
 
 namespace quadedge::stages {

@@ -1,3 +1,4 @@
+/// \file stereo_matching.cpp  Counts, scans and fills candidates; then refinement, clusters, rounds of votes, choice.
 #include "stages/stereo_matching.hpp"
 
 #include <cmath>

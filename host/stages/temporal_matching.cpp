@@ -1,3 +1,4 @@
+/// \file temporal_matching.cpp  Sorts edges into cells; quads by one fused kernel, or by lists that a tap can see.
 #include "stages/temporal_matching.hpp"
 
 #include "common/matching_constants.hpp"

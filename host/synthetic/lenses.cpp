@@ -1,3 +1,4 @@
+/// \file lenses.cpp  Tables of named lenses and rigs; the rays of pixel centres and corners, inverted once.
 #include "synthetic/lenses.hpp"
 
 #include <Eigen/LU>

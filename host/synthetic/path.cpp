@@ -1,3 +1,4 @@
+/// \file path.cpp  Sums of sines with phases from the seed; image motion by projecting points at a fixed depth.
 #include "synthetic/path.hpp"
 
 #include <algorithm>

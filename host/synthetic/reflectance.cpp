@@ -1,3 +1,4 @@
+/// \file reflectance.cpp  A leaf per cell and size, with smooth borders; cladding averaged exactly over texels.
 #include "synthetic/reflectance.hpp"
 
 #include <algorithm>

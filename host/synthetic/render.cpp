@@ -1,3 +1,4 @@
+/// \file render.cpp  Tiles list their surfaces; silhouettes get more rays; an exposure averages moments.
 #include "synthetic/render.hpp"
 
 #include <algorithm>

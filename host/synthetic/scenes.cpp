@@ -1,3 +1,4 @@
+/// \file scenes.cpp  Places textured solids for "room", "cables" and "corridor"; texels by the nearest distance.
 #include "synthetic/scenes.hpp"
 
 #include <algorithm>

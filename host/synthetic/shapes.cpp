@@ -1,3 +1,4 @@
+/// \file shapes.cpp  Intersections in closed form; a cable is a spline cut into cylinders that balls join.
 #include "synthetic/shapes.hpp"
 
 #include <algorithm>

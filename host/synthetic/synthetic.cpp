@@ -1,3 +1,4 @@
+/// \file synthetic.cpp  Checks the options, builds rig, scene and path; exposes a view, then tone, noise, rounding.
 #include "quadedge/synthetic.hpp"
 
 #include <algorithm>

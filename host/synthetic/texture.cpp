@@ -1,3 +1,4 @@
+/// \file texture.cpp  Paints tiles at their first sample, without locks; interpolates in and between levels.
 #include "synthetic/texture.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// \file arrays.cpp  Uses numpy's memory as it is where the strides allow it, otherwise copies; names what is wrong.
 #include "arrays.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+/// \file cameras.cpp  Camera and Rig for Python; a rig from calibration files, or of a dataset.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>

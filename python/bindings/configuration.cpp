@@ -1,3 +1,4 @@
+/// \file configuration.cpp  Turns a dict into TOML text, so that it is read and checked like a file.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 

@@ -1,3 +1,4 @@
+/// \file edges.cpp  Edges, StereoEdges and Quads for Python; detect_edges() and match() for single images.
 #include "edges.hpp"
 
 #include <nanobind/stl/string.h>

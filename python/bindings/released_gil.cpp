@@ -1,3 +1,4 @@
+/// \file released_gil.cpp  Counts running work, for which the end of Python waits; later threads sleep forever.
 #include "released_gil.hpp"
 
 #include <chrono>

@@ -1,3 +1,4 @@
+/// \file trajectories.cpp  Stamps, segments and poses as strided views of the rows of a trajectory.
 #include <filesystem>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>

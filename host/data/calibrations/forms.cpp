@@ -1,3 +1,4 @@
+/// \file forms.cpp  Tries all forms in order; refuses lenses and relative poses that no rig has.
 #include "data/calibrations/forms.hpp"
 
 #include <Eigen/LU>
