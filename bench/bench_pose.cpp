@@ -1,4 +1,4 @@
-/// \file bench_pose.cpp  Benchmarks of host/pose on the quads of one frame of the built-in sequence.
+/// \file bench_pose.cpp  Benchmarks of the pose from the quads of one frame of the built-in sequence.
 #include <benchmark/benchmark.h>
 #include <map>
 #include <memory>
@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "frontend/compare_frontends.hpp"
-#include "pose/quads.hpp"
-#include "pose/ransac.hpp"
-#include "pose/refinement.hpp"
-#include "pose/reprojection_terms.hpp"
-#include "pose/scoring.hpp"
-#include "pose/two_quads.hpp"
+#include "edges/compare_frontends.hpp"
+#include "motion/quads.hpp"
+#include "motion/ransac.hpp"
+#include "motion/refinement.hpp"
+#include "motion/reprojection_terms.hpp"
+#include "motion/scoring.hpp"
+#include "motion/two_quads.hpp"
 #include "quadedge/synthetic.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "reference/images.hpp"
+#include "geometry/undistortion.hpp"
 
 namespace quadedge::bench {
 namespace {
@@ -56,7 +56,7 @@ OpencvBaseline::OpencvBaseline(const StereoRig& rig)
 }
 
 Features OpencvBaseline::detect(const ImageView& recorded, const UndistortionTable& table) const {
-  Image pinhole = to_8_bits(table.empty() ? recorded : reference::undistort(recorded, table).view());
+  Image pinhole = to_8_bits(table.empty() ? recorded : undistort(recorded, table).view());
   const cv::Mat image(pinhole.height, pinhole.width, CV_8UC1, pinhole.pixels.data());
   Features features;
   sift_->detectAndCompute(image, cv::noArray(), features.points, features.descriptors);

@@ -11,9 +11,9 @@
 #include "cli/source_options.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
+#include "output/output_folder.hpp"
+#include "output/rows.hpp"
 #include "quadedge/error.hpp"
-#include "report/output_folder.hpp"
-#include "report/rows.hpp"
 
 namespace {
 

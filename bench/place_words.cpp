@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "odometry/latest_frame.hpp"
+#include "motion/latest_frame.hpp"
 #include "places/place_store.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/synthetic.hpp"

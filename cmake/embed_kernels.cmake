@@ -15,7 +15,7 @@ foreach(file IN LISTS FILES)
   endwhile()
   string(APPEND body "    {\"${name}\", \"#line 1 \\\"${name}\\\"\\n\"\n${pieces}},\n")
 endforeach()
-file(WRITE ${OUTPUT} "// Generated from kernels/*.cl; do not edit.\n#include \"opencl/kernel_sources.hpp\"\n
+file(WRITE ${OUTPUT} "// Generated from kernels/*.cl; do not edit.\n#include \"device/kernel_sources.hpp\"\n
 namespace quadedge::opencl {
 const std::map<std::string, std::string>& embedded_kernels() {
   static const std::map<std::string, std::string> sources = {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "device/edge_descriptions.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 #include "reference/edge_descriptions.hpp"
-#include "stages/edge_descriptions.hpp"
 
 /// `count` positions in the image and up to `beyond` px outside it, with all directions.
 inline quadedge::EdgePositions random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {

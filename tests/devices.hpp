@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "opencl/context.hpp"
+#include "device/context.hpp"
 #include "quadedge/device.hpp"
 
 /// Names ("0", "1", ...) of all devices. Fails the test if there is none.

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "pose/quads.hpp"
+#include "motion/quads.hpp"
 #include "quadedge/edges.hpp"
 
 namespace generated {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "opencl/context.hpp"
-#include "opencl/kernel_sources.hpp"
+#include "device/context.hpp"
+#include "device/kernel_sources.hpp"
 
 /// Builds `source` behind common.cl, layouts.cl and `files`.
 inline cl::Program build_program(quadedge::opencl::Context& context, const std::vector<std::string>& files,

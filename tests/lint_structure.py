@@ -24,22 +24,19 @@ MOST_LINES = {
     "bench": 570,
     "host/benchmark": 990,
     "host/cli": 4820,
-    "host/common": 2370,
+    "host/common": 930,
     "host/data": 6140,
     "host/data/calibrations": 2150,
-    "host/evaluation": 600,
-    "host/frontend": 2790,
-    "host/odometry": 2990,
-    "host/opencl": 1830,
-    "host/paper": 1150,
-    "host/places": 1760,
-    "host/points": 550,
-    "host/pose": 3460,
-    "host/reference": 2520,
-    "host/report": 2520,
-    "host/rig": 4700,
-    "host/stages": 2270,
-    "host/synthetic": 2980,
+    "host/device": 4100,
+    "host/edges": 2790,
+    "host/geometry": 2240,
+    "host/motion": 6190,
+    "host/output": 3120,
+    "host/paper": 980,
+    "host/places": 2310,
+    "host/reference": 2500,
+    "host/rig": 4390,
+    "host/scenes": 2980,
     "include": 2240,
     "kernels": 5210,
     "python": 11510,
@@ -158,7 +155,7 @@ def check_functions(tree: Tree) -> list[str]:
 
 def stages(tree: Tree) -> list[str]:
     """The stages in the table of variants, in its order."""
-    names = re.findall(r'^\s*\{"([a-z_0-9]+)",', tree.text("host/opencl/variants.cpp"), re.MULTILINE)
+    names = re.findall(r'^\s*\{"([a-z_0-9]+)",', tree.text("host/device/variants.cpp"), re.MULTILINE)
     return list(dict.fromkeys(names))
 
 
@@ -169,7 +166,7 @@ def check_twins(tree: Tree, show: bool = True) -> list[str]:
     places = {"kernel": "kernels/{}.cl", "class": 'Stage(context, "{}"', "reference": "kernels/{}.cl",
               "test": "tests/test_{}.cpp"}
     texts = {what: "".join(tree.text(name) for name in tree.files if name.startswith(folder))
-             for what, folder in (("class", "host/stages/"), ("reference", "host/reference/"))}
+             for what, folder in (("class", "host/device/"), ("reference", "host/reference/"))}
     findings = []
     if show:
         print(f"{'stage':22}" + "".join(f"{what:11}" for what in places))

@@ -3,7 +3,7 @@
 
     lint_tidy.py REPOSITORY BUILD [--fix] [--jobs N] [--syntax] [FOLDER...]
 
-BUILD holds compile_commands.json. FOLDER is, for example, host/pose; without one, all of host/ is checked. Files of a
+BUILD holds compile_commands.json. FOLDER is, for example, host/motion; without one, all of host/ is checked. Files of a
 folder that define the same local name go into different translation units, as few as possible. clang-tidy is the one
 next to the running Python (tests/requirements.txt): newer than Debian's, it skips system headers and takes a quarter
 of the time.
@@ -19,8 +19,8 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "rig", "odometry", "points", "places",
-           "synthetic", "paper", "data", "data/calibrations", "evaluation", "report", "benchmark", "cli")
+FOLDERS = ("common", "geometry", "device", "reference", "paper", "edges", "rig", "motion", "places", "scenes", "data",
+           "data/calibrations", "output", "benchmark", "cli")
 
 
 def own_names(text: str) -> set[str]:

@@ -7,12 +7,12 @@
 #include <set>
 #include <string>
 
-#include "frontend/frontend.hpp"
-#include "opencl/context.hpp"
-#include "opencl/variants.hpp"
+#include "device/context.hpp"
+#include "device/stage.hpp"
+#include "device/variants.hpp"
+#include "edges/frontend.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/synthetic.hpp"
-#include "stages/stage.hpp"
 
 namespace {
 

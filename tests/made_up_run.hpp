@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dataset_files.hpp"
-#include "report/json.hpp"
-#include "report/json_values.hpp"
+#include "output/json.hpp"
+#include "output/json_values.hpp"
 
 /// True pose on the made-up path, ten frames per second.
 inline Eigen::Isometry3d made_up_truth(std::int64_t stamp_ns) {

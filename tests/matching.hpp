@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
+#include "device/candidates.hpp"
+#include "device/device_edges.hpp"
+#include "device/images.hpp"
+#include "device/stereo_matching.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 #include "reference/candidates.hpp"
-#include "stages/candidates.hpp"
-#include "stages/device_edges.hpp"
-#include "stages/images.hpp"
-#include "stages/stereo_matching.hpp"
 
 namespace matching {
 

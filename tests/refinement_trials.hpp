@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "generated_quads.hpp"
-#include "pose/refinement.hpp"
+#include "motion/refinement.hpp"
 
 namespace generated {
 

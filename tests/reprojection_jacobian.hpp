@@ -1,11 +1,11 @@
 #pragma once
 /// \file reprojection_jacobian.hpp  The full Jacobian of a reprojection residual, with which tests build the normal
-/// equations that host/pose/ computes lane by lane.
+/// equations that host/motion/ computes lane by lane.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "pose/residuals.hpp"
+#include "motion/residuals.hpp"
 
 namespace quadedge::pose {
 

@@ -5,9 +5,9 @@
 #include "benchmark/bench_record.hpp"
 #include "benchmark/latency.hpp"
 #include "frontends.hpp"
+#include "output/json.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
-#include "report/json.hpp"
 
 using Catch::Matchers::Contains;
 using Json = nlohmann::json;

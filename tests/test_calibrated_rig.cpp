@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <opencv2/calib3d.hpp>
 
-#include "common/lens_mapping.hpp"
 #include "dataset_files.hpp"
+#include "geometry/lens_mapping.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"

@@ -2,12 +2,12 @@
 #include <opencv2/calib3d.hpp>
 
 #include "calibration_files.hpp"
-#include "common/lens_mapping.hpp"
 #include "data/calibrations/forms.hpp"
+#include "geometry/lens_mapping.hpp"
+#include "geometry/undistortion.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "reference/images.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;
@@ -321,8 +321,7 @@ TEST_CASE("calibration: corners of OpenCV's chessboard pairs lie on their epipol
   std::vector<double> residuals;
   for (int pair = 1; pair <= 9; ++pair) {
     const auto corners = [&](const std::string& side, const UndistortionTable& table) {
-      Image image =
-          reference::undistort(read_grey_image(board + side + "0" + std::to_string(pair) + ".jpg").view(), table);
+      Image image = undistort(read_grey_image(board + side + "0" + std::to_string(pair) + ".jpg").view(), table);
       std::vector<cv::Point2f> found;
       cv::findChessboardCorners(cv::Mat(image.height, image.width, CV_8UC1, image.pixels.data()), {9, 6}, found);
       return found;

@@ -2,8 +2,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "calibration_files.hpp"
-#include "common/lens_mapping.hpp"
 #include "data/calibrations/forms.hpp"
+#include "geometry/lens_mapping.hpp"
 #include "quadedge/error.hpp"
 #include "temporary_folder.hpp"
 

@@ -8,9 +8,9 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/synthetic.hpp"
-#include "synthetic/path.hpp"
-#include "synthetic/render.hpp"
-#include "synthetic/scenes.hpp"
+#include "scenes/path.hpp"
+#include "scenes/render.hpp"
+#include "scenes/scenes.hpp"
 
 using namespace quadedge;
 using Eigen::Isometry3d;

@@ -1,8 +1,8 @@
 #include <numeric>
 
+#include "device/candidates.hpp"
 #include "matching.hpp"
 #include "reference/edge_descriptions.hpp"
-#include "stages/candidates.hpp"
 
 using namespace quadedge;
 using namespace matching;

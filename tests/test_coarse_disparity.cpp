@@ -1,10 +1,10 @@
-#include "common/disparity_range.hpp"
-#include "common/epipolar_geometry.hpp"
+#include "device/stereo_matching.hpp"
 #include "edge_images.hpp"
-#include "frontend/frontend.hpp"
+#include "edges/frontend.hpp"
+#include "geometry/disparity_range.hpp"
+#include "geometry/epipolar_geometry.hpp"
 #include "matching.hpp"
 #include "reference/coarse_disparity.hpp"
-#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

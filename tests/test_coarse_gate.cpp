@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "frontend/range_follower.hpp"
+#include "edges/range_follower.hpp"
 
 using namespace quadedge;
 using frontend::CoarseGate;

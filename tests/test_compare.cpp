@@ -4,7 +4,7 @@
 
 #include "benchmark/variant_comparison.hpp"
 #include "devices.hpp"
-#include "frontend/compare_frontends.hpp"
+#include "edges/compare_frontends.hpp"
 #include "frontends.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"

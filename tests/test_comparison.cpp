@@ -3,7 +3,7 @@
 
 #include "dataset_files.hpp"
 #include "made_up_run.hpp"
-#include "report/comparison.hpp"
+#include "output/comparison.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

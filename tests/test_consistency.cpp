@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "evaluation/motion_errors.hpp"
-#include "pose/refinement.hpp"
-#include "pose/uncertain_pose.hpp"
+#include "geometry/uncertain_pose.hpp"
+#include "motion/refinement.hpp"
+#include "output/motion_errors.hpp"
 
 using namespace quadedge;
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/two_quads.hpp"
+#include "motion/two_quads.hpp"
 #include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;

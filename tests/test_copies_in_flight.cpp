@@ -6,10 +6,10 @@
 #include <numeric>
 #include <thread>
 
+#include "device/buffer.hpp"
+#include "device/device_edges.hpp"
 #include "frontends.hpp"
-#include "opencl/buffer.hpp"
 #include "quadedge/error.hpp"
-#include "stages/device_edges.hpp"
 
 using namespace quadedge;
 

@@ -1,9 +1,9 @@
 /// \file test_device_limits.cpp  Simulated devices with tighter limits than the available ones.
 #include <catch2/catch.hpp>
 
-#include "frontend/memory_fit.hpp"
+#include "device/variants.hpp"
+#include "edges/memory_fit.hpp"
 #include "frontends.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 

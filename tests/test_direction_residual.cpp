@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/least_squares.hpp"
-#include "pose/residuals.hpp"
+#include "motion/least_squares.hpp"
+#include "motion/residuals.hpp"
 
 using namespace quadedge::pose;
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "devices.hpp"
-#include "evaluation/motion_errors.hpp"
+#include "output/motion_errors.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/synthetic.hpp"

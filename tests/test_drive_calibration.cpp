@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "common/calibration.hpp"
-#include "common/lens_mapping.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/lens_mapping.hpp"
 #include "matching.hpp"
 #include "program.hpp"
 #include "quadedge/drive_calibration.hpp"

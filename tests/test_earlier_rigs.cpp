@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "devices.hpp"
-#include "odometry/earlier_rigs.hpp"
-#include "odometry/odometry_constants.hpp"
-#include "odometry/view_change.hpp"
+#include "motion/earlier_rigs.hpp"
+#include "motion/odometry_constants.hpp"
+#include "motion/view_change.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/synthetic.hpp"
 #include "saved_maps.hpp"

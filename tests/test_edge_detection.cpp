@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "device/edge_detection.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
 #include "frontends.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
-#include "stages/edge_detection.hpp"
 
 using namespace quadedge;
 

@@ -2,14 +2,14 @@
 #include <catch2/catch.hpp>
 
 #include "common/images.hpp"
+#include "device/edge_detection.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
-#include "frontend/common_view.hpp"
+#include "edges/common_view.hpp"
 #include "frontends.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
-#include "stages/edge_detection.hpp"
 
 using namespace quadedge;
 using frontend::within_common_view;

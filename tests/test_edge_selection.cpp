@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "common/epipolar_geometry.hpp"
+#include "device/edge_detection.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
-#include "opencl/variants.hpp"
+#include "geometry/epipolar_geometry.hpp"
 #include "quadedge/camera.hpp"
 #include "reference/edge_detection.hpp"
-#include "stages/edge_detection.hpp"
 
 using namespace quadedge;
 

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "device/edge_detection.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
-#include "stages/edge_detection.hpp"
 
 using namespace quadedge;
 

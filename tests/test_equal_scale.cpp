@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "common/undistortion.hpp"
+#include "geometry/undistortion.hpp"
 
 using namespace quadedge;
 

@@ -1,7 +1,7 @@
+#include "device/temporal_matching.hpp"
 #include "matching.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "reference/temporal_matching.hpp"
-#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "device/variants.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "frontends.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "quadedge/odometry.hpp"

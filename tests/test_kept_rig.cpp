@@ -3,7 +3,7 @@
 #include "common/layouts.hpp"
 #include "devices.hpp"
 #include "frontends.hpp"
-#include "odometry/motion_search.hpp"
+#include "motion/motion_search.hpp"
 #include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;

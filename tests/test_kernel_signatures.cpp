@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <set>
 
+#include "device/kernel.hpp"
+#include "device/stage.hpp"
+#include "device/variants.hpp"
 #include "frontends.hpp"
 #include "kernel_programs.hpp"
-#include "opencl/kernel.hpp"
-#include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/self_test.hpp"
-#include "stages/stage.hpp"
 #include "temporary_folder.hpp"
 #include "text_files.hpp"
 

@@ -2,10 +2,10 @@
 #include <cstring>
 #include <regex>
 
+#include "device/kernel.hpp"
+#include "device/kernel_sources.hpp"
 #include "devices.hpp"
 #include "kernel_programs.hpp"
-#include "opencl/kernel.hpp"
-#include "opencl/kernel_sources.hpp"
 
 using namespace quadedge;
 

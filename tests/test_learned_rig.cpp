@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "matching.hpp"
-#include "rig/learned_rig.hpp"
+#include "motion/learned_rig.hpp"
 
 using namespace quadedge;
 using rig::LearnedRig;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "generated_quads.hpp"
-#include "pose/least_squares.hpp"
+#include "motion/least_squares.hpp"
 
 using namespace quadedge::pose;
 

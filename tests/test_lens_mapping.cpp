@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <opencv2/calib3d.hpp>
 
-#include "common/lens_mapping.hpp"
+#include "geometry/lens_mapping.hpp"
 #include "quadedge/camera.hpp"
 
 using namespace quadedge;

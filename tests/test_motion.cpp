@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/motion.hpp"
+#include "motion/motion.hpp"
 
 using namespace quadedge::pose;
 

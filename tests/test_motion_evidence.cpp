@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "generated_quads.hpp"
-#include "odometry/motion_evidence.hpp"
+#include "motion/motion_evidence.hpp"
 
 using namespace quadedge;
 using odometry::MotionEvidence;

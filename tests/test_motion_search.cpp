@@ -1,9 +1,9 @@
 #include "frontends.hpp"
-#include "odometry/motion_proposals.hpp"
-#include "odometry/motion_search.hpp"
-#include "odometry/odometry_constants.hpp"
-#include "pose/pose_constants.hpp"
-#include "pose/scoring.hpp"
+#include "motion/motion_proposals.hpp"
+#include "motion/motion_search.hpp"
+#include "motion/odometry_constants.hpp"
+#include "motion/pose_constants.hpp"
+#include "motion/scoring.hpp"
 
 using namespace quadedge;
 using namespace matching;

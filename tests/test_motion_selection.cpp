@@ -2,8 +2,8 @@
 #include <numeric>
 #include <set>
 
-#include "odometry/motion_selection.hpp"
-#include "odometry/motion_step.hpp"
+#include "motion/motion_selection.hpp"
+#include "motion/motion_step.hpp"
 
 using namespace quadedge::odometry;
 

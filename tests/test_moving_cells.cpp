@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "odometry/motion_evidence.hpp"
-#include "odometry/moving_cells.hpp"
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_evidence.hpp"
+#include "motion/moving_cells.hpp"
+#include "motion/odometry_constants.hpp"
 
 using namespace quadedge::odometry;
 

@@ -3,15 +3,15 @@
 #include <set>
 #include <tbb/global_control.h>
 
-#include "common/undistortion.hpp"
 #include "frontends.hpp"
-#include "pose/uncertain_pose.hpp"
+#include "geometry/uncertain_pose.hpp"
+#include "geometry/undistortion.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "quadedge/odometry.hpp"
-#include "synthetic/path.hpp"
-#include "synthetic/render.hpp"
-#include "synthetic/scenes.hpp"
+#include "scenes/path.hpp"
+#include "scenes/render.hpp"
+#include "scenes/scenes.hpp"
 
 using namespace quadedge;
 using namespace matching;

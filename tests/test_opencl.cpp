@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "device/kernel.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
-#include "opencl/kernel.hpp"
-#include "opencl/variants.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/oriented_point.hpp"
+#include "geometry/oriented_point.hpp"
 #include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;

@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "odometry/paper_search.hpp"
-#include "paper/consensus.hpp"
-#include "pose/two_quads.hpp"
+#include "motion/paper_consensus.hpp"
+#include "motion/paper_search.hpp"
+#include "motion/two_quads.hpp"
 
 using namespace quadedge;
 

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include "device/kernel.hpp"
 #include "kernel_programs.hpp"
 #include "matching.hpp"
-#include "opencl/kernel.hpp"
 #include "reference/edge_descriptions.hpp"
 
 using namespace quadedge;

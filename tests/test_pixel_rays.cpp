@@ -2,15 +2,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "common/lens_mapping.hpp"
 #include "data/eth3d_slam.hpp"
 #include "dataset_files.hpp"
+#include "geometry/lens_mapping.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "synthetic/lenses.hpp"
-#include "synthetic/render.hpp"
-#include "synthetic/scenes.hpp"
+#include "scenes/lenses.hpp"
+#include "scenes/render.hpp"
+#include "scenes/scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

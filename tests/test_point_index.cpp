@@ -2,9 +2,9 @@
 #include <numeric>
 #include <set>
 
+#include "device/temporal_matching.hpp"
 #include "matching.hpp"
 #include "reference/temporal_matching.hpp"
-#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "pose/uncertain_pose.hpp"
+#include "geometry/uncertain_pose.hpp"
 
 using namespace quadedge;
 using pose::RelativePose;

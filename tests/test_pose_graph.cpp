@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/uncertain_pose.hpp"
 #include "places/pose_graph.hpp"
-#include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
 using places::GraphEdge;

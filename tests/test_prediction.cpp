@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "frontend/prediction.hpp"
+#include "edges/prediction.hpp"
 #include "generated_quads.hpp"
 #include "quadedge/camera.hpp"
 

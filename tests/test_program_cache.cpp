@@ -3,9 +3,9 @@
 #include <fstream>
 #include <thread>
 
+#include "device/kernel.hpp"
+#include "device/program_cache.hpp"
 #include "devices.hpp"
-#include "opencl/kernel.hpp"
-#include "opencl/program_cache.hpp"
 #include "temporary_folder.hpp"
 
 using namespace quadedge;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/quads.hpp"
+#include "motion/quads.hpp"
 
 using namespace quadedge::pose;
 

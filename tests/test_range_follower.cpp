@@ -1,4 +1,4 @@
-#include "frontend/range_follower.hpp"
+#include "edges/range_follower.hpp"
 #include "matching.hpp"
 #include "quadedge/error.hpp"
 

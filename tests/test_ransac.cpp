@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/pose_constants.hpp"
-#include "pose/ransac.hpp"
-#include "pose/two_quads.hpp"
+#include "motion/pose_constants.hpp"
+#include "motion/ransac.hpp"
+#include "motion/two_quads.hpp"
 
 using namespace quadedge::pose;
 

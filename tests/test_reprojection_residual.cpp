@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/least_squares.hpp"
-#include "pose/pose_constants.hpp"
-#include "pose/residuals.hpp"
+#include "motion/least_squares.hpp"
+#include "motion/pose_constants.hpp"
+#include "motion/residuals.hpp"
 #include "quadedge/camera.hpp"
 #include "reprojection_jacobian.hpp"
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "generated_quads.hpp"
-#include "pose/reprojection_terms.hpp"
+#include "motion/reprojection_terms.hpp"
 #include "reprojection_jacobian.hpp"
 
 using namespace quadedge::pose;

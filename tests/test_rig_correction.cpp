@@ -1,4 +1,4 @@
-#include "common/calibration.hpp"
+#include "geometry/calibration.hpp"
 #include "matching.hpp"
 #include "rig/rig_correction.hpp"
 

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <random>
 
-#include "common/corrected_rig.hpp"
 #include "common/numeric.hpp"
 #include "frontends.hpp"
 #include "generated_quads.hpp"
-#include "odometry/latest_frame.hpp"
-#include "odometry/motion_search.hpp"
-#include "pose/oriented_point.hpp"
+#include "geometry/corrected_rig.hpp"
+#include "geometry/oriented_point.hpp"
+#include "motion/latest_frame.hpp"
+#include "motion/motion_search.hpp"
 #include "quadedge/localiser.hpp"
 #include "quadedge/map.hpp"
 #include "quadedge/match_stereo.hpp"

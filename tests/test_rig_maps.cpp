@@ -5,9 +5,9 @@
 
 #include "csv_table.hpp"
 #include "dataset_files.hpp"
+#include "output/rig_maps.hpp"
 #include "program.hpp"
 #include "quadedge/camera.hpp"
-#include "report/rig_maps.hpp"
 
 using namespace quadedge;
 using report::CellMap;

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/pose_constants.hpp"
-#include "pose/sample_fit.hpp"
+#include "motion/pose_constants.hpp"
+#include "motion/sample_fit.hpp"
 
 using namespace quadedge::pose;
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "pose/sampling_order.hpp"
+#include "motion/sampling_order.hpp"
 
 using namespace quadedge::pose;
 

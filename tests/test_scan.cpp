@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "device/stage.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
-#include "opencl/variants.hpp"
 #include "reference/candidates.hpp"
-#include "stages/stage.hpp"
 
 using namespace quadedge;
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/scoring.hpp"
+#include "motion/scoring.hpp"
 #include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "pose/sampling_order.hpp"
+#include "motion/sampling_order.hpp"
 
 using namespace quadedge::pose;
 

@@ -1,12 +1,12 @@
 /// \file test_self_test.cpp  The self-test: correct devices pass, faulty ones are reported.
 #include <filesystem>
 
+#include "device/stage.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
-#include "frontend/compare_frontends.hpp"
-#include "opencl/variants.hpp"
+#include "edges/compare_frontends.hpp"
 #include "program.hpp"
 #include "quadedge/self_test.hpp"
-#include "stages/stage.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;

@@ -4,11 +4,11 @@
 #include "dataset_files.hpp"
 #include "devices.hpp"
 #include "generated_quads.hpp"
-#include "pose/motion.hpp"
+#include "motion/motion.hpp"
+#include "motion/shared_lens.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/odometry.hpp"
 #include "rig/rig_finding.hpp"
-#include "rig/shared_lens.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;

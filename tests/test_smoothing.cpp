@@ -3,15 +3,16 @@
 #include <random>
 
 #include "common/filter_limits.hpp"
+#include "device/images.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
 #include "edge_images.hpp"
-#include "frontend/noise_gate.hpp"
+#include "edges/noise_gate.hpp"
 #include "frontends.hpp"
-#include "opencl/variants.hpp"
+#include "geometry/undistortion.hpp"
 #include "quadedge/odometry.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/images.hpp"
-#include "stages/images.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -89,7 +90,7 @@ TEST_CASE("smoothing: the noise of recorded images is known from that of undisto
   }
   reference::EdgeThreshold before{EdgesConfig{}}, after{EdgesConfig{}};
   before.next({recorded.view()});
-  after.next({reference::undistort(recorded.view(), table).view()});
+  after.next({undistort(recorded.view(), table).view()});
   CHECK(after.noise() < 0.6 * before.noise());
   CHECK(after.noise() / before.noise() == Approx(frontend::measured_noise_ratio(table)).epsilon(0.05));
   CHECK(frontend::measured_noise_ratio({}) == 1);

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "evaluation/motion_errors.hpp"
+#include "output/motion_errors.hpp"
 #include "quadedge/camera.hpp"
 
 using namespace quadedge;

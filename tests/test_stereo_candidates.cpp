@@ -1,10 +1,10 @@
 #include <Eigen/Dense>
 
 #include "common/matching_constants.hpp"
+#include "device/stereo_matching.hpp"
 #include "matching.hpp"
 #include "quadedge/error.hpp"
 #include "reference/stereo_matching.hpp"
-#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -1,7 +1,7 @@
+#include "device/stereo_matching.hpp"
 #include "matching.hpp"
 #include "quadedge/camera.hpp"
 #include "reference/stereo_matching.hpp"
-#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

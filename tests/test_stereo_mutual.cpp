@@ -1,9 +1,9 @@
 #include "describing.hpp"
+#include "device/stereo_matching.hpp"
 #include "matching.hpp"
 #include "quadedge/camera.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "reference/stereo_matching.hpp"
-#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -2,10 +2,10 @@
 #include <numeric>
 
 #include "common/matching_constants.hpp"
+#include "device/stereo_matching.hpp"
 #include "matching.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "reference/stereo_matching.hpp"
-#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -1,10 +1,10 @@
 #include <optional>
 
-#include "common/disparity_range.hpp"
+#include "device/stereo_matching.hpp"
+#include "geometry/disparity_range.hpp"
 #include "matching.hpp"
 #include "quadedge/camera.hpp"
 #include "reference/stereo_matching.hpp"
-#include "stages/stereo_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

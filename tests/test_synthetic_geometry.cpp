@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "synthetic/reflectance.hpp"
-#include "synthetic/render.hpp"
+#include "scenes/reflectance.hpp"
+#include "scenes/render.hpp"
 
 using namespace quadedge;
 using Eigen::Isometry3d;

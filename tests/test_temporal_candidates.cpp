@@ -1,6 +1,6 @@
+#include "device/temporal_matching.hpp"
 #include "matching.hpp"
 #include "reference/temporal_matching.hpp"
-#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -1,8 +1,8 @@
 #include "common/filter_limits.hpp"
+#include "device/temporal_matching.hpp"
 #include "matching.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "reference/temporal_matching.hpp"
-#include "stages/temporal_matching.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "odometry/tracking_state.hpp"
+#include "motion/tracking_state.hpp"
 
 using namespace quadedge;
 using odometry::ConstantVelocity;

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include "device/images.hpp"
+#include "device/variants.hpp"
 #include "devices.hpp"
-#include "opencl/variants.hpp"
-#include "reference/images.hpp"
-#include "stages/images.hpp"
+#include "geometry/undistortion.hpp"
 
 using namespace quadedge;
 
@@ -35,13 +35,13 @@ UndistortionTable shift_table(int width, int height, float dx, float dy) {
 
 TEST_CASE("undistortion: whole-pixel shifts copy pixels and replicate the border", "[undistortion]") {
   const Image image = pattern(9, 7);
-  const Image moved = reference::undistort(image.view(), shift_table(9, 7, 2.0f, -1.0f));
+  const Image moved = undistort(image.view(), shift_table(9, 7, 2.0f, -1.0f));
   for (int y = 0; y < 7; ++y) {
     for (int x = 0; x < 9; ++x) {
       CHECK(moved.view().at(x, y) == image.view().at(std::min(x + 2, 8), std::max(y - 1, 0)));
     }
   }
-  const Image half = reference::undistort(image.view(), shift_table(9, 7, 0.5f, 0.0f));
+  const Image half = undistort(image.view(), shift_table(9, 7, 0.5f, 0.0f));
   CHECK(half.view().value(0, 0) == (image.view().value(0, 0) + image.view().value(1, 0) + 1) / 2);
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("undistortion: every device and variant equals the reference exactly",
                                        max_value);
             opencl::Buffer<cl_uchar> result;
             stage.run(image.view(), result);
-            const Image expected = reference::undistort(image.view(), table);
+            const Image expected = undistort(image.view(), table);
             CHECK(result.read(expected.pixels.size()) == expected.pixels);
           }
         }

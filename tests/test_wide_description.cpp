@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "describing.hpp"
+#include "device/edge_descriptions.hpp"
 #include "matching.hpp"
 #include "reference/edge_descriptions.hpp"
-#include "stages/edge_descriptions.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "data/text.hpp"
+#include "output/json.hpp"
+#include "output/json_values.hpp"
+#include "output/statistics.hpp"
 #include "quadedge/error.hpp"
-#include "report/json.hpp"
-#include "report/json_values.hpp"
-#include "report/statistics.hpp"
 
 namespace quadedge::bench {
 

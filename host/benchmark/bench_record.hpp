@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "opencl/context.hpp"
-#include "report/run_record.hpp"
+#include "device/context.hpp"
+#include "output/run_record.hpp"
 
 namespace quadedge::bench {
 

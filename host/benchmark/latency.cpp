@@ -9,11 +9,10 @@
 
 #include "common/numeric.hpp"
 #include "common/timing.hpp"
-#include "opencl/context.hpp"
+#include "device/context.hpp"
+#include "device/edge_detection.hpp"
+#include "device/images.hpp"
 #include "quadedge/error.hpp"
-#include "reference/edge_detection.hpp"
-#include "stages/edge_detection.hpp"
-#include "stages/images.hpp"
 
 namespace quadedge::bench {
 namespace {

@@ -11,13 +11,13 @@
 #include "benchmark/bench_record.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "frontend/compare_frontends.hpp"
-#include "frontend/prediction.hpp"
-#include "opencl/variants.hpp"
+#include "device/variants.hpp"
+#include "edges/compare_frontends.hpp"
+#include "edges/prediction.hpp"
+#include "output/json_values.hpp"
+#include "output/statistics.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/self_test.hpp"
-#include "report/json_values.hpp"
-#include "report/statistics.hpp"
 #include "rig/rectification_follower.hpp"
 
 namespace quadedge::bench {

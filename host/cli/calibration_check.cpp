@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/disparity_range.hpp"
 #include "common/printed.hpp"
+#include "geometry/disparity_range.hpp"
 #include "rig/rig_correction.hpp"
 #include "rig/rig_monitor.hpp"
 

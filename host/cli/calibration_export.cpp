@@ -2,8 +2,8 @@
 #include "cli/calibration_export.hpp"
 
 #include "data/file_list.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 

@@ -15,11 +15,11 @@
 #include "data/content_hash.hpp"
 #include "data/find_sequences.hpp"
 #include "data/text.hpp"
+#include "output/config_toml.hpp"
+#include "output/json_values.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "report/config_toml.hpp"
-#include "report/json_values.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;

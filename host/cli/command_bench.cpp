@@ -14,10 +14,10 @@
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
+#include "output/json.hpp"
+#include "output/output_folder.hpp"
+#include "output/statistics.hpp"
 #include "quadedge/error.hpp"
-#include "report/json.hpp"
-#include "report/output_folder.hpp"
-#include "report/statistics.hpp"
 
 namespace quadedge::cli {
 namespace {

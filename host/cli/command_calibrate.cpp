@@ -7,9 +7,9 @@
 #include "cli/rig_learning.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
+#include "output/calibration_report.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
-#include "report/calibration_report.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -9,9 +9,9 @@
 #include "cli/source_options.hpp"
 #include "data/find_sequences.hpp"
 #include "data/text.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -11,10 +11,10 @@
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
-#include "common/disparity_range.hpp"
 #include "data/atomic_file.hpp"
+#include "geometry/disparity_range.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "cli/command.hpp"
 #include "cli/method_options.hpp"
-#include "opencl/variants.hpp"
+#include "device/variants.hpp"
 #include "quadedge/device.hpp"
 
 namespace quadedge::cli {

@@ -5,14 +5,14 @@
 #include "cli/method_options.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
+#include "geometry/undistortion.hpp"
+#include "output/drawing.hpp"
+#include "output/output_folder.hpp"
+#include "output/result_rows.hpp"
+#include "output/statistics.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/images.hpp"
-#include "report/drawing.hpp"
-#include "report/output_folder.hpp"
-#include "report/result_rows.hpp"
-#include "report/statistics.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -71,7 +71,7 @@ class EdgesCommand : public Command {
   Image left_image() const {
     PairOfSource pair = source_.pair(frame_);
     const auto& table = pair.dataset.rig.left_undistortion;
-    return table.empty() ? std::move(pair.pair.left) : reference::undistort(pair.pair.left.view(), table);
+    return table.empty() ? std::move(pair.pair.left) : undistort(pair.pair.left.view(), table);
   }
 
   SourceOptions source_;

@@ -10,12 +10,12 @@
 #include "cli/console.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "evaluation/motion_errors.hpp"
+#include "output/json.hpp"
+#include "output/motion_errors.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
-#include "report/json.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {

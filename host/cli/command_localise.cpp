@@ -12,11 +12,11 @@
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
+#include "output/config_toml.hpp"
+#include "output/json.hpp"
+#include "output/output_folder.hpp"
+#include "output/result_rows.hpp"
 #include "quadedge/error.hpp"
-#include "report/config_toml.hpp"
-#include "report/json.hpp"
-#include "report/output_folder.hpp"
-#include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -7,13 +7,13 @@
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
+#include "geometry/undistortion.hpp"
+#include "output/drawing.hpp"
+#include "output/output_folder.hpp"
+#include "output/result_rows.hpp"
+#include "output/statistics.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/images.hpp"
-#include "report/drawing.hpp"
-#include "report/output_folder.hpp"
-#include "report/result_rows.hpp"
-#include "report/statistics.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -100,7 +100,7 @@ class MatchCommand : public Command {
 
   void draw(const Pair& pair, const StereoMatches& matches) const {
     const auto& table = matches.rig.left_undistortion;
-    const Image left = table.empty() ? pair.left : reference::undistort(pair.left.view(), table);
+    const Image left = table.empty() ? pair.left : undistort(pair.left.view(), table);
     report::draw_stereo(draw_, left.view(), matches.edges);
   }
 

@@ -7,9 +7,9 @@
 #include "cli/console.hpp"
 #include "cli/processes.hpp"
 #include "data/atomic_file.hpp"
+#include "output/comparison.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
-#include "report/comparison.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;

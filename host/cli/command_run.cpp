@@ -4,8 +4,8 @@
 #include "cli/rig_learning.hpp"
 #include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {

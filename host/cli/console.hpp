@@ -4,8 +4,8 @@
 #include <chrono>
 #include <string>
 
+#include "output/run_record.hpp"
 #include "quadedge/evaluation.hpp"
-#include "report/run_record.hpp"
 
 namespace quadedge::cli {
 

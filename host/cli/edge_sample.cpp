@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/corrected_rig.hpp"
 #include "common/matching_constants.hpp"
 #include "common/printed.hpp"
-#include "odometry/latest_frame.hpp"
-#include "pose/quads.hpp"
+#include "geometry/corrected_rig.hpp"
+#include "motion/latest_frame.hpp"
+#include "motion/quads.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "cli/console.hpp"
 #include "cli/processes.hpp"
 #include "data/rendered_frames.hpp"
+#include "output/run_record.hpp"
 #include "quadedge/dataset.hpp"
-#include "report/run_record.hpp"
 
 namespace quadedge::cli {
 

@@ -7,13 +7,13 @@
 #include "cli/console.hpp"
 #include "data/atomic_file.hpp"
 #include "data/content_hash.hpp"
-#include "opencl/kernel_sources.hpp"
-#include "opencl/variants.hpp"
+#include "device/kernel_sources.hpp"
+#include "device/variants.hpp"
+#include "output/config_toml.hpp"
+#include "output/json_values.hpp"
+#include "output/source_commit.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/threads.hpp"
-#include "report/config_toml.hpp"
-#include "report/json_values.hpp"
-#include "report/source_commit.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -13,9 +13,9 @@
 #include "common/nearest_word.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
+#include "output/config_toml.hpp"
+#include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
-#include "report/config_toml.hpp"
-#include "report/output_folder.hpp"
 
 namespace quadedge::cli {
 namespace {

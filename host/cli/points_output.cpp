@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "common/corrected_rig.hpp"
 #include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
+#include "geometry/corrected_rig.hpp"
+#include "geometry/undistortion.hpp"
+#include "output/drawing.hpp"
+#include "output/output_folder.hpp"
+#include "output/result_rows.hpp"
 #include "quadedge/error.hpp"
-#include "reference/images.hpp"
-#include "report/drawing.hpp"
-#include "report/output_folder.hpp"
-#include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 void write_image(const std::string& folder, const char* side, int frame, const Image& recorded,
                  const UndistortionTable& table) {
   const std::string name = printed("/%s_%06d.png", side, frame);
-  const Image image = table.empty() ? recorded : reference::undistort(recorded.view(), table);
+  const Image image = table.empty() ? recorded : undistort(recorded.view(), table);
   report::write_image(folder + name, image.view());
 }
 

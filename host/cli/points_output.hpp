@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "output/run_record.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/map.hpp"
 #include "quadedge/point_cloud.hpp"
-#include "report/run_record.hpp"
 
 namespace quadedge::cli {
 

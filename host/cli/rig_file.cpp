@@ -8,10 +8,10 @@
 #include <map>
 #include <vector>
 
-#include "common/calibration.hpp"
 #include "data/atomic_file.hpp"
 #include "data/toml_file.hpp"
-#include "odometry/latest_frame.hpp"
+#include "geometry/calibration.hpp"
+#include "motion/latest_frame.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {

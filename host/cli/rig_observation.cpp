@@ -4,9 +4,9 @@
 #include <initializer_list>
 #include <utility>
 
-#include "common/corrected_rig.hpp"
 #include "common/matching_constants.hpp"
-#include "odometry/latest_frame.hpp"
+#include "geometry/corrected_rig.hpp"
+#include "motion/latest_frame.hpp"
 
 namespace quadedge::cli {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 /// \file rig_observation.hpp  Collects what the frames of a run show of its rig.
 
+#include "output/rig_maps.hpp"
 #include "quadedge/odometry.hpp"
-#include "report/rig_maps.hpp"
 
 namespace quadedge::cli {
 

@@ -14,17 +14,17 @@
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
-#include "opencl/context.hpp"
+#include "device/context.hpp"
+#include "geometry/undistortion.hpp"
+#include "output/calibration_report.hpp"
+#include "output/config_toml.hpp"
+#include "output/drawing.hpp"
+#include "output/json.hpp"
+#include "output/output_folder.hpp"
+#include "output/result_rows.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
-#include "reference/images.hpp"
-#include "report/calibration_report.hpp"
-#include "report/config_toml.hpp"
-#include "report/drawing.hpp"
-#include "report/json.hpp"
-#include "report/output_folder.hpp"
-#include "report/result_rows.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -48,7 +48,7 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   const FrameDetails details = odometry.details();
   // Edges refer to the pinhole image, not to the recorded one with distortion.
   const auto& table = rig.left_undistortion;
-  const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
+  const Image left = table.empty() ? frame.left : undistort(frame.left.view(), table);
   const std::string number = printed("%06d", frame.number);
   if (example)
     report::draw_pair(options.output + "/pictures/pair_" + number + ".jpg", frame.left.view(), frame.right.view());

@@ -10,9 +10,9 @@
 #include "cli/method_options.hpp"
 #include "cli/points_output.hpp"
 #include "cli/processes.hpp"
+#include "output/run_record.hpp"
 #include "quadedge/drive_calibration.hpp"
 #include "quadedge/error.hpp"
-#include "report/run_record.hpp"
 
 namespace quadedge::cli {
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "common/disparity_range.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/image_file.hpp"
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
+#include "geometry/disparity_range.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {

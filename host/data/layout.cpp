@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
-#include "common/calibration.hpp"
 #include "common/printed.hpp"
 #include "data/text.hpp"
+#include "geometry/calibration.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::data {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <system_error>
 
-#include "common/calibration.hpp"
 #include "common/printed.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
+#include "geometry/calibration.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {

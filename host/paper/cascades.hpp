@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/epipolar_geometry.hpp"
 #include "common/filter_limits.hpp"
+#include "geometry/epipolar_geometry.hpp"
 #include "paper/side_patches.hpp"
 #include "quadedge/config.hpp"
 #include "reference/candidates.hpp"

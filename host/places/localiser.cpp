@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/disparity_range.hpp"
 #include "common/images.hpp"
 #include "common/parallel.hpp"
 #include "common/timing.hpp"
-#include "common/undistortion.hpp"
-#include "odometry/frame_preparation.hpp"
-#include "odometry/motion_search.hpp"
-#include "odometry/odometry_constants.hpp"
-#include "odometry/tracking_state.hpp"
-#include "odometry/view_change.hpp"
+#include "geometry/disparity_range.hpp"
+#include "geometry/uncertain_pose.hpp"
+#include "geometry/undistortion.hpp"
+#include "motion/frame_preparation.hpp"
+#include "motion/learned_rig.hpp"
+#include "motion/motion_search.hpp"
+#include "motion/odometry_constants.hpp"
+#include "motion/tracking_state.hpp"
+#include "motion/view_change.hpp"
 #include "places/place_store.hpp"
-#include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "rig/learned_rig.hpp"
 #include "rig/rig_monitor.hpp"
 
 namespace quadedge {

@@ -7,15 +7,15 @@
 #include <map>
 #include <utility>
 
-#include "common/corrected_rig.hpp"
 #include "common/matching_constants.hpp"
-#include "odometry/latest_frame.hpp"
-#include "odometry/motion_search.hpp"
-#include "odometry/odometry_constants.hpp"
-#include "odometry/view_change.hpp"
+#include "geometry/corrected_rig.hpp"
+#include "geometry/uncertain_pose.hpp"
+#include "motion/latest_frame.hpp"
+#include "motion/motion_search.hpp"
+#include "motion/odometry_constants.hpp"
+#include "motion/view_change.hpp"
 #include "places/place_store.hpp"
 #include "places/pose_graph.hpp"
-#include "pose/uncertain_pose.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/layouts.hpp"
-#include "frontend/kept_frame_edges.hpp"
+#include "edges/kept_frame_edges.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 

@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "pose/uncertain_pose.hpp"
+#include "geometry/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/trajectory.hpp"
 

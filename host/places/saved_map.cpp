@@ -5,9 +5,9 @@
 #include <cstring>
 #include <numeric>
 
-#include "common/calibration.hpp"
-#include "common/corrected_rig.hpp"
 #include "common/printed.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/corrected_rig.hpp"
 #include "places/place_store.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/disparity_range.hpp"
+#include "geometry/disparity_range.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::reference {

@@ -9,10 +9,7 @@ namespace quadedge::reference {
 
 // Plain C++ twin of kernels/undistortion.cl.
 
-/// The pinhole image (table.height x table.width) of a recorded image: bilinear, border replicated, rounded half up.
-Image undistort(const ImageView& recorded, const UndistortionTable& table);
-
-/// The same; without a table, a copy of the recorded image.
+/// undistort() of geometry/undistortion.hpp; without a table, a copy of the recorded image.
 Image pinhole_image(const ImageView& recorded, const UndistortionTable& table);
 
 // Plain C++ twin of kernels/smoothing.cl: a noisy image, smoothed. doc/method.md section 1.

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/disparity_range.hpp"
-#include "common/epipolar_geometry.hpp"
+#include "geometry/disparity_range.hpp"
+#include "geometry/epipolar_geometry.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"

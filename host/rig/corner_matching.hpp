@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/epipolar_geometry.hpp"
-#include "common/frame_mask.hpp"
-#include "common/undistortion.hpp"
+#include "geometry/epipolar_geometry.hpp"
+#include "geometry/frame_mask.hpp"
+#include "geometry/undistortion.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "common/calibration.hpp"
-#include "common/frame_mask.hpp"
-#include "common/lens_mapping.hpp"
 #include "common/printed.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/frame_mask.hpp"
+#include "geometry/lens_mapping.hpp"
 #include "quadedge/error.hpp"
 #include "rig/pair_adjustment.hpp"
 #include "rig/pair_collection.hpp"

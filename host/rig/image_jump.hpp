@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/robust_fit.hpp"
-#include "pose/quads.hpp"
+#include "geometry/measured_edges.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::rig {

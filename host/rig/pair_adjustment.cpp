@@ -8,9 +8,9 @@
 #include <optional>
 #include <tbb/parallel_for.h>
 
-#include "common/calibration.hpp"
-#include "common/lens_mapping.hpp"
 #include "common/numeric.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/lens_mapping.hpp"
 
 namespace quadedge::rig {
 namespace {

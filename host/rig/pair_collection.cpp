@@ -6,9 +6,9 @@
 #include <tbb/parallel_for.h>
 #include <utility>
 
-#include "common/calibration.hpp"
-#include "common/lens_mapping.hpp"
 #include "common/numeric.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/lens_mapping.hpp"
 
 namespace quadedge::rig {
 namespace {

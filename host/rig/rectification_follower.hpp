@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/row_correction.hpp"
+#include "geometry/row_correction.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "rig/row_model.hpp"

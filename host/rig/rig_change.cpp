@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "common/lens_mapping.hpp"
 #include "common/numeric.hpp"
+#include "geometry/lens_mapping.hpp"
 
 namespace quadedge {
 

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "common/calibration.hpp"
-#include "common/epipolar_geometry.hpp"
 #include "common/printed.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/epipolar_geometry.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/frame_mask.hpp"
+#include "geometry/frame_mask.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/rig_estimate.hpp"

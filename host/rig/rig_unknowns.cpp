@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/calibration.hpp"
-#include "common/lens_mapping.hpp"
+#include "geometry/calibration.hpp"
+#include "geometry/lens_mapping.hpp"
 
 namespace quadedge::rig {
 namespace {

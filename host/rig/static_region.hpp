@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/undistortion.hpp"
+#include "geometry/undistortion.hpp"
 #include "rig/corner_matching.hpp"
 
 namespace quadedge::rig {

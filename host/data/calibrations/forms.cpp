@@ -7,13 +7,13 @@
 #include <opencv2/core/persistence.hpp>
 #include <set>
 
-#include "common/calibration.hpp"
 #include "common/printed.hpp"
 #include "data/atomic_file.hpp"
 #include "data/file_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
+#include "geometry/calibration.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 

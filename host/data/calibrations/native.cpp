@@ -1,9 +1,9 @@
 /// \file native.cpp  The program's own calibration format: ten entries, exact numbers.
 
-#include "common/calibration.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
+#include "geometry/calibration.hpp"
 
 namespace quadedge::data {
 namespace {

@@ -1,0 +1,27 @@
+#pragma once
+/// \file latest_frame.hpp  The frame tracked last, as a map of the same library sees it.
+
+#include <vector>
+
+#include "edges/frontend.hpp"
+#include "motion/motion_step.hpp"
+#include "quadedge/odometry.hpp"
+#include "rig/corner_matching.hpp"
+#include "rig/rectification_follower.hpp"
+
+namespace quadedge::odometry {
+
+/// Refers to parts of a StereoOdometry, which must outlive it.
+struct LatestFrame {
+  Device& device;
+  frontend::Frontend& frontend;
+  frontend::FrameEdgesHandle frame_edges;               ///< null before the first frame
+  RigEstimate rig;                                      ///< of the next frame, as far as it is known
+  rig::RectificationFollower& rows;                     ///< what is known of them
+  const MotionStep* step;                               ///< its motion; null if none was searched for
+  const std::vector<rig::CornerMatch>& corner_matches;  ///< what was compared with the calibration
+
+  static LatestFrame of(const StereoOdometry& odometry);
+};
+
+}  // namespace quadedge::odometry

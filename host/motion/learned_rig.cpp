@@ -1,0 +1,72 @@
+/// \file learned_rig.cpp  Divides what a frame shows between offset and displacement, by their variances.
+#include "motion/learned_rig.hpp"
+
+#include <cmath>
+
+#include "rig/rig_constants.hpp"
+
+namespace quadedge::rig {
+
+LearnedRig::LearnedRig(const PoseConfig& config)
+    : value_(config.disparity_offset), prior_(config.disparity_offset_sigma * config.disparity_offset_sigma) {}
+
+RigEstimate LearnedRig::estimate() const {
+  RigEstimate estimate;
+  estimate.disparity_offset = value_;
+  estimate.disparity_offset_sigma = std::sqrt(prior_.variance);
+  estimate.disparity_offset_shared = prior_.shared;
+  return estimate;
+}
+
+DisplacementLimits LearnedRig::displacement_limits() const {
+  return displaced_ < kDisplacedFrames ? DisplacementLimits{kFirstJump, kFirstGain} : DisplacementLimits{kLaterJump, 1};
+}
+
+/// Standard deviation of the displacements.
+double LearnedRig::swing() const {
+  return std::sqrt((kSwingFrames * kSwing * kSwing + squares_) / (kSwingFrames + frames_));
+}
+
+RigEstimate LearnedRig::refined(RigEstimate frame, const RigEstimate& base, const pose::PoseAndOffset& learned) {
+  if (!(learned.offset_variance > 0)) return frame;
+  const double variance = frame.disparity_offset_sigma * frame.disparity_offset_sigma,
+               displaced = base.displacement_sigma * base.displacement_sigma, share = variance / (variance + displaced),
+               lost = std::fmax(0.0, variance + displaced - learned.offset_variance);
+  frame.disparity_offset += share * learned.offset;
+  frame.disparity_offset_sigma = std::sqrt(variance - share * share * lost);
+  frame.disparity_offset_shared = share * learned.offset_shared;
+  if (frame.displacement == 0) return frame;
+  frame.displacement -= (1 - share) * learned.offset;
+  const double own = frame.displacement_sigma * frame.displacement_sigma;
+  frame.displacement_sigma = std::sqrt(std::fmax(0.0, own - (1 - share) * (1 - share) * lost));
+  return frame;
+}
+
+RigEstimate LearnedRig::anchored(RigEstimate frame) {
+  if (displaced_ == 0 && frame.displacement == 0) return frame;
+  constexpr double kKept = 1 - 1.0 / kSwingMemory;
+  frames_ = kKept * frames_ + 1;
+  squares_ = kKept * squares_ + frame.displacement * frame.displacement;
+  if (frame.displacement == 0) return frame;
+  ++displaced_;
+  const double variance = frame.displacement_sigma * frame.displacement_sigma,
+               kept = swing() * swing() / (swing() * swing() + variance);
+  frame.displacement *= kept;
+  frame.displacement_sigma *= std::sqrt(kept);
+  return frame;
+}
+
+void LearnedRig::adopt(const RigEstimate& frame, int frames) {
+  if (!(prior_.variance > 0)) return;
+  value_ = frame.disparity_offset;
+  prior_ = {frame.disparity_offset_sigma * frame.disparity_offset_sigma +
+                frames * kDisparityOffsetDrift * kDisparityOffsetDrift,
+            frame.disparity_offset_shared};
+}
+
+void LearnedRig::forget_displacements() {
+  displaced_ = 0;
+  frames_ = squares_ = 0;
+}
+
+}  // namespace quadedge::rig

@@ -1,0 +1,355 @@
+/// \file motion_search.cpp  Levels of hypotheses; guided matching repeats until the positions it predicts settle.
+#include "motion/motion_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "edges/prediction.hpp"
+#include "motion/odometry_constants.hpp"
+#include "rig/rig_constants.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+/// Leaves out the edges that are predicted where another motion explains the image.
+void hide_explained(const ExplainedCells& other, TemporalSearch& search) {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < search.left.size(); ++i) {
+    const ExplainedCell* cell = other.at(search.left.x[i], search.left.y[i]);
+    if (cell != nullptr && cell->is_free()) continue;
+    search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+  }
+}
+
+/// Leaves out the edges that are predicted in masked pixels.
+void hide_masked(const PixelMask& hidden, TemporalSearch& search) {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  if (hidden.empty()) return;
+  for (std::size_t i = 0; i < search.left.size(); ++i) {
+    const float x = search.left.x[i], y = search.left.y[i];
+    if (!(x >= 0 && x < static_cast<float>(hidden.width) && y >= 0 && y < static_cast<float>(hidden.height))) continue;
+    if (hidden.hidden[static_cast<std::size_t>(static_cast<int>(y) * hidden.width + static_cast<int>(x))] != 0)
+      search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+  }
+}
+
+/// Whether a motion explains so little beside a confirmed one that further rounds would not make them ambiguous.
+bool cannot_compete(const MotionStep& step, const MotionStep* known) {
+  return known != nullptr && step.verdict.area < kHopelessAreaRatio * known->verdict.area;
+}
+
+}  // namespace
+
+MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig)
+    : config_(config),
+      frontend_(frontend),
+      fits_(config, rig),
+      proposals_(config, frontend, fits_),
+      evidence_(config, rig),
+      record_(config) {}
+
+StepHandle MotionSearch::find(const MotionQuery& query) {
+  if (StepHandle found = find_by_few_matches(query)) return found;
+  State state(query);
+  while (!advance(state)) {
+  }
+  return std::move(state.found);
+}
+
+/// A level up to the global matches, the rest of it, or the check.
+bool MotionSearch::advance(State& state) {
+  const MotionQuery& query = state.query;
+  Candidates& candidates = state.candidates_;
+  if (state.found) {
+    check(query, *state.found);
+    return true;
+  }
+  const std::vector<Hypothesis>& hypotheses = hypotheses_at(state.level_);
+  while (state.next_ < hypotheses.size()) {
+    const Hypothesis hypothesis = hypotheses[state.next_++];
+    attempt(hypothesis, query, candidates);
+    if (hypothesis == Hypothesis::near_prediction) follow_displacement(state.query, candidates);
+    if (hypothesis == Hypothesis::global_matches) return false;
+  }
+  std::vector<Verdict> verdicts = verdicts_on(candidates, query);
+  const std::size_t chosen = verdicts.empty() ? 0 : choose(candidates, query, verdicts);
+  const SearchLevel needed = verdicts.empty() ? SearchLevel::everything : verdicts[chosen].needed;
+  if (!query.only_near_prediction && needed > state.level_) {
+    state.level_ = needed;
+    state.next_ = 0;
+  } else if (candidates.empty()) {  // only a motion near a prediction, and there is none
+    state.found = fits_.new_step(query, query.base);
+  } else {
+    state.found = std::move(candidates[chosen].outcome());
+    state.found->verdict = verdicts[chosen];
+    candidates.clear();
+  }
+  if (!state.found || state.found->ok()) return false;
+  check(query, *state.found);
+  return true;
+}
+
+/// At the start a few global matches take the place of the prediction if they leave no doubt; otherwise null, as though
+/// they had not been tried.
+StepHandle MotionSearch::find_by_few_matches(const MotionQuery& query) {
+  if (!query.at_start) return nullptr;
+  Candidates candidates;
+  attempt(Hypothesis::few_global_matches, query, candidates);
+  std::vector<Verdict> verdicts = verdicts_on(candidates, query);
+  if (verdicts.empty()) return nullptr;
+  choose(candidates, query, verdicts);
+  if (verdicts.front().needed > SearchLevel::prediction) return nullptr;
+  StepHandle found = std::move(candidates.front().outcome());
+  found->verdict = verdicts.front();
+  check(query, *found);
+  return found->verdict.ambiguity.exists() ? nullptr : std::move(found);
+}
+
+/// Completes the verdict on the motion chosen, which the rest of the image may contradict.
+void MotionSearch::check(const MotionQuery& query, MotionStep& found) {
+  found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);
+  Ambiguity other_part;
+  if (found.is_checked) other_part = search_free_cells(query, found);
+  found.shows_other_part = other_part.exists();
+  if (!other_part.exists() && query.accepts_ambiguous) other_part = record_.recent_other_part();
+  decide(query.accepts_ambiguous, other_part, found.verdict);
+}
+
+/// If the matches near the prediction show that the right image is displaced, the prediction is tried again with the
+/// displacement, which the query keeps if so much more of the image is explained then.
+void MotionSearch::follow_displacement(MotionQuery& query, Candidates& candidates) {
+  if (candidates.empty() || query.rig.displacement != 0) return;
+  const MotionStep& step = *candidates.front().proposed;
+  const auto jump =
+      jump_meter_.measure(fits_.measured(*step.base, query), fits_.measured(*query.current, query), step.matches,
+                          step.ok() ? step.motion.current_from_previous : *query.prediction);
+  // The base is measured with its own displacement, the current frame without one.
+  if (!jump || !jump->is_certain(query.displacement.least)) return;
+  MotionQuery with_jump = query;
+  with_jump.rig.displacement = jump->shift;
+  with_jump.rig.displacement_sigma = std::hypot(jump->sigma, rig::kJumpSigma, step.base->rig().displacement_sigma);
+  Candidates displaced;
+  attempt(Hypothesis::near_prediction, with_jump, displaced);
+  if (!displaced.front().is_confirmed()) return;
+  double without = candidates.front().is_confirmed() ? candidates.front().confirmed->verdict.area : 0;
+  const double area = displaced.front().confirmed->verdict.area;
+  if (query.displacement.gain > 1 &&
+      area > query.displacement.gain * without) {  // a second chance, from a better start
+    const Eigen::Isometry3d motion = motion_since(query.base, query, *displaced.front().confirmed);
+    const StepHandle again = confirm(query, motion, false, nullptr);
+    if (again && again->ok()) without = std::max(without, again->verdict.area);
+  }
+  if (area <= query.displacement.gain * without) return;
+  candidates = std::move(displaced);
+  query = std::move(with_jump);
+}
+
+/// The hypotheses of a level, in an order in which each has what it builds on.
+const std::vector<MotionSearch::Hypothesis>& MotionSearch::hypotheses_at(SearchLevel level) const {
+  using H = Hypothesis;
+  static const std::vector<H> near = {H::near_prediction};
+  static const std::vector<H> within_radius = {H::still_camera, H::large_radius, H::rest_of_confirmed};
+  static const std::vector<H> beside = {H::still_camera, H::rest_of_confirmed};
+  static const std::vector<H> all = {H::still_camera, H::global_matches, H::rest_of_global_matches,
+                                     H::rest_of_confirmed};
+  if (level == SearchLevel::prediction) return near;
+  if (config_.temporal.global_edges == 0) return within_radius;
+  return level == SearchLevel::everything ? all : beside;
+}
+
+/// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would
+/// include the edges of both motions and end between them.
+bool MotionSearch::is_close_to_another(Hypothesis hypothesis) {
+  return hypothesis == Hypothesis::still_camera || hypothesis == Hypothesis::rest_of_confirmed;
+}
+
+/// Tries a hypothesis, unless that has been tried.
+void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates) {
+  const MotionStep* known = nullptr;  // the first confirmed motion with all of its inliers
+  for (const Candidate& candidate : candidates) {
+    if (candidate.hypothesis == hypothesis) return;
+    if (known == nullptr && candidate.is_confirmed() && !is_close_to_another(candidate.hypothesis))
+      known = candidate.confirmed.get();
+  }
+  Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
+  if (!candidate.proposed) return;
+  if (candidate.proposed->ok())
+    candidate.confirmed =
+        confirm(query, candidate.proposed->motion.current_from_previous, is_close_to_another(hypothesis), known);
+  candidates.push_back(std::move(candidate));
+}
+
+/// A motion since the query's base, or null if there is nothing to try.
+StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates) {
+  const auto first = [&](auto is_wanted) { return std::find_if(candidates.begin(), candidates.end(), is_wanted); };
+  switch (hypothesis) {
+    case Hypothesis::near_prediction: return proposals_.near_prediction(query);
+    case Hypothesis::large_radius: return proposals_.in_large_radius(query);
+    case Hypothesis::few_global_matches: return proposals_.few_global_matches(query);
+    case Hypothesis::still_camera: return proposals_.still_camera(query);
+    case Hypothesis::global_matches: return proposals_.global_matches(query);
+    case Hypothesis::rest_of_global_matches:
+      return proposals_.rest_of_global_matches(
+          query, *first([](const Candidate& of) { return of.hypothesis == Hypothesis::global_matches; })->proposed);
+    case Hypothesis::rest_of_confirmed: {
+      const auto confirmed = first([](const Candidate& candidate) { return candidate.is_confirmed(); });
+      return confirmed == candidates.end() ? nullptr : proposals_.rest_of_confirmed(query, *confirmed->confirmed);
+    }
+  }
+  return nullptr;
+}
+
+/// The motion since the key rig or, if that is not confirmed, since the base; null if the proposal leads to `known`.
+/// \param closely whether inliers have to lie within a third of the usual distance
+StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
+                                 const MotionStep* known) {
+  PoseConfig limits = config_.pose;
+  limits.min_hypotheses = 0;  // the proposal has drawn them; more are drawn only as its inlier ratio requires
+  if (closely) limits.inlier_distance *= kCloseAgreement;
+  const Others others{known, nullptr, closely};
+  if (query.key) {
+    StepHandle step = confirm_with(query.key, query, limits, current_from_base * query.base_from_key, others);
+    if (step && step->ok() && !closely && step->verdict.support < record_.confident_support())
+      use_support_of_base(query, limits, *step);
+    if (!step || step->ok()) return step;
+  }
+  return confirm_with(query.base, query, limits, current_from_base, others);
+}
+
+/// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
+/// same motion, their support is used.
+void MotionSearch::use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
+  const Eigen::Isometry3d current_from_base = motion_since(query.base, query, by_key);
+  const StepHandle by_base = confirm_with(query.base, query, limits, current_from_base, {});
+  if (by_base->ok() && evidence_.is_same_motion(*by_base, current_from_base))
+    by_key.verdict.support = std::max(by_key.verdict.support, by_base->verdict.support);
+}
+
+/// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
+/// motion found until the predicted positions no longer change.
+StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query,
+                                      const PoseConfig& limits, Eigen::Isometry3d current_from_base,
+                                      const Others& others) {
+  const auto predict = [&](const Eigen::Isometry3d& motion, int every, TemporalSearch& search) {
+    frontend::predict_positions(fits_.calibration(query), base->edges, fits_.measured(*base, query), motion,
+                                config_.temporal.radius, every, search);
+    hide_masked(hidden_, search);
+    if (query.current->hidden) hide_masked(*query.current->hidden, search);
+  };
+  const auto predict_all = [&] {
+    predict(current_from_base, 1, search_);
+    if (others.explained != nullptr) hide_explained(*others.explained, search_);
+  };
+  const MotionStep* const known = others.known;
+  if (known != nullptr) predict(motion_since(base, query, *known), kSettledStep, known_search_);
+  const auto shift_from_known = [&] {
+    return frontend::mean_distance(known_search_.left, next_search_.left, kSettledStep);
+  };
+  StepHandle step = fits_.new_step(query, base);
+  if (known != nullptr && known->base == base) {
+    predict(current_from_base, kSettledStep, next_search_);
+    if (shift_from_known() < kNearKnown) {
+      step->matches = known->matches;
+      fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose, *step);
+      predict(step->motion.current_from_previous, kSettledStep, next_search_);
+      if (step->ok() && shift_from_known() < kSettled) return nullptr;
+    }
+  }
+  predict_all();
+  for (int round = 1;; ++round) {
+    frontend_.match(*base, *query.current, search_, step->matches);
+    fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
+    evidence_.judge(search_.left, others.explained != nullptr ? 0 : config_.temporal.min_support, *step);
+    if (!step->ok()) break;
+    current_from_base = step->motion.current_from_previous;
+    predict(current_from_base, kSettledStep, next_search_);
+    if (known != nullptr && shift_from_known() < kSettled) return nullptr;
+    if (round == kGuidedRounds || (others.must_compete && cannot_compete(*step, known)) ||
+        frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
+      break;
+    predict_all();
+  }
+  return step;
+}
+
+std::vector<Verdict> MotionSearch::verdicts_on(const Candidates& candidates, const MotionQuery& query) const {
+  const auto proposed = [&](Hypothesis hypothesis) -> const MotionStep* {
+    for (const Candidate& candidate : candidates)
+      if (candidate.hypothesis == hypothesis) return candidate.proposed.get();
+    return nullptr;
+  };
+  const MotionStep *global = proposed(Hypothesis::global_matches), *rest = proposed(Hypothesis::rest_of_global_matches);
+  std::vector<Verdict> verdicts;
+  for (const Candidate& candidate : candidates) {
+    const MotionStep& step = candidate.outcome();
+    Verdict verdict = step.verdict;
+    if (!candidate.confirmed) verdict.refuse(Refusal::duplicate);
+    verdict.has_all_inliers = !is_close_to_another(candidate.hypothesis);
+    if (verdict.is_confirmed() && global != nullptr)
+      evidence_.compare_globally(*global, rest, motion_since(query.base, query, step), verdict);
+    verdicts.push_back(verdict);
+  }
+  return verdicts;
+}
+
+std::size_t MotionSearch::choose(const Candidates& candidates, const MotionQuery& query,
+                                 std::vector<Verdict>& verdicts) const {
+  Expectation expectation;
+  expectation.was_ambiguous = record_.was_ambiguous();
+  expectation.confident_support = query.only_near_prediction ? kChanceSupport : record_.confident_support();
+  const Hypothesis first = candidates.front().hypothesis;
+  if (first == Hypothesis::near_prediction || first == Hypothesis::few_global_matches) expectation.predicted = 0;
+  Comparison comparison;
+  comparison.is_same = [&](std::size_t one, std::size_t other) {
+    const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();
+    return evidence_.is_same_motion(found, motion_since(found.base, query, its));
+  };
+  comparison.area_beside = [&](std::size_t one, std::size_t other) {
+    const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();
+    return evidence_.area_beside(found, its, motion_since(found.base, query, its));
+  };
+  return select(verdicts, expectation, comparison);
+}
+
+/// An object that fills much of the image may hold most of the edges, so that its motion is chosen with confidence. The
+/// scene beside it moves too far to be found near that motion, and is searched for where that explains nothing. If the
+/// matches there lead to the chosen motion again, or to none of the scene's, the rest of them is tried.
+Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const MotionStep& chosen) {
+  const StepHandle matches = proposals_.in_free_cells(query, chosen);
+  if (!matches->ok()) return {};
+  const OtherPart part = compare_in_free_cells(query, chosen, *matches, *matches);
+  const Ambiguity ambiguity = ambiguity_of(part, record_.was_ambiguous(), record_.at_start());
+  if (ambiguity.exists()) return ambiguity;
+  const StepHandle rest = proposals_.rest_of_global_matches(query, *matches);
+  if (!rest->ok()) return {};
+  OtherPart promised;  // the guided search takes longer than the rest of this
+  evidence_.compare_globally(*matches, rest->motion.current_from_previous, chosen,
+                             motion_since(query.base, query, chosen), promised);
+  if (promised.balance < kPromisingBalance) return {};
+  OtherPart other = compare_in_free_cells(query, chosen, *matches, *rest);
+  other.is_rest = true;
+  return ambiguity_of(other, record_.was_ambiguous());
+}
+
+OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen,
+                                              const MotionStep& matches, const MotionStep& proposed) {
+  OtherPart part;
+  PoseConfig limits = limits_of_proposals(config_);
+  limits.min_hypotheses = 0;
+  const StepHandle other =
+      confirm_with(query.base, query, limits, proposed.motion.current_from_previous, {nullptr, &chosen.cells, false});
+  if (!other->ok()) return part;
+  const Eigen::Isometry3d by_chosen = motion_since(query.base, query, chosen);
+  const ExplainedCells cells = evidence_.explained_beside(*other, by_chosen, config_.pose.inlier_distance);
+  const double searched = chosen.cells.count(false), followed = chosen.cells.count(true), count = cells.count(true);
+  part.area = count / std::max(1.0, searched + followed);
+  part.chosen_area = followed / std::max(1.0, searched + followed);
+  part.ratio = count / std::max(1.0, searched);
+  part.spread = (cells.spreads(true) / chosen.cells.spreads().max(1e-9)).minCoeff();
+  evidence_.compare_globally(matches, other->motion.current_from_previous, chosen, by_chosen, part);
+  return part;
+}
+
+}  // namespace quadedge::odometry

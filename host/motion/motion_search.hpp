@@ -1,0 +1,108 @@
+#pragma once
+/// \file motion_search.hpp  Finds the motion of the current stereo edges since an earlier frame.
+
+#include <utility>
+#include <vector>
+
+#include "edges/frontend.hpp"
+#include "motion/motion_evidence.hpp"
+#include "motion/motion_proposals.hpp"
+#include "motion/motion_selection.hpp"
+#include "motion/motion_step.hpp"
+#include "quadedge/config.hpp"
+#include "rig/image_jump.hpp"
+
+namespace quadedge::odometry {
+
+/// Tries hypotheses about the motion level by level. Each proposal, made from a subset of the edges, is confirmed
+/// with all edges; select() chooses among the verdicts and says whether more has to be tried.
+class MotionSearch : public MotionFinder {
+ public:
+  /// Refers to the front end, which must outlive the object. \param rig the calibration
+  MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig);
+
+  struct State;
+  StepHandle find(const MotionQuery& query) override;
+  /// Takes a step of a search, a few milliseconds, between which others may be made. \returns whether it was the last
+  bool advance(State& state);
+  void remember(const MotionStep& found) override { record_.remember(found); }
+  double take_pose_ms() override { return fits_.take_pose_ms(); }
+  void hide(const PixelMask& left) override { hidden_ = left; }
+  void restart() override {
+    hidden_ = {};
+    record_ = TrackRecord(config_);
+  }
+
+ private:
+  enum class Hypothesis {
+    near_prediction,
+    few_global_matches,
+    still_camera,
+    global_matches,
+    rest_of_global_matches,
+    large_radius,
+    rest_of_confirmed
+  };
+  /// A motion that was proposed, and the result of the confirmation.
+  struct Candidate {
+    Hypothesis hypothesis;
+    StepHandle proposed;
+    StepHandle confirmed;  ///< null if the proposal has no motion, or if it led to the known motion
+
+    bool is_confirmed() const { return confirmed && confirmed->ok(); }
+    StepHandle& outcome() { return confirmed ? confirmed : proposed; }
+    const MotionStep& outcome() const { return confirmed ? *confirmed : *proposed; }
+  };
+  using Candidates = std::vector<Candidate>;
+  /// What is known of other motions while one is confirmed.
+  struct Others {
+    const MotionStep* known = nullptr;          ///< a motion that has been confirmed
+    const ExplainedCells* explained = nullptr;  ///< if not null, only edges where it explains nothing are matched
+    bool must_compete = false;                  ///< whether a motion that explains much less than `known` is given up
+  };
+
+  StepHandle find_by_few_matches(const MotionQuery& query);
+  static bool is_close_to_another(Hypothesis hypothesis);
+  void follow_displacement(MotionQuery& query, Candidates& candidates);
+  const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
+  void check(const MotionQuery& query, MotionStep& found);
+  void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
+  StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
+  StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
+                     const MotionStep* known);
+  void use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
+  StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
+                          Eigen::Isometry3d current_from_base, const Others& others);
+  std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;
+  /// Completes the verdict on the motion chosen. Returns its index.
+  std::size_t choose(const Candidates& candidates, const MotionQuery& query, std::vector<Verdict>& verdicts) const;
+  Ambiguity search_free_cells(const MotionQuery& query, const MotionStep& chosen);
+  OtherPart compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen, const MotionStep& matches,
+                                  const MotionStep& proposed);
+
+  Config config_;
+  frontend::Frontend& frontend_;
+  rig::JumpMeter jump_meter_;
+  MotionFits fits_;
+  MotionProposals proposals_;
+  MotionEvidence evidence_;
+  TrackRecord record_;
+  PixelMask hidden_;
+  TemporalSearch search_, next_search_, known_search_;  ///< kept between calls
+};
+
+/// A search under way, which begins with its query. The MotionSearch that advances it must outlive it.
+struct MotionSearch::State {
+  MotionQuery query;           ///< with the displacement of the current right image that was found
+  StepHandle found = nullptr;  ///< the motion chosen, which only the last step judges finally
+
+  explicit State(MotionQuery asked) : query(std::move(asked)) {}
+
+ private:
+  friend class MotionSearch;
+  Candidates candidates_;
+  SearchLevel level_ = SearchLevel::prediction;
+  std::size_t next_ = 0;  ///< hypothesis of the level
+};
+
+}  // namespace quadedge::odometry
