@@ -34,7 +34,7 @@ def table(head, rows, below=""):
 
 
 def number(value, digits=3):
-    return "-" if value is None else f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
+    return "-" if value is None else f"{value:.{digits}g}" if abs(value) < 10**digits - 0.5 else f"{value:.0f}"
 
 
 def spread(middle, least, most, digits=3):

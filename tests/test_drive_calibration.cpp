@@ -204,13 +204,14 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(again.text() == mended.text());
 }
 
-TEST_CASE("drive calibration: a rig so wrong that most points count as outliers is not as good as given", "[rig]") {
+TEST_CASE("drive calibration: a rig that is far off is not as good as given, even if points count as outliers",
+          "[rig]") {
+  const double pitch = GENERATE(0.5, 0.7, 0.9, 1.1);  // 2 to 4.4 px
   StereoCalibration wrong = room_calibration();
-  wrong.right_from_left.linear() = rotation_by({1.3 * kDegree, 0, 0});  // 5.2 px
-  const DriveCalibration mended = learned_in_room(wrong);
-  INFO(mended.text());
-  CHECK(mended.verdict != CalibrationVerdict::as_good);
-  CHECK((mended.unseen_given[0] >= 2 && mended.unseen_given[1] >= 2));
+  wrong.right_from_left.linear() = rotation_by({pitch * kDegree, 0, 0});
+  const DriveCalibration result = learned_in_room(wrong);
+  INFO(pitch << " degrees: " << result.text());
+  CHECK(result.verdict != CalibrationVerdict::as_good);
 }
 
 TEST_CASE("drive calibration: a camera that stands shows nothing, and says what to do", "[rig]") {
