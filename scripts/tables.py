@@ -393,8 +393,9 @@ def whole_recordings(results):
     seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
     rows = [row if index == 0 or row[0] != rows[index - 1][0] else ("", *row[1:]) for index, row in enumerate(rows)]
     commits = {WHOLE[row["recording"]]: row["commit"] for row in part["rows"]}
-    measured = "; ".join(f"{title}: commit {commit}" for title, commit in commits.items())
-    return table(head, rows, f"{seeds} {measured}. {part['date']}.\n")
+    each = "; ".join(f"{title}: commit {commit}" for title, commit in commits.items())
+    measured = f"Commit {part['commit']}" if set(commits.values()) == {part["commit"]} else each
+    return table(head, rows, f"{seeds} {measured}, {part['date']}.\n")
 
 
 def evidence(results):

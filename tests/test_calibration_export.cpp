@@ -5,6 +5,7 @@
 #include <opencv2/core/persistence.hpp>
 
 #include "data/yaml_file.hpp"
+#include "dataset_files.hpp"
 #include "program.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/error.hpp"
@@ -153,6 +154,23 @@ TEST_CASE("cli: check and calibrate write calibrations for other programs", "[cl
     CHECK(read_calibration(files).right_from_left.matrix() ==
           read_calibration(folder / "own.yaml").right_from_left.matrix());
   }
+  // A lens that a format cannot hold is refused after all else has been said and written.
+  std::string text = read_text(folder / "own.yaml");
+  for (const std::string side : {"left_", "right_"}) {
+    text.replace(text.find(side + "model: radtan"), side.size() + 13, side + "model: fov");
+    text.replace(text.find(side + "coefficients: []"), side.size() + 16, side + "coefficients: [0.1]");
+  }
+  dataset_files::write_text(folder / "fov.yaml", text);
+  const auto refused = run_program({"check", small_sequence(), "--calibration", folder / "fov.yaml", "--opencv",
+                                    folder / "fov.yml", "--kalibr", folder / "fov_chain.yaml"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.out, Contains(" errors, "));
+  CHECK_THAT(refused.err, Contains("fov.yml: format opencv: the left lens is fov with 1 parameter"));
+  CHECK(read_calibration(folder / "fov_chain.yaml").left.model == LensModel::field_of_view);
+  const auto twice = run_program({"check", small_sequence(), "--opencv", folder / "a.yaml", "--ros",
+                                  (folder / "a.yaml") + "," + (folder / "b.yaml")});
+  CHECK(twice.code == 2);
+
   const auto one = run_program({"calibrate", small_sequence(), "--ros", folder / "one.yaml"});
   CHECK(one.code == 2);
   CHECK_THAT(one.err, Contains("LEFT,RIGHT"));

@@ -20,7 +20,7 @@ void CalibrationExport::check(bool force) const {
   report::check_output_file(opencv_, force);
   if (ros_.empty()) return;
   const std::vector<std::string> both = data::file_list(ros_);
-  if (both.size() != 2 || both[0] == both[1]) throw UsageError("--ros " + ros_ + ": expected two files: LEFT,RIGHT");
+  if (both.size() != 2) throw UsageError("--ros " + ros_ + ": expected two files: LEFT,RIGHT");
   for (const std::string& file : both) report::check_output_file(file, force);
 }
 

@@ -1,6 +1,7 @@
 /// \file command_check.cpp  quadedge check: what is present, missing or wrong, before a long run.
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "cli/calibration_check.hpp"
 #include "cli/calibration_export.hpp"
@@ -48,11 +49,13 @@ class CheckCommand : public Command {
     report::check_output_file(calibration_, force_);
     export_.check(force_);
     if (!source_.is_own_camera() && is_tree()) return check_tree();
-    return print(check_recording());
+    const int code = print(check_recording());
+    if (written_) export_.write(*written_);  // last, because a format may refuse the lens
+    return code;
   }
 
  private:
-  DatasetCheck check_recording() const {
+  DatasetCheck check_recording() {
     RigEvidenceCollector evidence;
     const auto see = [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); };
     DatasetCheck check = source_.is_own_camera() ? check_stereo_source(source_.own_camera(), see)
@@ -61,10 +64,8 @@ class CheckCommand : public Command {
     const StereoCalibration corrected = evidence.finish(check);
     if (!check.errors.empty()) return check;
     const Dataset& dataset = evidence.dataset();
-    const StereoCalibration written =
-        correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig));
-    if (!calibration_.empty()) write_calibration(calibration_, written);
-    export_.write(written);
+    written_ = correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig));
+    if (!calibration_.empty()) write_calibration(calibration_, *written_);
     return check;
   }
 
@@ -114,6 +115,7 @@ class CheckCommand : public Command {
 
   std::string path_, calibration_;
   CalibrationExport export_;
+  std::optional<StereoCalibration> written_;  ///< of a recording without errors
   SourceOptions source_;
   DatasetOptions options_;
   bool correct_ = false, force_ = false, quiet_ = false;

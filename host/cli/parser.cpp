@@ -138,7 +138,8 @@ class ParserOptions : public Options {
     std::vector<std::string> inputs = {config_file_}, outputs;
     for (const std::string* value : inputs_)
       for (const auto& file : data::split(*value, ",")) inputs.push_back(file);
-    for (const std::string* value : outputs_) outputs.push_back(*value);
+    for (const std::string* value : outputs_)
+      for (const auto& file : data::split(*value, ",")) outputs.push_back(file);
     report::refuse_shared_files(outputs, inputs);
   }
 

@@ -171,11 +171,12 @@ DriveCalibration DriveCalibrator::finish() const { return implementation_->finis
 
 std::string DriveCalibration::text() const {
   std::string facts;
+  const bool is_bound = *std::min_element(unseen_given.begin(), unseen_given.end()) >= rig::PairAdjustment::kFitLimit;
   if (!numbers.empty())
     facts = printed(
-        "in frames that were not learned from, points lie %.3f px (left) and %.3f px (right) from their predictions "
+        "in frames that were not learned from, points lie %s%.3f px (left) and %.3f px (right) from their predictions "
         "with the given calibration, %.3f and %.3f px with the learned one",
-        unseen_given[0], unseen_given[1], unseen_learned[0], unseen_learned[1]);
+        is_bound ? "at least " : "", unseen_given[0], unseen_given[1], unseen_learned[0], unseen_learned[1]);
   const std::string learned_from = std::to_string(pairs) + " pairs of " + std::to_string(frames) + " frames";
   std::string open;
   for (const LearnedNumber& number : numbers)

@@ -68,9 +68,8 @@ void bind_calibration(nb::module_& module) {
           },
           "path"_a, "format"_a = "native",
           nb::sig("def write(self, path: str | os.PathLike, format: str = 'native') -> None"),
-          "Writes the calibration to use. format: \"native\", QuadEdge's own; \"kalibr\"; \"opencv\"; or \"ros\", "
-          "whose\n"
-          "path is \"LEFT,RIGHT\". Rig.from_file() and the program read all of them.\n\n"
+          "Writes the calibration to use. format: \"native\", QuadEdge's own; \"kalibr\"; \"opencv\"; or \"ros\" with\n"
+          "the path \"LEFT,RIGHT\". Rig.from_file() and the program read all of them.\n\n"
           "Raises UsageError if the format cannot hold the lenses.")
       .def("__repr__", [](const Self& self) { return std::string("<Calibration: ") + to_string(self.verdict) + ">"; });
 

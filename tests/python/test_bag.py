@@ -415,6 +415,10 @@ def test_from_the_shell(room_bag, bag_command, command, tmp_path):
     assert list((out / "odometry").glob("*.mcap"))
     again = bag_command(room_bag, "-o", out)
     assert again.returncode != 0 and not again.stdout.count("tracked") and "--force" in again.stderr
+    forced = bag_command(room_bag, "-o", out, "--preset", "fast", "--", "--force")
+    assert forced.returncode == 0 and len(list((out / "odometry").glob("*.mcap"))) == 1, forced.stderr
+    (out / "odometry/metadata.yaml").unlink()  # as if it were somebody else's folder
+    assert bag_command(room_bag, "-o", out, "--", "--force").returncode == 2
     absent = bag_command("absent.bag")
     assert absent.returncode == 3 and absent.stderr.startswith("quadedge.bag: absent.bag: found no readable recording")
 

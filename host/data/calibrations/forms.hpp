@@ -1,6 +1,6 @@
 #pragma once
-/// \file forms.hpp  The forms of calibration files: how each is recognised and read, and what all of them are judged
-/// by. Every form has a file of its name beside this one; the table in forms.cpp lists them.
+/// \file forms.hpp  The forms of calibration files: how each is recognised and read, how some are written, and what all
+/// of them are judged by. Every form has a file of its name beside this one; the table in forms.cpp lists them.
 
 #include <optional>
 #include <string>

@@ -106,8 +106,9 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
         return 0
     recording.rig  # noqa: B018  before the program starts: its messages would name a temporary file
     folder = Path(options.output) / "odometry"
-    if folder.exists() and "--force" not in more:
-        raise UsageError(f"{folder}: the folder exists; choose another one with -o, or replace it with -- --force")
+    if folder.exists() and not ("--force" in more and (folder / "metadata.yaml").exists()):
+        raise UsageError(f"{folder}: the folder exists; choose another one with -o, or replace its recording with -- "
+                         "--force")
     code = _run_program(recording, options, more)
     if code in (0, _TOO_FEW_TRACKED):
         shutil.rmtree(folder, ignore_errors=True)
