@@ -28,6 +28,15 @@ enum {
 FLOAT_CONSTANT kPatchRowStep = 1.5f;        // px
 FLOAT_CONSTANT kFlatPatchContrast = 1e-5f;  // grey levels: a patch that stays as close to its mean is flat
 
+// Side patches of the paper's method (paper_patches.cl), 7 x 7 samples 1 px apart: seven rows along the edge of 16
+// floats, mean-free grey levels, lanes 0 to 6 across the dark side, 8 to 14 across the bright one, 7 and 15 zero; then
+// 1 / norm of the dark and of the bright patch, 0 where it is flat, and zeros up to 16 floats.
+enum {
+  kPaperPatchRows = 7,
+  kPaperInverseNorms = 16 * kPaperPatchRows,  // where they begin, in floats
+  kPaperPatchFloats = kPaperInverseNorms + 16
+};
+
 // SIFT descriptors of an edge (sift.cl): dark side, then bright side; bytes [cell across][cell along][angle].
 enum {
   kSiftCells = 4,                            // spatial bins along each axis
