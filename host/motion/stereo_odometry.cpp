@@ -135,7 +135,8 @@ class StereoOdometry::Implementation {
   Config config_;
   odometry::FramePreparation preparation_;
   rig::LearnedRig learned_;
-  std::optional<rig::SharedLens> lenses_{std::in_place};  ///< nothing once told, or images displaced, which looks alike
+  /// None once it has warned, or once images are displaced, which looks alike.
+  std::optional<rig::SharedLens> lenses_{std::in_place};
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;

@@ -101,6 +101,13 @@ struct WaitingNode {
   std::vector<ListedClosure> joining;  ///< with places of other segments
 };
 
+/// \throws UsageError for the paper's method, which keeps no frames.
+StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
+  if (odometry.config().is_paper())
+    throw UsageError("the paper's method has no map: choose another preset for --loops");
+  return odometry;
+}
+
 }  // namespace
 
 const char* to_string(ClosureVerdict verdict) {
@@ -549,17 +556,6 @@ SavedMap Map::Implementation::saved() const {
   }
   return {std::move(saved), std::move(places)};
 }
-
-namespace {
-
-/// \throws UsageError for the paper's method, which keeps no frames.
-StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
-  if (odometry.config().is_paper())
-    throw UsageError("the paper's method has no map: choose another preset for --loops");
-  return odometry;
-}
-
-}  // namespace
 
 Map::Map(StereoOdometry& odometry) {
   const auto use = odometry::LatestFrame::of(odometry).device.use();
