@@ -219,7 +219,7 @@ StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query
   return nullptr;
 }
 
-/// The motion since the key rig or, if that is not confirmed, since the base; null if the proposal leads to `known`.
+/// The motion since the keyframe or, if that is not confirmed, since the base; null if the proposal leads to `known`.
 /// \param closely whether inliers have to lie within a third of the usual distance
 StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                                  const Others& others) {
@@ -233,7 +233,7 @@ StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry
   return confirm_with(query.base, query, limits, current_from_base, others);
 }
 
-/// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
+/// Few edges match a keyframe that is moving out of view. If the edges of the base, which is closer in time, follow the
 /// same motion, their support is used. \returns whether it is larger
 bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_key) {
   if (!query.key || !by_key.is_confirmed() || is_close_to_another(by_key.hypothesis)) return false;

@@ -127,7 +127,7 @@ constexpr int kGuidedRounds = 3;
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
 
-/// Key rigs with different views that are kept for a loss, how many of them a lost frame is compared with, and the
+/// Keyframes with different views that are kept for a loss, how many of them a lost frame is compared with, and the
 /// difference between the directions to points [rad] up to which two of them say the same of its pose.
 constexpr std::size_t kEarlierRigs = 12, kEarlierTrials = 6;
 constexpr double kSamePlace = 0.05;

@@ -37,7 +37,7 @@ constexpr double kCovered = 3;
 constexpr double kMostChange = 1;
 
 /// A closure within a segment is worth its search if the map's motion has this many times the variance of a motion
-/// since the key rig. A closure has about four times that variance, since a kept frame has a fraction of the edges.
+/// since the keyframe. A closure has about four times that variance, since a kept frame has a fraction of the edges.
 constexpr double kWorthwhile = 12;
 
 /// A node is not kept as a place if its view differs by less than this from that of one of the latest places [rad].
@@ -202,7 +202,7 @@ int Map::Implementation::node_of_reference(int number) {
   return edge.to;
 }
 
-/// Enters the frame tracked last. Key rigs and lost frames with edges become nodes.
+/// Enters the frame tracked last. Keyframes and lost frames with edges become nodes.
 void Map::Implementation::locate(const FrameResult& result) {
   const int number = static_cast<int>(frames_.size());
   frames_.emplace_back().stamp_ns = result.stamp_ns;
