@@ -28,7 +28,7 @@ inline quadedge::SyntheticOptions small(const std::string& scene, const std::str
 /// A walk around a room.
 inline quadedge::SyntheticOptions walk(const std::string& scene) { return small(scene, "loop", 49); }
 
-/// The map of every second frame of a recording, all of which may become key rigs of the map.
+/// The map of every second frame of a recording, all of which may become keyframes of the map.
 inline quadedge::SavedMap map_of(const quadedge::SyntheticOptions& options, const std::string& device_name) {
   const quadedge::SyntheticSequence sequence(options);
   quadedge::Device device(device_name, kept_programs());

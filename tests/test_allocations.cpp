@@ -41,7 +41,7 @@ TEST_CASE("odometry: tracking allocates no more arrays once every buffer has rea
       frame.stamp_ns = ++stamp;
       return odometry.track(frame).status == quadedge::FrameStatus::tracked ? 1 : 0;
     };
-    // Back and forth, so that the same motions recur with other key rigs.
+    // Back and forth, so that the same motions recur with other keyframes.
     const auto there_and_back = [&] {
       int tracked = 0;
       for (std::size_t i = 0; i + 1 < 8; ++i) tracked += is_tracked(i);

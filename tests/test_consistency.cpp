@@ -83,7 +83,7 @@ TEST_CASE("consistency: lost frames and frames without covariance or ground trut
 
 TEST_CASE("consistency: a wrong baseline shows over longer motions, and the rig's uncertainty covers it",
           "[evaluation]") {
-  // Every frame is a key rig, 0.1 m per frame; the baseline is too long by its standard deviation.
+  // Every frame is a keyframe, 0.1 m per frame; the baseline is too long by its standard deviation.
   const PoseConfig config;
   std::vector<FrameResult> results;
   Trajectory truth;

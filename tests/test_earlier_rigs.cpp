@@ -1,4 +1,4 @@
-/// \file test_earlier_rigs.cpp  Key rigs that are kept for a loss, and the return to a place that they have seen.
+/// \file test_earlier_rigs.cpp  Keyframes that are kept for a loss, and the return to a place that they have seen.
 #include <catch2/catch.hpp>
 
 #include "devices.hpp"
@@ -16,7 +16,7 @@ using odometry::KeyRig;
 
 namespace {
 
-/// A key rig that looks to the right by `angle` [rad].
+/// A keyframe that looks to the right by `angle` [rad].
 KeyRig turned(int frame, double angle) {
   auto frame_edges = std::make_shared<frontend::FrameEdges>();
   frame_edges->start(frame);

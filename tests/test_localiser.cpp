@@ -30,7 +30,7 @@ LocatedWalk locate_walk(const SavedMap& map, const SyntheticOptions& options, in
     ++walk.located;
     walk.followed += found.is_followed ? 1 : 0;
     const Eigen::Isometry3d error = sequence.world_from_left(i).inverse() * *found.map_from_left;
-    INFO("frame " << i << " against key rig " << found.key_rig << " off by " << error.translation().norm() << " m");
+    INFO("frame " << i << " against keyframe " << found.key_rig << " off by " << error.translation().norm() << " m");
     const bool is_wrong = error.translation().norm() > 0.05 || Eigen::AngleAxisd(error.linear()).angle() > 1 * kDegree;
     CHECK_FALSE(is_wrong);
     walk.wrong += is_wrong ? 1 : 0;

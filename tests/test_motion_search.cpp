@@ -197,9 +197,9 @@ TEST_CASE("motion search: without the global search the coarse search widens", "
   CHECK(frames.frontend->global == 0);
 }
 
-TEST_CASE("motion search: the key rig is preferred, and releasing the step releases its rig", "[odometry]") {
+TEST_CASE("motion search: the keyframe is preferred, and releasing the step releases its rig", "[odometry]") {
   TwoFrames frames(3000);
-  // The key rig is the base's frame, so the same motion applies.
+  // The keyframe is the base's frame, so the same motion applies.
   const auto key = frames.frontend->process(frames.scene.frame(0));
   frames.query.current = frames.frontend->process(frames.scene.frame(1));
   frames.query.key = key;

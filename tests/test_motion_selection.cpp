@@ -208,7 +208,7 @@ TEST_CASE("motion selection: a car that passes is no doubt, even after a doubt",
 
 TEST_CASE("motion selection: what a motion between distant views leaves at near edges is no other motion",
           "[odometry]") {
-  // As between key rigs 2 m apart in a street: few of the cells that do not follow, and next to no matches.
+  // As between keyframes 2 m apart in a street: few of the cells that do not follow, and next to no matches.
   OtherPart part{0.102, 0.175, 1.0, 0.42};
   part.balance = 0.03;
   CHECK_FALSE(ambiguity_of(part, false).exists());

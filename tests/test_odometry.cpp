@@ -91,7 +91,7 @@ TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][devic
       CHECK_FALSE(result.diagnostics.overflow);
       CHECK(result.counts.inliers > 500);
       CHECK(result.counts.inliers <= result.counts.quads);
-      // The reference is the key rig: the pose is its pose and the motion from it.
+      // The reference is the keyframe: the pose is its pose and the motion from it.
       const auto& reference = results[static_cast<std::size_t>(result.reference_frame)];
       CHECK(reference.new_key_rig);
       CHECK(result.diagnostics.base_frame >= result.reference_frame);
@@ -102,7 +102,7 @@ TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][devic
       CHECK((relative - relative.transpose()).norm() < 1e-9 * relative.norm());
       CHECK(solver.eigenvalues().minCoeff() > 0);
       CHECK(std::sqrt(relative.topLeftCorner<3, 3>().trace()) < 0.02);
-      // In the world a pose is no more certain than its key rig is.
+      // In the world a pose is no more certain than its keyframe is.
       REQUIRE((result.covariance && reference.covariance && result.diagnostics.covariance_in_reference));
       CHECK((*result.covariance - *reference.covariance).topLeftCorner<3, 3>().trace() > 0);
       // The edges' own uncertainty is only turned; the rig's comes on top.
@@ -692,7 +692,7 @@ TEST_CASE("odometry: once the scene has been seen, frames allocate nothing on th
   }
 }
 
-TEST_CASE("odometry: without key rigs every frame is tracked against the previous one", "[odometry][device]") {
+TEST_CASE("odometry: without keyframes every frame is tracked against the previous one", "[odometry][device]") {
   Config config = room().config;
   config.odometry.key_rig = false;
   const auto results = track(room(), all_devices().front(), config);
@@ -704,7 +704,7 @@ TEST_CASE("odometry: without key rigs every frame is tracked against the previou
   }
 }
 
-TEST_CASE("odometry: a key rig is replaced after the maximum number of frames", "[odometry][device]") {
+TEST_CASE("odometry: a keyframe is replaced after the maximum number of frames", "[odometry][device]") {
   Config config = room().config;
   config.odometry.key_max_frames = 3;
   config.odometry.key_min_quads = 0;

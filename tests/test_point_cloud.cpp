@@ -13,7 +13,7 @@ using namespace quadedge;
 
 namespace {
 
-/// The rendered room, tracked; every frame is a key rig, so that a few frames make a map.
+/// The rendered room, tracked; every frame is a keyframe, so that a few frames make a map.
 struct TrackedRoom {
   SyntheticSequence sequence;
   Config config;

@@ -122,7 +122,7 @@ TEST_CASE("rig estimate: a known offset holds for the first frame and for the fi
   }
 }
 
-TEST_CASE("rig estimate: the points and the kept edges of a displaced key rig are those of its rig", "[rig][device]") {
+TEST_CASE("rig estimate: the points and the kept edges of a displaced keyframe are those of its rig", "[rig][device]") {
   Config config = room().config;
   config.odometry.key_rig = false;  // every frame becomes one
   Device device(all_devices().front(), kept_programs());
@@ -154,7 +154,7 @@ TEST_CASE("rig estimate: the points and the kept edges of a displaced key rig ar
   CHECK(latest.frontend.restore(kept)->rig().displacement == result.rig.displacement);
 }
 
-TEST_CASE("rig estimate: a saved map of displaced key rigs locates images that are not displaced", "[rig][device]") {
+TEST_CASE("rig estimate: a saved map of displaced keyframes locates images that are not displaced", "[rig][device]") {
   Config config = room().config;
   config.odometry.key_rig = false;
   config.map.min_gap = 1;

@@ -68,7 +68,7 @@ TEST_CASE("saved map: written, read and written again it has the same bytes", "[
   CHECK(again.key_rigs() == map.key_rigs());
   CHECK(again.rig().left.matrix() == map.rig().left.matrix());
   CHECK(again.rig().right_from_left.matrix() == map.rig().right_from_left.matrix());
-  // At most half a megabyte per key rig.
+  // At most half a megabyte per keyframe.
   CHECK(static_cast<double>(std::filesystem::file_size(folder / "a.map")) < 5e5 * static_cast<double>(map.key_rigs()));
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("saved map: contents that promise more than there is or hold impossibl
   refused(rig + 221, 1e-320, "variance");
   refused(rig + 221, kNan, "variance");
   refused(poses, std::uint32_t{0xFFFFFFFF}, "more bytes");
-  refused(poses, std::uint32_t{1}, "");  // what follows is no list of key rigs
+  refused(poses, std::uint32_t{1}, "");  // what follows is no list of keyframes
   refused(poses + 4, 3.0, "pose");
   refused(poses + 4 + 96, 1e300, "pose");
   for (const std::size_t element : {96, 104, 112}) refused(poses + 4 + element, kNan, "pose");

@@ -35,7 +35,7 @@ KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isom
 
 }  // namespace
 
-TEST_CASE("key rig: parallax is the median distance between both ends", "[odometry][key_rig]") {
+TEST_CASE("keyframe: parallax is the median distance between both ends", "[odometry][key_rig]") {
   StereoEdges current = row_of_edges(3);
   current.left_x[0] += 3;
   current.left_y[0] += 4;   // 5 px
@@ -48,7 +48,7 @@ TEST_CASE("key rig: parallax is the median distance between both ends", "[odomet
   CHECK(odometry::median_parallax(row_of_edges(3), {}, distances) == 0);
 }
 
-TEST_CASE("key rig: keeps its frame and pose", "[odometry][key_rig]") {
+TEST_CASE("keyframe: keeps its frame and pose", "[odometry][key_rig]") {
   CHECK(KeyRig().frame() == -1);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(1, 2, 3);
@@ -57,7 +57,7 @@ TEST_CASE("key rig: keeps its frame and pose", "[odometry][key_rig]") {
   CHECK(rig.world_from_left().translation() == Eigen::Vector3d(1, 2, 3));
 }
 
-TEST_CASE("key rig: each criterion alone triggers a replacement", "[odometry][key_rig]") {
+TEST_CASE("keyframe: each criterion alone triggers a replacement", "[odometry][key_rig]") {
   OdometryConfig config;
   config.key_min_quads = 2;
   const auto fit = [] {
@@ -92,14 +92,14 @@ TEST_CASE("key rig: each criterion alone triggers a replacement", "[odometry][ke
   fitness = fit();
   fitness.frames = 10;
   CHECK(rig.needs_replacement(fitness, config));
-  // A new key rig sets a new reference count.
+  // A new keyframe sets a new reference count.
   rig = key_rig(9);
   fitness = fit();
   fitness.quads = 2;
   CHECK_FALSE(rig.needs_replacement(fitness, config));
 }
 
-TEST_CASE("key rig: one with a predicted pose is replaced by the first tracked frame", "[odometry][key_rig]") {
+TEST_CASE("keyframe: one with a predicted pose is replaced by the first tracked frame", "[odometry][key_rig]") {
   OdometryConfig config;
   KeyRigFitness fitness;
   fitness.quads = 1000;

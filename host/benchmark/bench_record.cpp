@@ -13,45 +13,12 @@
 #include "quadedge/error.hpp"
 
 namespace quadedge::bench {
-
-double FrameShares::host_ms() const {
-  double device = 0;
-  for (const auto& stage : stages) device += stage.wall_ms();
-  return frame_ms - device;
-}
-
-FrameShares BenchRecord::shares() const {
-  FrameShares mean;
-  if (profiled.empty()) return mean;
-  const double scale = 1 / static_cast<double>(profiled.size());
-  for (const auto& frame : profiled) {
-    mean.frame_ms += frame.frame_ms * scale;
-    for (const auto& stage : frame.stages) {
-      std::size_t row = 0;
-      while (row < mean.stages.size() && mean.stages[row].stage != stage.stage) ++row;
-      if (row == mean.stages.size()) mean.stages.emplace_back().stage = stage.stage;
-      mean.stages[row].kernel_ms += stage.kernel_ms * scale;
-      mean.stages[row].transfer_ms += stage.transfer_ms * scale;
-      mean.stages[row].queue_ms += stage.queue_ms * scale;
-      mean.stages[row].launches += stage.launches * scale;
-    }
-  }
-  return mean;
-}
-
-double BenchRecord::frame_ratio() const {
-  return report::latency_summary(run.frames).median /
-         report::median(yardsticks ? yardsticks->sift_both_ms : std::vector<double>());
-}
-
-double BenchRecord::edges_ratio() const {
-  return report::median(edges_ms) / report::median(yardsticks ? yardsticks->sepfilter_nine_ms : std::vector<double>());
-}
+namespace {
 
 using report::Json;
 using report::to_json;
 
-namespace {
+constexpr double kSmallShare = 0.05;  // of the frame; smaller stages are printed but not judged
 
 /// Every stage's times and its percentage of the frame; the host's rest last.
 Json shares_json(const FrameShares& shares) {
@@ -65,42 +32,6 @@ Json shares_json(const FrameShares& shares) {
   json["host"] = {{"wall_ms", shares.host_ms()}, {"percent", percent(shares.host_ms())}};
   return json;
 }
-
-}  // namespace
-
-std::string bench_json(const BenchRecord& record) {
-  Json json = Json::parse(report::report_json(record.run));
-  report::add_origin(json, record.command);
-  json["bench_schema"] = kBenchSchema;
-  json["frames_measured"] = record.run.frames.empty() ? 0 : static_cast<int>(record.run.frames.size()) - 1;
-  json["warm_up"] = record.warm_up;
-  json["threads"] = record.threads;
-  json["edges_wanted"] = record.edges_wanted == 0 ? Json(nullptr) : Json(record.edges_wanted);
-  json["edge_detection_ms"] = {{"median", to_json(report::median(record.edges_ms))},
-                               {"p90", to_json(report::percentile(record.edges_ms, 0.9))}};
-  json["waits_per_frame"] = record.waits;
-  json["launches_per_frame"] = record.launches;
-  json["writes_per_frame"] = record.writes;
-  json["processor_ms"] = {{"median", to_json(report::median(record.processor_ms))},
-                          {"p90", to_json(report::percentile(record.processor_ms, 0.9))}};
-  if (!record.profiled.empty()) json["shares"] = shares_json(record.shares());
-  json["moved_mb_per_frame"] = {{"to_device", record.to_device_mb}, {"to_host", record.to_host_mb}};
-  json["memory_mb"]["frames"] = record.frames_mb;
-  if (record.yardsticks) {
-    json["baseline"] = {{"opencv_sift_both_ms", to_json(report::median(record.yardsticks->sift_both_ms))},
-                        {"opencv_sepfilter_nine_ms", to_json(report::median(record.yardsticks->sepfilter_nine_ms))},
-                        {"threads", record.yardsticks->threads},
-                        {"frame_ratio", to_json(record.frame_ratio())},
-                        {"edges_ratio", to_json(record.edges_ratio())}};
-  }
-  return report::json_text(json);
-}
-
-namespace {
-
-using report::Json;
-
-constexpr double kSmallShare = 0.05;  // of the frame; smaller stages are printed but not judged
 
 /// A result and its file.
 struct Result {
@@ -211,6 +142,68 @@ void note_differences(const Json& before, const Json& after, BenchComparison& re
 }
 
 }  // namespace
+
+double FrameShares::host_ms() const {
+  double device = 0;
+  for (const auto& stage : stages) device += stage.wall_ms();
+  return frame_ms - device;
+}
+
+FrameShares BenchRecord::shares() const {
+  FrameShares mean;
+  if (profiled.empty()) return mean;
+  const double scale = 1 / static_cast<double>(profiled.size());
+  for (const auto& frame : profiled) {
+    mean.frame_ms += frame.frame_ms * scale;
+    for (const auto& stage : frame.stages) {
+      std::size_t row = 0;
+      while (row < mean.stages.size() && mean.stages[row].stage != stage.stage) ++row;
+      if (row == mean.stages.size()) mean.stages.emplace_back().stage = stage.stage;
+      mean.stages[row].kernel_ms += stage.kernel_ms * scale;
+      mean.stages[row].transfer_ms += stage.transfer_ms * scale;
+      mean.stages[row].queue_ms += stage.queue_ms * scale;
+      mean.stages[row].launches += stage.launches * scale;
+    }
+  }
+  return mean;
+}
+
+double BenchRecord::frame_ratio() const {
+  return report::latency_summary(run.frames).median /
+         report::median(yardsticks ? yardsticks->sift_both_ms : std::vector<double>());
+}
+
+double BenchRecord::edges_ratio() const {
+  return report::median(edges_ms) / report::median(yardsticks ? yardsticks->sepfilter_nine_ms : std::vector<double>());
+}
+
+std::string bench_json(const BenchRecord& record) {
+  Json json = Json::parse(report::report_json(record.run));
+  report::add_origin(json, record.command);
+  json["bench_schema"] = kBenchSchema;
+  json["frames_measured"] = record.run.frames.empty() ? 0 : static_cast<int>(record.run.frames.size()) - 1;
+  json["warm_up"] = record.warm_up;
+  json["threads"] = record.threads;
+  json["edges_wanted"] = record.edges_wanted == 0 ? Json(nullptr) : Json(record.edges_wanted);
+  json["edge_detection_ms"] = {{"median", to_json(report::median(record.edges_ms))},
+                               {"p90", to_json(report::percentile(record.edges_ms, 0.9))}};
+  json["waits_per_frame"] = record.waits;
+  json["launches_per_frame"] = record.launches;
+  json["writes_per_frame"] = record.writes;
+  json["processor_ms"] = {{"median", to_json(report::median(record.processor_ms))},
+                          {"p90", to_json(report::percentile(record.processor_ms, 0.9))}};
+  if (!record.profiled.empty()) json["shares"] = shares_json(record.shares());
+  json["moved_mb_per_frame"] = {{"to_device", record.to_device_mb}, {"to_host", record.to_host_mb}};
+  json["memory_mb"]["frames"] = record.frames_mb;
+  if (record.yardsticks) {
+    json["baseline"] = {{"opencv_sift_both_ms", to_json(report::median(record.yardsticks->sift_both_ms))},
+                        {"opencv_sepfilter_nine_ms", to_json(report::median(record.yardsticks->sepfilter_nine_ms))},
+                        {"threads", record.yardsticks->threads},
+                        {"frame_ratio", to_json(record.frame_ratio())},
+                        {"edges_ratio", to_json(record.edges_ratio())}};
+  }
+  return report::json_text(json);
+}
 
 bool BenchComparison::regressed() const {
   return std::any_of(figures.begin(), figures.end(), [](const ComparedFigure& figure) { return figure.worse; });

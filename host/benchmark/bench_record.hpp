@@ -55,8 +55,6 @@ struct BenchRecord {
 /// report.json's keys, and those of a benchmark.
 std::string bench_json(const BenchRecord& record);
 
-// Two results of `quadedge bench`, figure by figure.
-
 /// Exit code of a comparison that finds a regression; follows the codes of ExitCode.
 constexpr int kRegressionExitCode = 6;
 

@@ -57,6 +57,22 @@ class Detector {
   stages::DeviceEdges edges_;
 };
 
+// Of OpenCV's filters that are timed beside the edge detection.
+constexpr double kSigma = 2;  // as that of the edges [px]
+constexpr int kFilters = 9;   // as many as third-order edges have derivatives
+
+cv::Mat grey_matrix(const Image& image) {
+  Image grey = to_8_bits(image.view());
+  return cv::Mat(grey.height, grey.width, CV_8UC1, grey.pixels.data()).clone();
+}
+
+template <class Function>
+double milliseconds(const Function& work) {
+  const auto start = Clock::now();
+  work();
+  return milliseconds_since(start);
+}
+
 }  // namespace
 
 void measure_start(const StereoRig& rig, const std::function<Device()>& open_device,
@@ -159,25 +175,6 @@ double threshold_for_edges(const FramePrefetcher::Frame& frame, int wanted, Devi
   }
   return high;
 }
-
-namespace {
-
-constexpr double kSigma = 2;  // of the edges [px]
-constexpr int kFilters = 9;   // as many as third-order edges have derivatives
-
-cv::Mat grey_matrix(const Image& image) {
-  Image grey = to_8_bits(image.view());
-  return cv::Mat(grey.height, grey.width, CV_8UC1, grey.pixels.data()).clone();
-}
-
-template <class Function>
-double milliseconds(const Function& work) {
-  const auto start = Clock::now();
-  work();
-  return milliseconds_since(start);
-}
-
-}  // namespace
 
 Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int samples, int threads, int repetitions,
                               const std::function<void(int done, int total)>& progress) {

@@ -86,6 +86,16 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   return sum;
 }
 
+using report::Json;
+using report::to_json;
+
+constexpr const char* kContent = "quadedge kernel variants";
+constexpr int kSchema = 1;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw UsageError(path + ": " + why + "; remove the file, or replace it with `quadedge compare --save`");
+}
+
 }  // namespace
 
 std::string StageResult::best() const {
@@ -183,20 +193,6 @@ std::vector<std::string> stages_with_variants() {
   }
   return names;
 }
-
-namespace {
-
-using report::Json;
-using report::to_json;
-
-constexpr const char* kContent = "quadedge kernel variants";
-constexpr int kSchema = 1;
-
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw UsageError(path + ": " + why + "; remove the file, or replace it with `quadedge compare --save`");
-}
-
-}  // namespace
 
 std::string comparison_json(const DeviceInfo& device, const std::vector<StageResult>& stages,
                             const std::string& command) {

@@ -1,4 +1,4 @@
-/// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
+/// \file command_run.cpp  quadedge run: one recording, of a data set or of the user's cameras, to a trajectory.
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/rig_learning.hpp"

@@ -18,7 +18,7 @@ constexpr std::size_t kMost = 16000;
 constexpr double kMostDepthError = 0.03;  ///< relative, for an error of the disparity of kDisparityError
 constexpr double kDisparityError = 0.2;   ///< [px]
 
-/// An edge of the key rig in the left camera's frame; nothing where its depth is too uncertain.
+/// An edge of the keyframe in the left camera's frame; nothing where its depth is too uncertain.
 std::optional<Eigen::Vector3d> point_of(const StereoRig& rig, const StereoEdges& edges, std::size_t i) {
   const auto measured = pose::measure(rig, pose::observation_of(edges, i), kMinEpipolarAngle);
   if (!measured || measured->inverse_depth_per_pixel * kDisparityError > kMostDepthError * measured->inverse_depth)
@@ -48,7 +48,7 @@ void EdgeSample::add(const StereoOdometry& odometry, const FrameResult& result) 
   if (points_.size() > kMost) thin();
 }
 
-/// Keeps every second point, and takes half as many from every key rig that follows.
+/// Keeps every second point, and takes half as many from every keyframe that follows.
 void EdgeSample::thin() {
   for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
   points_.resize((points_.size() + 1) / 2);

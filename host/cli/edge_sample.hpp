@@ -10,11 +10,11 @@
 
 namespace quadedge::cli {
 
-/// A bounded number of stereo edges of key rigs, evenly spread over the run. They are inliers of the motion of their
+/// A bounded number of stereo edges of keyframes, evenly spread over the run. They are inliers of the motion of their
 /// frame, so that few of them are mismatched. `run --points` writes all edges.
 class EdgeSample {
  public:
-  /// Takes in the frame that was tracked last, if it became the key rig.
+  /// Takes in the frame that was tracked last, if it became the keyframe.
   void add(const StereoOdometry& odometry, const FrameResult& result);
   /// edges.csv: frame, x_m, y_m, z_m in the world (the first left camera), 3 decimals.
   std::string csv() const;

@@ -35,6 +35,29 @@ std::string fingerprint(const DeviceInfo& device, const std::map<std::string, st
 
 std::string verdict_path(const std::string& key) { return data::cache_folder() + "/self_tests/" + key + ".json"; }
 
+constexpr const char* kShared = "Method and device";
+
+/// Heading of a section's constants in the help.
+std::string heading(const std::string& section) {
+  for (const auto& known : constant_sections()) {
+    if (known.name == section)
+      return known.title + " (doc/method.md section " + std::to_string(known.method_section) + ")";
+  }
+  return kShared;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// The verdict on a device; not cached for kernels from a folder, which are being worked on.
+SelfTestResult verdict(Device& device, const std::map<std::string, std::string>& variants, bool own_kernels) {
+  if (device.is_reference()) return {};
+  const auto kept = own_kernels ? kept_verdict(device.info(), variants) : std::nullopt;
+  if (kept) return *kept;
+  const SelfTestResult result = self_test(device, variants);
+  if (own_kernels) keep_verdict(device.info(), variants, result);
+  return result;
+}
+
 }  // namespace
 
 std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device,
@@ -66,33 +89,6 @@ void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::str
     std::filesystem::remove(verdict_path(key), failed);  // tested again the next time
   }
 }
-
-namespace {
-
-constexpr const char* kShared = "Method and device";
-
-/// Heading of a section's constants in the help.
-std::string heading(const std::string& section) {
-  for (const auto& known : constant_sections()) {
-    if (known.name == section)
-      return known.title + " (doc/method.md section " + std::to_string(known.method_section) + ")";
-  }
-  return kShared;
-}
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-/// The verdict on a device; not cached for kernels from a folder, which are being worked on.
-SelfTestResult verdict(Device& device, const std::map<std::string, std::string>& variants, bool own_kernels) {
-  if (device.is_reference()) return {};
-  const auto kept = own_kernels ? kept_verdict(device.info(), variants) : std::nullopt;
-  if (kept) return *kept;
-  const SelfTestResult result = self_test(device, variants);
-  if (own_kernels) keep_verdict(device.info(), variants, result);
-  return result;
-}
-
-}  // namespace
 
 void MethodOptions::declare(Options& options) {
   options.group(kShared);

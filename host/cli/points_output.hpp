@@ -35,11 +35,11 @@ struct PointFiles {
 class PointsOutput {
  public:
   PointsOutput(const PointFiles& files, const Config& config);
-  /// Takes in the frame that was tracked last. For COLMAP, writes the pinhole images of a key rig.
+  /// Takes in the frame that was tracked last. For COLMAP, writes the pinhole images of a keyframe.
   void add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry);
   /// Moves everything to the corrected poses of the frames.
   void correct(const Map& map);
-  /// Writes what has been collected; nothing before the first key rig. \throws DataError.
+  /// Writes what has been collected; nothing before the first keyframe. \throws DataError.
   void write();
   /// What was written; nothing if none are requested.
   std::optional<report::PointFacts> facts() const { return facts_; }

@@ -39,6 +39,15 @@ std::string target_of(const std::string& path) {
   return target.string();
 }
 
+std::string user_folder(const char* variable, const char* below_home) {
+  const char* base = std::getenv(variable);
+  if (base != nullptr && base[0] == '/')
+    return std::string(base) + "/quadedge";  // the specification requires relative paths to be ignored
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && home[0] != '\0') return std::string(home) + below_home + "/quadedge";
+  return {};
+}
+
 }  // namespace
 
 void check_writable(const std::string& path) {
@@ -81,19 +90,6 @@ void write_atomically(const std::string& path, std::string_view bytes) {
   if (!closed) give_up("close the file", errno);
   if (replace && std::rename(name.c_str(), target.c_str()) != 0) give_up("rename the finished file", errno);
 }
-
-namespace {
-
-std::string user_folder(const char* variable, const char* below_home) {
-  const char* base = std::getenv(variable);
-  if (base != nullptr && base[0] == '/')
-    return std::string(base) + "/quadedge";  // the specification requires relative paths to be ignored
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && home[0] != '\0') return std::string(home) + below_home + "/quadedge";
-  return {};
-}
-
-}  // namespace
 
 std::string configuration_folder() { return user_folder("XDG_CONFIG_HOME", "/.config"); }
 

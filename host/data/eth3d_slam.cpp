@@ -76,15 +76,6 @@ void read_frames(Dataset& dataset, const fs::path& folder, bool first_is_left, F
   }
 }
 
-}  // namespace
-
-bool is_eth3d_slam(const fs::path& folder) {
-  return fs::is_directory(folder / "rgb2") ||
-         (fs::is_directory(folder / "rgb") && fs::exists(folder / "calibration.txt"));
-}
-
-namespace {
-
 /// Reads calibration.txt, calibration2.txt and extrinsics_1_2.txt. \returns camera1_from_camera2
 Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder, Findings& findings) {
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
@@ -101,6 +92,11 @@ Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder,
 }
 
 }  // namespace
+
+bool is_eth3d_slam(const fs::path& folder) {
+  return fs::is_directory(folder / "rgb2") ||
+         (fs::is_directory(folder / "rgb") && fs::exists(folder / "calibration.txt"));
+}
 
 Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, Findings& findings) {
   Dataset dataset;

@@ -1,5 +1,6 @@
 #pragma once
-/// \file eth3d_slam.hpp  The layout of ETH3D's SLAM benchmark: writes rendered sequences in it.
+/// \file eth3d_slam.hpp  Writes rendered sequences in the layout of ETH3D's SLAM benchmark. data/layout.hpp declares
+/// its reader.
 
 #include <functional>
 #include <string>
@@ -7,8 +8,6 @@
 #include "quadedge/synthetic.hpp"
 
 namespace quadedge {
-
-// Writes rendered sequences to disk.
 
 /// Writes a rendered sequence in the ETH3D SLAM stereo layout:
 ///   rgb/STAMP.png, rgb2/STAMP.png      left and right image, 8-bit grey

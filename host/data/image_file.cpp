@@ -103,14 +103,6 @@ cv::Mat decode(const ImageHeader& header, std::string_view bytes) {
   return samples;
 }
 
-}  // namespace
-
-std::string to_string(ImageSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
-
-ImageSize image_size(const std::string& file) { return checked_header(read_bytes(file), file).size; }
-
-namespace {
-
 std::string extension_of(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
@@ -118,6 +110,10 @@ std::string extension_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::string to_string(ImageSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
+ImageSize image_size(const std::string& file) { return checked_header(read_bytes(file), file).size; }
 
 bool is_other_image_name(const std::string& name) {
   const std::string extension = extension_of(name);

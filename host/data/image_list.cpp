@@ -78,6 +78,47 @@ std::int64_t dated_stamp(const std::vector<std::string>& words, const std::strin
          parse_seconds(words[1].substr(static_cast<std::size_t>(end)), file, line);
 }
 
+bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
+
+/// The digits at `at`, without leading zeros.
+std::string digits_at(const std::string& text, std::size_t& at) {
+  std::string digits;
+  for (; at < text.size() && is_digit(text[at]); ++at) {
+    if (!digits.empty() || text[at] != '0') digits += text[at];
+  }
+  return digits;
+}
+
+/// folder/name, or the same file next to the folder; empty if neither exists.
+std::string beside(const fs::path& folder, const char* name) {
+  for (const auto& place : {folder / name, folder / ".." / name}) {
+    std::error_code ignored;
+    if (fs::exists(place, ignored)) return place.string();
+  }
+  return {};
+}
+
+/// Gives every image its time: by its name where the rows state names, otherwise in order.
+void take_times(const TimeRows& rows, const std::string& file, const fs::path& folder, CameraImages& images) {
+  std::map<std::string, std::int64_t> by_name;
+  for (std::size_t i = 0; i < rows.names.size(); ++i)
+    by_name[fs::path(rows.names[i]).stem().string()] = rows.stamps_ns[i];
+  for (const std::string& image : images.files) {
+    const auto found = by_name.find(fs::path(image).stem().string());
+    if (found != by_name.end()) images.stamps_ns.push_back(found->second);
+  }
+  if (images.stamps_ns.size() == images.files.size()) return;
+  if (!images.stamps_ns.empty()) {
+    fail(file, "names of " + counted(images.stamps_ns.size(), "image"),
+         "all " + std::to_string(images.files.size()) + " in " + folder.string() + ", or none of them");
+  }
+  images.stamps_ns = rows.stamps_ns;
+  if (images.stamps_ns.size() != images.files.size()) {
+    fail(file, counted(images.stamps_ns.size(), "time"),
+         "one per image, for the " + counted(images.files.size(), "image") + " in " + folder.string());
+  }
+}
+
 }  // namespace
 
 std::optional<std::vector<std::int64_t>> stamps_of_names(const std::vector<std::string>& stems,
@@ -195,51 +236,6 @@ std::string number_jump(const std::vector<std::string>& files) {
          ": were images lost, or did the counter restart? Then the later images come first: use names that continue, "
          "or --times FILE";
 }
-
-namespace {
-
-bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
-
-/// The digits at `at`, without leading zeros.
-std::string digits_at(const std::string& text, std::size_t& at) {
-  std::string digits;
-  for (; at < text.size() && is_digit(text[at]); ++at) {
-    if (!digits.empty() || text[at] != '0') digits += text[at];
-  }
-  return digits;
-}
-
-/// folder/name, or the same file next to the folder; empty if neither exists.
-std::string beside(const fs::path& folder, const char* name) {
-  for (const auto& place : {folder / name, folder / ".." / name}) {
-    std::error_code ignored;
-    if (fs::exists(place, ignored)) return place.string();
-  }
-  return {};
-}
-
-/// Gives every image its time: by its name where the rows state names, otherwise in order.
-void take_times(const TimeRows& rows, const std::string& file, const fs::path& folder, CameraImages& images) {
-  std::map<std::string, std::int64_t> by_name;
-  for (std::size_t i = 0; i < rows.names.size(); ++i)
-    by_name[fs::path(rows.names[i]).stem().string()] = rows.stamps_ns[i];
-  for (const std::string& image : images.files) {
-    const auto found = by_name.find(fs::path(image).stem().string());
-    if (found != by_name.end()) images.stamps_ns.push_back(found->second);
-  }
-  if (images.stamps_ns.size() == images.files.size()) return;
-  if (!images.stamps_ns.empty()) {
-    fail(file, "names of " + counted(images.stamps_ns.size(), "image"),
-         "all " + std::to_string(images.files.size()) + " in " + folder.string() + ", or none of them");
-  }
-  images.stamps_ns = rows.stamps_ns;
-  if (images.stamps_ns.size() != images.files.size()) {
-    fail(file, counted(images.stamps_ns.size(), "time"),
-         "one per image, for the " + counted(images.files.size(), "image") + " in " + folder.string());
-  }
-}
-
-}  // namespace
 
 bool comes_before(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;

@@ -11,6 +11,26 @@
 #include "quadedge/error.hpp"
 
 namespace quadedge::data {
+namespace {
+
+ImageSize size_of(const PinholeCamera& camera) { return {camera.width, camera.height}; }
+
+/// Parses "[f 0 cx; 0 f cy; 0 0 1]" into a camera.
+void set_camera(PinholeCamera& camera, const std::string& text, const std::string& file, int line) {
+  const auto tokens = split(text, " \t[];,");
+  const std::string expected = "nine numbers [fx 0 cx; 0 fy cy; 0 0 1]";
+  if (tokens.size() != 9) fail(file, line, in_quotes(text), expected);
+  std::vector<double> values;
+  for (const auto& token : tokens) values.push_back(parse_number(token, file, line, expected));
+  if (values[1] != 0 || values[3] != 0 || values[6] != 0 || values[7] != 0 || values[8] != 1)
+    fail(file, line, in_quotes(text), expected);
+  camera.fx = values[0];
+  camera.cx = values[2];
+  camera.fy = values[4];
+  camera.cy = values[5];
+}
+
+}  // namespace
 
 void Findings::error(const std::string& message) {
   if (!collect_) throw DataError(message);
@@ -136,12 +156,6 @@ void set_sizes_from_first_frame(Dataset& dataset) {
   dataset.rig.right.height = right.height;
 }
 
-namespace {
-
-ImageSize size_of(const PinholeCamera& camera) { return {camera.width, camera.height}; }
-
-}  // namespace
-
 bool sizes_fit(const Dataset& dataset) {
   for (const auto& frame : dataset.frames) {
     try {
@@ -213,25 +227,6 @@ Dataset still_pair(const fs::path& folder, const std::string& left, const std::s
   add_frame(dataset, 0, left, right, findings);
   return dataset;
 }
-
-namespace {
-
-/// Parses "[f 0 cx; 0 f cy; 0 0 1]" into a camera.
-void set_camera(PinholeCamera& camera, const std::string& text, const std::string& file, int line) {
-  const auto tokens = split(text, " \t[];,");
-  const std::string expected = "nine numbers [fx 0 cx; 0 fy cy; 0 0 1]";
-  if (tokens.size() != 9) fail(file, line, in_quotes(text), expected);
-  std::vector<double> values;
-  for (const auto& token : tokens) values.push_back(parse_number(token, file, line, expected));
-  if (values[1] != 0 || values[3] != 0 || values[6] != 0 || values[7] != 0 || values[8] != 1)
-    fail(file, line, in_quotes(text), expected);
-  camera.fx = values[0];
-  camera.cx = values[2];
-  camera.fy = values[4];
-  camera.cy = values[5];
-}
-
-}  // namespace
 
 PairCalibration read_pair_calibration(const std::string& file) {
   std::map<std::string, std::pair<std::string, int>> entries;

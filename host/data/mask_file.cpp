@@ -31,6 +31,14 @@ void hide(const Image& drawn, const PinholeCamera& camera, const UndistortionTab
   }
 }
 
+/// The mask of an image. \throws DataError if there is none
+std::string mask_of(const std::string& image, const std::filesystem::path& folder) {
+  const std::string file = (folder / std::filesystem::path(image).stem()).string() + ".png";
+  if (!std::filesystem::is_regular_file(file))
+    data::fail(file, "no file", "the mask of " + image + ": black where nothing is to be tracked");
+  return file;
+}
+
 }  // namespace
 
 void mask_rig(StereoRig& rig, const std::string& files) {
@@ -48,18 +56,6 @@ void mask_rig(StereoRig& rig, const std::string& files) {
   apply(list.front(), rig.left, rig.left_undistortion, rig.left_mask);
   apply(list.back(), rig.right, rig.right_undistortion, rig.right_mask);
 }
-
-namespace {
-
-/// The mask of an image. \throws DataError if there is none
-std::string mask_of(const std::string& image, const std::filesystem::path& folder) {
-  const std::string file = (folder / std::filesystem::path(image).stem()).string() + ".png";
-  if (!std::filesystem::is_regular_file(file))
-    data::fail(file, "no file", "the mask of " + image + ": black where nothing is to be tracked");
-  return file;
-}
-
-}  // namespace
 
 void add_masks(Dataset& dataset, const std::string& folder) {
   if (dataset.stream)

@@ -204,12 +204,12 @@ void check_source(const StereoSource& source) {
   parse_split(source.split);
   if (one && source.split.empty()) throw UsageError("--video needs --split left-right or --split top-bottom");
   if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose images contain both views");
-  if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected frames per second, above 0");
+  if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected a positive number of frames per second");
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
   if (source.pipe && source.fps == 0 && source.times.empty())
     throw UsageError("images in a pipe have no timestamps: give --fps N or --times FILE");
   if (!(source.tolerance_ms >= 0 && std::isfinite(source.tolerance_ms)))
-    throw UsageError("--tolerance: expected milliseconds, above 0");
+    throw UsageError("--tolerance: expected milliseconds, 0 or more");
   if (source.live && !source.pipe) throw UsageError("--live applies to a pipe (-) only; files are read whole");
 }
 

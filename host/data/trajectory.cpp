@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kTumColumns = "timestamp tx ty tz qx qy qz qw";
 constexpr const char* kKittiColumns = "the 3 x 4 matrix world_from_left, row by row";
+constexpr std::string_view kSegment = "# segment ";
 /// Rotations in all known files have at least four significant digits; a matrix with a larger deviation is not a
 /// rotation.
 constexpr double kRotationInFiles = 1e-3;
@@ -75,12 +76,6 @@ Trajectory read_euroc_poses(const std::string& file) {
   }
   return trajectory;
 }
-
-namespace {
-
-constexpr std::string_view kSegment = "# segment ";
-
-}  // namespace
 
 std::string tum_header() { return "# timestamp[s] tx ty tz[m] qx qy qz qw: world_from_left_camera\n"; }
 

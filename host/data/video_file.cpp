@@ -53,50 +53,6 @@ int spawn(const std::vector<std::string>& command, int output, int messages, pid
   return problem;
 }
 
-}  // namespace
-
-ProgramOutput::ProgramOutput(const std::vector<std::string>& command, const std::string& needed_for) {
-  int ends[2][2] = {{-1, -1}, {-1, -1}};
-  int problem = pipe2(ends[0], O_CLOEXEC) != 0 || pipe2(ends[1], O_CLOEXEC) != 0 ? errno : 0;
-  if (problem == 0) problem = spawn(command, ends[0][1], ends[1][1], process_);
-  for (int i = 0; i < 2; ++i) {
-    pipes_[i] = ends[i][0];
-    if (ends[i][1] >= 0) close(ends[i][1]);
-  }
-  if (problem == 0) return;
-  for (const int pipe : pipes_)
-    if (pipe >= 0) close(pipe);
-  throw DataError(needed_for + " needs the program " + command.front() +
-                  ", which cannot be started: " + (problem == ENOENT ? "it is not installed" : std::strerror(problem)));
-}
-
-ProgramOutput::~ProgramOutput() {
-  kill(process_, SIGKILL);
-  for (const int pipe : pipes_)
-    if (pipe >= 0) close(pipe);
-  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-  }
-}
-
-bool ProgramOutput::wait() {
-  pollfd waiting[2] = {{pipes_[0], POLLIN, 0}, {pipes_[1], POLLIN, 0}};
-  if (poll(waiting, 2, -1) < 0) return errno == EINTR;
-  for (int i = 0; i < 2; ++i) {
-    if (pipes_[i] < 0 || waiting[i].revents == 0) continue;
-    std::string& text = i == 0 ? output : messages;
-    const std::size_t before = text.size();
-    text.resize(before + kBlock);
-    const ssize_t count = read(pipes_[i], text.data() + before, kBlock);
-    text.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
-    if (count > 0 || (count < 0 && errno == EINTR)) continue;
-    close(pipes_[i]);
-    pipes_[i] = -1;
-  }
-  return pipes_[0] >= 0 || pipes_[1] >= 0;
-}
-
-namespace {
-
 constexpr const char* kPurpose = "reading a video";
 constexpr int kReadAhead = 8;             // packets that ffmpeg's demuxer may be ahead of its decoder
 constexpr double kStampsPerSecond = 1e9;  // nanoseconds
@@ -146,7 +102,92 @@ std::string value_after(const std::string& line, const char* key) {
   return line.substr(first, line.find(' ', first) - first);
 }
 
+class VideoReader : public StreamReader {
+ public:
+  VideoReader(const Video& left, const std::optional<Video>& right, const StreamOptions& options)
+      : StreamReader(options), about_left_(left), left_(left) {
+    if (!right) return;
+    about_right_ = *right;
+    right_.emplace(*right);
+  }
+
+ private:
+  std::optional<StereoPair> read() override {
+    auto left = left_.next();
+    StereoPair pair;
+    if (right_) {
+      auto right = right_->next();
+      if (left && !right) end_early(about_right_, about_left_);
+      if (right && !left) end_early(about_left_, about_right_);
+      if (!left) return std::nullopt;
+      check_times(left->stamp_ns, right->stamp_ns);
+      pair.left = std::move(left->image);
+      pair.right = std::move(right->image);
+    } else {
+      if (!left) return std::nullopt;
+      pair = halves(left->image, about_left_.file);
+    }
+    pair.stamp_ns = left->stamp_ns;
+    return pair;
+  }
+  [[noreturn]] void end_early(const Video& shorter, const Video& other) const {
+    fail(shorter.file, "the end after " + counted(number_, "frame"), "as many as in " + other.file);
+  }
+  /// Checks that the frames of a pair differ by less than half a period in time.
+  void check_times(std::int64_t left, std::int64_t right) const {
+    const double fps = about_left_.fps, apart = static_cast<double>(right - left) / kStampsPerSecond;
+    if (options_.fps > 0 || !(fps > 0) || std::abs(apart) * fps < 0.5) return;
+    fail(about_right_.file, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
+         format_seconds(left) + " s as in " + about_left_.file);
+  }
+
+  const Video about_left_;
+  Video about_right_;
+  VideoFile left_;
+  std::optional<VideoFile> right_;
+};
+
 }  // namespace
+
+ProgramOutput::ProgramOutput(const std::vector<std::string>& command, const std::string& needed_for) {
+  int ends[2][2] = {{-1, -1}, {-1, -1}};
+  int problem = pipe2(ends[0], O_CLOEXEC) != 0 || pipe2(ends[1], O_CLOEXEC) != 0 ? errno : 0;
+  if (problem == 0) problem = spawn(command, ends[0][1], ends[1][1], process_);
+  for (int i = 0; i < 2; ++i) {
+    pipes_[i] = ends[i][0];
+    if (ends[i][1] >= 0) close(ends[i][1]);
+  }
+  if (problem == 0) return;
+  for (const int pipe : pipes_)
+    if (pipe >= 0) close(pipe);
+  throw DataError(needed_for + " needs the program " + command.front() +
+                  ", which cannot be started: " + (problem == ENOENT ? "it is not installed" : std::strerror(problem)));
+}
+
+ProgramOutput::~ProgramOutput() {
+  kill(process_, SIGKILL);
+  for (const int pipe : pipes_)
+    if (pipe >= 0) close(pipe);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool ProgramOutput::wait() {
+  pollfd waiting[2] = {{pipes_[0], POLLIN, 0}, {pipes_[1], POLLIN, 0}};
+  if (poll(waiting, 2, -1) < 0) return errno == EINTR;
+  for (int i = 0; i < 2; ++i) {
+    if (pipes_[i] < 0 || waiting[i].revents == 0) continue;
+    std::string& text = i == 0 ? output : messages;
+    const std::size_t before = text.size();
+    text.resize(before + kBlock);
+    const ssize_t count = read(pipes_[i], text.data() + before, kBlock);
+    text.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
+    if (count > 0 || (count < 0 && errno == EINTR)) continue;
+    close(pipes_[i]);
+    pipes_[i] = -1;
+  }
+  return pipes_[0] >= 0 || pipes_[1] >= 0;
+}
 
 Video describe_video(const std::string& file) {
   constexpr const char* kVideo = "a video file";
@@ -341,55 +382,6 @@ class VideoFile::Implementation {
 VideoFile::VideoFile(Video video) : implementation_(std::make_unique<Implementation>(std::move(video))) {}
 VideoFile::~VideoFile() = default;
 std::optional<VideoFile::Picture> VideoFile::next() { return implementation_->next(); }
-
-namespace {
-
-class VideoReader : public StreamReader {
- public:
-  VideoReader(const Video& left, const std::optional<Video>& right, const StreamOptions& options)
-      : StreamReader(options), about_left_(left), left_(left) {
-    if (!right) return;
-    about_right_ = *right;
-    right_.emplace(*right);
-  }
-
- private:
-  std::optional<StereoPair> read() override {
-    auto left = left_.next();
-    StereoPair pair;
-    if (right_) {
-      auto right = right_->next();
-      if (left && !right) end_early(about_right_, about_left_);
-      if (right && !left) end_early(about_left_, about_right_);
-      if (!left) return std::nullopt;
-      check_times(left->stamp_ns, right->stamp_ns);
-      pair.left = std::move(left->image);
-      pair.right = std::move(right->image);
-    } else {
-      if (!left) return std::nullopt;
-      pair = halves(left->image, about_left_.file);
-    }
-    pair.stamp_ns = left->stamp_ns;
-    return pair;
-  }
-  [[noreturn]] void end_early(const Video& shorter, const Video& other) const {
-    fail(shorter.file, "the end after " + counted(number_, "frame"), "as many as in " + other.file);
-  }
-  /// Checks that the frames of a pair differ by less than half a period in time.
-  void check_times(std::int64_t left, std::int64_t right) const {
-    const double fps = about_left_.fps, apart = static_cast<double>(right - left) / kStampsPerSecond;
-    if (options_.fps > 0 || !(fps > 0) || std::abs(apart) * fps < 0.5) return;
-    fail(about_right_.file, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
-         format_seconds(left) + " s as in " + about_left_.file);
-  }
-
-  const Video about_left_;
-  Video about_right_;
-  VideoFile left_;
-  std::optional<VideoFile> right_;
-};
-
-}  // namespace
 
 std::shared_ptr<StreamOfReaders> make_video_stream(const Video& left, const std::optional<Video>& right,
                                                    const StreamOptions& options) {

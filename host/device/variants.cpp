@@ -142,7 +142,9 @@ struct Joint {
   }
 };
 
-/// One program per kind of setting that the kernels depend on: the scale of the edges, the depth of the images, none.
+/// One program per kind of setting that the kernels depend on: the scale of the edges, the depth of the images, none. A
+/// stage that is in no list has a program of its own. All files of a program see the defines of all its variants: what
+/// is defined for one stage must not have a meaning in another's files.
 const std::vector<Joint>& joint_programs() {
   static const std::vector<Joint> programs = [] {
     std::vector<Joint> list = {

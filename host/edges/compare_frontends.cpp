@@ -156,6 +156,66 @@ Config configuration(const SmallSequence& sequence, const std::map<std::string, 
   return config;
 }
 
+/// Number of rows of `a` that `b` lacks, and the first of them.
+std::size_t missing(const std::vector<Row>& a, const std::vector<Row>& b, const Row*& first) {
+  std::size_t count = 0;
+  for (const Row& row : a) {
+    const auto like_row = [&](const Row& other) {
+      return std::equal(row.begin(), row.end(), other.begin(),
+                        [](int p, int q) { return std::abs(p - q) <= StageRows::kTolerance; });
+    };
+    if (std::any_of(b.begin(), b.end(), like_row)) continue;
+    if (count++ == 0) first = &row;
+  }
+  return count;
+}
+
+/// The first differing value of parallel arrays.
+class Difference {
+ public:
+  /// \param stage that writes the arrays \param row name of a row in messages
+  Difference(const char* stage, const char* row, std::string& found) : stage_(stage), row_(row), found_(found) {}
+
+  template <class T>
+  Difference& operator()(const char* value, const std::vector<T>& a, const std::vector<T>& b) {
+    if (!found_.empty() || a == b) return *this;
+    const std::size_t both = std::min(a.size(), b.size());
+    std::size_t i = 0;
+    while (i < both && a[i] == b[i]) ++i;
+    if (i == both) {
+      found_ = printed("%s, %s: %zu instead of %zu values of %s", stage_, row_, a.size(), b.size(), value);
+    } else {
+      found_ = printed("%s, %s %zu: %s is %.9g instead of %.9g", stage_, row_, i, value, static_cast<double>(a[i]),
+                       static_cast<double>(b[i]));
+    }
+    return *this;
+  }
+
+ private:
+  const char *stage_, *row_;
+  std::string& found_;
+};
+
+void compare(const char* row, const EdgeSet& a, const EdgeSet& b, std::string& found) {
+  Difference("edge_detection", row, found)("x", a.x, b.x)("y", a.y, b.y)("direction", a.direction, b.direction)(
+      "strength", a.strength, b.strength)("scale-space shift", a.scale_shift, b.scale_shift);
+  Difference("edge_detection", "row start", found)("number", a.row_first, b.row_first);
+}
+void compare(const char* row, const StereoEdges& a, const StereoEdges& b, std::string& found) {
+  Difference("stereo_mutual", row, found)("left edge", a.left_index, b.left_index)(
+      "right edge", a.right_index, b.right_index)("left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)(
+      "left direction", a.left_direction, b.left_direction)("right x", a.right_x, b.right_x)(
+      "right y", a.right_y, b.right_y)("right direction", a.right_direction, b.right_direction)("NCC", a.ncc, b.ncc)(
+      "scale-space shift", a.left_scale_shift, b.left_scale_shift);
+}
+void compare(const char* stage, const char* row, const TemporalMatches& a, const TemporalMatches& b,
+             std::string& found) {
+  Difference(stage, row, found)("previous edge", a.previous, b.previous)("current edge", a.current, b.current)(
+      "left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)("right x", a.right_x, b.right_x)(
+      "right y", a.right_y, b.right_y)("NCC", a.ncc, b.ncc)("competing clusters", a.competing_clusters,
+                                                            b.competing_clusters);
+}
+
 }  // namespace
 
 SmallSequence small_sequence() {
@@ -206,24 +266,6 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
   return std::move(collector.stages);
 }
 
-namespace {
-
-/// Number of rows of `a` that `b` lacks, and the first of them.
-std::size_t missing(const std::vector<Row>& a, const std::vector<Row>& b, const Row*& first) {
-  std::size_t count = 0;
-  for (const Row& row : a) {
-    const auto like_row = [&](const Row& other) {
-      return std::equal(row.begin(), row.end(), other.begin(),
-                        [](int p, int q) { return std::abs(p - q) <= StageRows::kTolerance; });
-    };
-    if (std::any_of(b.begin(), b.end(), like_row)) continue;
-    if (count++ == 0) first = &row;
-  }
-  return count;
-}
-
-}  // namespace
-
 std::string difference(const StageRows& found, const StageRows& expected, double allowed) {
   const Row *first_wrong = nullptr, *first_missing = nullptr;
   const std::size_t wrong = missing(found.rows, expected.rows, first_wrong),
@@ -238,56 +280,6 @@ std::string difference(const StageRows& found, const StageRows& expected, double
       "is (%d %d %d %d %d)",
       found.rows.size(), expected.rows.size(), wrong, lacking, row[0], row[1], row[2], row[3], row[4]);
 }
-
-namespace {
-
-/// The first differing value of parallel arrays.
-class Difference {
- public:
-  /// \param stage that writes the arrays \param row name of a row in messages
-  Difference(const char* stage, const char* row, std::string& found) : stage_(stage), row_(row), found_(found) {}
-
-  template <class T>
-  Difference& operator()(const char* value, const std::vector<T>& a, const std::vector<T>& b) {
-    if (!found_.empty() || a == b) return *this;
-    const std::size_t both = std::min(a.size(), b.size());
-    std::size_t i = 0;
-    while (i < both && a[i] == b[i]) ++i;
-    if (i == both) {
-      found_ = printed("%s, %s: %zu instead of %zu values of %s", stage_, row_, a.size(), b.size(), value);
-    } else {
-      found_ = printed("%s, %s %zu: %s is %.9g instead of %.9g", stage_, row_, i, value, static_cast<double>(a[i]),
-                       static_cast<double>(b[i]));
-    }
-    return *this;
-  }
-
- private:
-  const char *stage_, *row_;
-  std::string& found_;
-};
-
-void compare(const char* row, const EdgeSet& a, const EdgeSet& b, std::string& found) {
-  Difference("edge_detection", row, found)("x", a.x, b.x)("y", a.y, b.y)("direction", a.direction, b.direction)(
-      "strength", a.strength, b.strength)("scale-space shift", a.scale_shift, b.scale_shift);
-  Difference("edge_detection", "row start", found)("number", a.row_first, b.row_first);
-}
-void compare(const char* row, const StereoEdges& a, const StereoEdges& b, std::string& found) {
-  Difference("stereo_mutual", row, found)("left edge", a.left_index, b.left_index)(
-      "right edge", a.right_index, b.right_index)("left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)(
-      "left direction", a.left_direction, b.left_direction)("right x", a.right_x, b.right_x)(
-      "right y", a.right_y, b.right_y)("right direction", a.right_direction, b.right_direction)("NCC", a.ncc, b.ncc)(
-      "scale-space shift", a.left_scale_shift, b.left_scale_shift);
-}
-void compare(const char* stage, const char* row, const TemporalMatches& a, const TemporalMatches& b,
-             std::string& found) {
-  Difference(stage, row, found)("previous edge", a.previous, b.previous)("current edge", a.current, b.current)(
-      "left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)("right x", a.right_x, b.right_x)(
-      "right y", a.right_y, b.right_y)("NCC", a.ncc, b.ncc)("competing clusters", a.competing_clusters,
-                                                            b.competing_clusters);
-}
-
-}  // namespace
 
 FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const StereoFrame& second,
                             const Config& config) {

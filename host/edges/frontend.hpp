@@ -28,8 +28,8 @@ struct FrontendCounts {
   int dropped_edges = 0;  ///< beyond edges.max_edges, in both images
 };
 
-/// Interface with two implementations: the OpenCL stages and the C++ reference. Callers keep frames by holding their
-/// handles.
+/// Interface with three implementations: the OpenCL stages, the C++ reference and the paper's method. Callers keep
+/// frames by holding their handles.
 class Frontend {
  public:
   virtual ~Frontend() = default;
@@ -124,7 +124,8 @@ class Frontend {
   MaskTransfer to_left_, to_right_;
 };
 
-/// Creates the OpenCL front end on `device`, or the reference if `device` is the reference.
+/// Creates the front end of the paper's method if `config` asks for it, else the OpenCL front end on `device`, or the
+/// reference if `device` is the reference.
 /// \throws UsageError for an unknown variant or invalid limits; DeviceError if kernels do not build
 /// \param warnings receives warnings about the device; null: discarded
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,

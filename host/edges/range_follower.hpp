@@ -44,8 +44,6 @@ class RangeFollower {
   std::vector<float> probed_, found_;  ///< disparities of the probes and of all stereo edges [px]
 };
 
-// Decides in which frames a coarse disparity is consulted. doc/method.md section 3.
-
 /// Is open for frames in which neighbours leave stereo.coarse_ties of the edges undecided, and never for a rig that is
 /// not rectified. A frame starts as the one before it ended and is searched again if that was wrong, so that its result
 /// does not depend on the frames before it.

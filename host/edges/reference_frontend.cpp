@@ -31,6 +31,12 @@ std::vector<std::uint8_t> sift_of(const Image& image, const EdgePositionsView& e
   return reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction);
 }
 
+reference::WideEdges describe_widely(const ReferenceFrameEdges& frame_edges, const WideSubset& subset) {
+  if (frame_edges.is_restored) return {frame_edges.edges, 1, frame_edges.wide};
+  return {subset.edges, subset.step,
+          reference::wide_descriptions(reference::shrink(frame_edges.left.view()), subset.edges, subset.step)};
+}
+
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
@@ -142,16 +148,6 @@ void ReferenceFrontend::search_in_time(FrameEdges& base, FrameEdges& current, co
   if (tap_ != nullptr) tap_temporal(search, now, result);
   matches = std::move(result.matches);
 }
-
-namespace {
-
-reference::WideEdges describe_widely(const ReferenceFrameEdges& frame_edges, const WideSubset& subset) {
-  if (frame_edges.is_restored) return {frame_edges.edges, 1, frame_edges.wide};
-  return {subset.edges, subset.step,
-          reference::wide_descriptions(reference::shrink(frame_edges.left.view()), subset.edges, subset.step)};
-}
-
-}  // namespace
 
 TemporalMatches ReferenceFrontend::search_globally(const FrameEdges& base, const WideSubset& of_base,
                                                    const FrameEdges& current, const WideSubset& of_current) {

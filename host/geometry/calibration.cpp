@@ -13,7 +13,6 @@
 #include "quadedge/error.hpp"
 
 namespace quadedge {
-
 namespace {
 
 constexpr double kShortestFocal = 0.01, kLongestFocal = 100, kFarthestCentre = 10;  // image sizes
@@ -21,40 +20,6 @@ constexpr double kLargestPixelRatio = 10;                                       
 constexpr double kLargestSize = 65536;                                              // px, of any image
 
 std::string number(double value) { return printed("%.9g", value); }
-
-}  // namespace
-
-double rotation_error(const Eigen::Matrix3d& matrix) {
-  if (!matrix.allFinite() || matrix.determinant() < 0) return std::numeric_limits<double>::infinity();
-  return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-}
-
-bool is_affine(const Eigen::Isometry3d& transform) {
-  return transform.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
-}
-
-std::optional<CameraComplaint> complaint_about(const PinholeCamera& camera) {
-  const bool is_known = camera.width > 0 && camera.height > 0;
-  const double size = is_known ? std::max(camera.width, camera.height) : kLargestSize;
-  const double low = is_known ? kShortestFocal * size : kShortestFocal, high = kLongestFocal * size;
-  for (const auto& [name, value] : {std::pair("fx", camera.fx), {"fy", camera.fy}}) {
-    if (!(value >= low && value <= high))
-      return CameraComplaint{std::string("a focal length ") + name + " of " + number(value),
-                             "a positive number of pixels, from " + number(low) + " to " + number(high)};
-  }
-  if (const double ratio = camera.fx / camera.fy; ratio < 1 / kLargestPixelRatio || ratio > kLargestPixelRatio)
-    return CameraComplaint{"focal lengths of " + number(camera.fx) + " and " + number(camera.fy),
-                           "fx and fy of about the same size"};
-  for (const auto& [name, value] : {std::pair("cx", camera.cx), {"cy", camera.cy}}) {
-    const double farthest = kFarthestCentre * size;
-    if (!(value >= -farthest && value <= farthest))
-      return CameraComplaint{std::string("a principal point ") + name + " of " + number(value),
-                             "a finite number of pixels, from " + number(-farthest) + " to " + number(farthest)};
-  }
-  return std::nullopt;
-}
-
-namespace {
 
 /// Beyond 60 degrees from the axis, a pinhole image is stretched by a factor of four or more.
 constexpr double kWidestView = 120;  // degrees
@@ -109,6 +74,36 @@ void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& t
 }
 
 }  // namespace
+
+double rotation_error(const Eigen::Matrix3d& matrix) {
+  if (!matrix.allFinite() || matrix.determinant() < 0) return std::numeric_limits<double>::infinity();
+  return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
+
+bool is_affine(const Eigen::Isometry3d& transform) {
+  return transform.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
+}
+
+std::optional<CameraComplaint> complaint_about(const PinholeCamera& camera) {
+  const bool is_known = camera.width > 0 && camera.height > 0;
+  const double size = is_known ? std::max(camera.width, camera.height) : kLargestSize;
+  const double low = is_known ? kShortestFocal * size : kShortestFocal, high = kLongestFocal * size;
+  for (const auto& [name, value] : {std::pair("fx", camera.fx), {"fy", camera.fy}}) {
+    if (!(value >= low && value <= high))
+      return CameraComplaint{std::string("a focal length ") + name + " of " + number(value),
+                             "a positive number of pixels, from " + number(low) + " to " + number(high)};
+  }
+  if (const double ratio = camera.fx / camera.fy; ratio < 1 / kLargestPixelRatio || ratio > kLargestPixelRatio)
+    return CameraComplaint{"focal lengths of " + number(camera.fx) + " and " + number(camera.fy),
+                           "fx and fy of about the same size"};
+  for (const auto& [name, value] : {std::pair("cx", camera.cx), {"cy", camera.cy}}) {
+    const double farthest = kFarthestCentre * size;
+    if (!(value >= -farthest && value <= farthest))
+      return CameraComplaint{std::string("a principal point ") + name + " of " + number(value),
+                             "a finite number of pixels, from " + number(-farthest) + " to " + number(farthest)};
+  }
+  return std::nullopt;
+}
 
 StereoRig make_rig(const StereoCalibration& calibration, double fov) {
   if (!(fov >= 0 && fov < 180))

@@ -9,6 +9,44 @@
 #include "quadedge/error.hpp"
 
 namespace quadedge {
+namespace {
+
+constexpr float kSegmentTolerance = 1.0f;  // px beyond each end of the segment, doc/method.md section 3 filter 2
+constexpr float kWholeImage = 1e5f;        // px, longer than any epipolar line
+
+/// Maximum ratio between the sines of the angles that matching edges form with their epipolar lines.
+constexpr float kDirectionSlack = 1.2F;
+
+/// The numbering of the pixel at which a right point would lie without `error`.
+EpipolarRows corrected(EpipolarRows rows, const StereoRig& rig, const RectificationError& error) {
+  const Eigen::Vector2d middle(rig.right.cx, rig.right.cy);
+  const Eigen::Vector3d t = rig.right.matrix() * rig.right_from_left.translation();
+  const Eigen::Vector2d along = (t.head<2>() - t.z() * middle).normalized();
+  const RectificationError::Terms terms = error.in_pixels(rig.right.width, rig.right.height);
+  const auto by = [&](float x, float y) {
+    return static_cast<double>(x) * along.y() - static_cast<double>(y) * along.x();
+  };
+  const auto move = [&](float& x, float& y, float& one) {
+    const double moved = by(x, y);
+    x -= static_cast<float>(moved * terms[1]);
+    y -= static_cast<float>(moved * terms[2]);
+    one -= static_cast<float>(moved * terms[0]);
+  };
+  move(rows.across_x, rows.across_y, rows.across_1);
+  move(rows.forward_x, rows.forward_y, rows.forward_1);
+  const auto at_middle = [&](float x, float y, float one) {
+    return static_cast<double>(x) * middle.x() + static_cast<double>(y) * middle.y() + static_cast<double>(one);
+  };
+  const double depth = at_middle(rows.forward_x, rows.forward_y, rows.forward_1),
+               row = at_middle(rows.across_x, rows.across_y, rows.across_1) / depth,
+               per_px = (by(rows.across_x, rows.across_y) - row * by(rows.forward_x, rows.forward_y)) / depth;
+  rows.bend_xx = static_cast<float>(per_px * terms[3]);
+  rows.bend_xy = static_cast<float>(per_px * terms[4]);
+  rows.bend_yy = static_cast<float>(per_px * terms[5]);
+  return rows;
+}
+
+}  // namespace
 
 double RectificationError::at(double u, double v) const {
   return offset + (slope_x + bend_xx * u + bend_xy * v) * u + (slope_y + bend_yy * v) * v;
@@ -32,13 +70,6 @@ RectificationError::Terms RectificationError::in_pixels(int width, int height) c
           bend_xy / width / height,
           bend_yy / height / height};
 }
-
-namespace {
-
-constexpr float kSegmentTolerance = 1.0f;  // px beyond each end of the segment, doc/method.md section 3 filter 2
-constexpr float kWholeImage = 1e5f;        // px, longer than any epipolar line
-
-}  // namespace
 
 EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config) {
   if (config.max_disparity <= 0 && config.min_depth <= 0) {
@@ -132,42 +163,6 @@ float left_epipolar_sine(const EpipolarGeometry& g, float x, float y, float dire
   const float dy = g.epipole[1] - g.epipole[2] * y;
   return std::fabs(std::cos(direction) * dy - std::sin(direction) * dx) / std::sqrt(dx * dx + dy * dy);
 }
-
-namespace {
-
-/// Maximum ratio between the sines of the angles that matching edges form with their epipolar lines.
-constexpr float kDirectionSlack = 1.2F;
-
-/// The numbering of the pixel at which a right point would lie without `error`.
-EpipolarRows corrected(EpipolarRows rows, const StereoRig& rig, const RectificationError& error) {
-  const Eigen::Vector2d middle(rig.right.cx, rig.right.cy);
-  const Eigen::Vector3d t = rig.right.matrix() * rig.right_from_left.translation();
-  const Eigen::Vector2d along = (t.head<2>() - t.z() * middle).normalized();
-  const RectificationError::Terms terms = error.in_pixels(rig.right.width, rig.right.height);
-  const auto by = [&](float x, float y) {
-    return static_cast<double>(x) * along.y() - static_cast<double>(y) * along.x();
-  };
-  const auto move = [&](float& x, float& y, float& one) {
-    const double moved = by(x, y);
-    x -= static_cast<float>(moved * terms[1]);
-    y -= static_cast<float>(moved * terms[2]);
-    one -= static_cast<float>(moved * terms[0]);
-  };
-  move(rows.across_x, rows.across_y, rows.across_1);
-  move(rows.forward_x, rows.forward_y, rows.forward_1);
-  const auto at_middle = [&](float x, float y, float one) {
-    return static_cast<double>(x) * middle.x() + static_cast<double>(y) * middle.y() + static_cast<double>(one);
-  };
-  const double depth = at_middle(rows.forward_x, rows.forward_y, rows.forward_1),
-               row = at_middle(rows.across_x, rows.across_y, rows.across_1) / depth,
-               per_px = (by(rows.across_x, rows.across_y) - row * by(rows.forward_x, rows.forward_y)) / depth;
-  rows.bend_xx = static_cast<float>(per_px * terms[3]);
-  rows.bend_xy = static_cast<float>(per_px * terms[4]);
-  rows.bend_yy = static_cast<float>(per_px * terms[5]);
-  return rows;
-}
-
-}  // namespace
 
 EpipolarRows epipolar_rows(const StereoRig& rig, Side side) {
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();

@@ -9,7 +9,6 @@
 #include "quadedge/camera.hpp"
 
 namespace quadedge {
-
 namespace {
 
 constexpr double kWidestRadius = 60;  // tangent of 89 degrees
@@ -22,6 +21,27 @@ Eigen::Matrix3d tilt_of(double tau_x, double tau_y) {
   const Eigen::Matrix3d rotation = about_y * about_x;
   onto_sensor << rotation(2, 2), 0, -rotation(0, 2), 0, rotation(2, 2), -rotation(1, 2), 0, 0, 1;
   return onto_sensor * rotation;
+}
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+BrownDistortion brown_of(const Lens& lens) {
+  const std::size_t first = lens.model == LensModel::omnidirectional ? 1 : 0;
+  const bool has_one = lens.model == LensModel::radial_tangential || first == 1;
+  return {lens.parameters.data() + first, has_one ? lens.parameters.size() - first : 0};
+}
+
+/// Angle up to which theta (1 + k1 theta^2 + ... + k4 theta^8) increases, at most a half turn.
+double growing_angle(const std::vector<double>& k) {
+  const auto grows = [&](double angle) {
+    const double s = angle * angle;
+    return 1 + s * (3 * k[0] + s * (5 * k[1] + s * (7 * k[2] + s * 9 * k[3]))) > 0;
+  };
+  constexpr double kStep = 0.01;
+  for (double angle = kStep; angle < kPi; angle += kStep)
+    if (!grows(angle)) return angle - kStep;
+  return kPi;
 }
 
 }  // namespace
@@ -101,31 +121,6 @@ std::optional<Eigen::Vector2d> BrownDistortion::undistort(const Eigen::Vector2d&
   if (!((distort(found) - seen).norm() <= kWrong * (1 + seen.norm())) || found.norm() > limit_) return std::nullopt;
   return found;
 }
-
-namespace {
-
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
-BrownDistortion brown_of(const Lens& lens) {
-  const std::size_t first = lens.model == LensModel::omnidirectional ? 1 : 0;
-  const bool has_one = lens.model == LensModel::radial_tangential || first == 1;
-  return {lens.parameters.data() + first, has_one ? lens.parameters.size() - first : 0};
-}
-
-/// Angle up to which theta (1 + k1 theta^2 + ... + k4 theta^8) increases, at most a half turn.
-double growing_angle(const std::vector<double>& k) {
-  const auto grows = [&](double angle) {
-    const double s = angle * angle;
-    return 1 + s * (3 * k[0] + s * (5 * k[1] + s * (7 * k[2] + s * 9 * k[3]))) > 0;
-  };
-  constexpr double kStep = 0.01;
-  for (double angle = kStep; angle < kPi; angle += kStep)
-    if (!grows(angle)) return angle - kStep;
-  return kPi;
-}
-
-}  // namespace
 
 const char* to_string(LensModel model) {
   switch (model) {

@@ -1,3 +1,4 @@
+/// \file measured_edges.cpp  Measures eight edges at once in plain numbers, in vector lanes.
 #include "geometry/measured_edges.hpp"
 
 #include <algorithm>

@@ -40,7 +40,7 @@ UncertainPose pose_in_earlier(const RelativePose& current_from_earlier) {
 UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose& key_from_current) {
   UncertainPose result;
   result.fixed_from_camera = world_from_key.fixed_from_camera * key_from_current.fixed_from_camera;
-  // A rotation error of the key rig also displaces the current camera, by its distance from the key rig.
+  // A rotation error of the keyframe also displaces the current camera, by its distance from the keyframe.
   const Eigen::Matrix3d turn = world_from_key.fixed_from_camera.linear();
   const Eigen::Vector3d offset = turn * key_from_current.fixed_from_camera.translation();
   PoseCovariance carried = PoseCovariance::Identity(), turned = PoseCovariance::Zero();

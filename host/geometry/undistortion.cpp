@@ -9,7 +9,6 @@
 #include "common/parallel.hpp"
 
 namespace quadedge {
-
 namespace {
 
 float grey_at(const ImageView& recorded, double x, double y) {
@@ -53,51 +52,6 @@ void sample_row(const ImageView& image, const SampleRow& row, int first, int cou
   }
   std::copy(sampled, sampled + count, values);
 }
-
-}  // namespace
-
-Eigen::Vector2d PinholeView::recorded_position(const Eigen::Vector2d& position) const {
-  if (table_.empty()) return position;
-  return source(table_, position.x(), position.y()).cast<double>();
-}
-
-float PinholeView::at(double x, double y) const {
-  const Eigen::Vector2d position = recorded_position({x, y});
-  return grey_at(recorded_, position.x(), position.y());
-}
-
-PinholeView::Patch PinholeView::patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const {
-  if (table_.empty()) return {recorded_, position, steps};
-  constexpr double kStep = 4;  // step for the derivative of the lens mapping [px]
-  Eigen::Matrix2d slope;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);
-    slope.col(axis) = (recorded_position(position + step) - recorded_position(position - step)) / (2 * kStep);
-  }
-  return {recorded_, recorded_position(position), slope * steps};
-}
-
-void PinholeView::Patch::sample(int half, float* values) const {
-  const int side = 2 * half + 1;
-  const Eigen::Vector2d reach = half * steps_.cwiseAbs().rowwise().sum();
-  const Eigen::Vector2d first = middle_ - reach, last = middle_ + reach;
-  const bool is_inside = first.minCoeff() >= 0 && last.x() < recorded_.width - 1 && last.y() < recorded_.height - 1;
-  for (int row = -half; row <= half; ++row, values += side) {
-    if (!is_inside || recorded_.max_value != kMaxValue8) {
-      for (int column = 0; column < side; ++column) {
-        const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(column - half, row);
-        values[column] = grey_at(recorded_, position.x(), position.y());
-      }
-      continue;
-    }
-    const Eigen::Vector2d of_row = row * steps_.col(1);
-    const SampleRow samples{middle_.x(), middle_.y(), steps_(0, 0), steps_(1, 0), of_row.x(), of_row.y()};
-    for (int column = 0; column < side; column += kColumns)
-      sample_row(recorded_, samples, column - half, std::min(kColumns, side - column), values + column);
-  }
-}
-
-namespace {
 
 /// Ratio of the two focal lengths in pixels from which a camera is reduced to a fraction of its resolution: half-way to
 /// twice the resolution.
@@ -152,6 +106,47 @@ void shrink_camera(double times, PinholeCamera& camera, UndistortionTable& table
 }
 
 }  // namespace
+
+Eigen::Vector2d PinholeView::recorded_position(const Eigen::Vector2d& position) const {
+  if (table_.empty()) return position;
+  return source(table_, position.x(), position.y()).cast<double>();
+}
+
+float PinholeView::at(double x, double y) const {
+  const Eigen::Vector2d position = recorded_position({x, y});
+  return grey_at(recorded_, position.x(), position.y());
+}
+
+PinholeView::Patch PinholeView::patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const {
+  if (table_.empty()) return {recorded_, position, steps};
+  constexpr double kStep = 4;  // step for the derivative of the lens mapping [px]
+  Eigen::Matrix2d slope;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);
+    slope.col(axis) = (recorded_position(position + step) - recorded_position(position - step)) / (2 * kStep);
+  }
+  return {recorded_, recorded_position(position), slope * steps};
+}
+
+void PinholeView::Patch::sample(int half, float* values) const {
+  const int side = 2 * half + 1;
+  const Eigen::Vector2d reach = half * steps_.cwiseAbs().rowwise().sum();
+  const Eigen::Vector2d first = middle_ - reach, last = middle_ + reach;
+  const bool is_inside = first.minCoeff() >= 0 && last.x() < recorded_.width - 1 && last.y() < recorded_.height - 1;
+  for (int row = -half; row <= half; ++row, values += side) {
+    if (!is_inside || recorded_.max_value != kMaxValue8) {
+      for (int column = 0; column < side; ++column) {
+        const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(column - half, row);
+        values[column] = grey_at(recorded_, position.x(), position.y());
+      }
+      continue;
+    }
+    const Eigen::Vector2d of_row = row * steps_.col(1);
+    const SampleRow samples{middle_.x(), middle_.y(), steps_(0, 0), steps_(1, 0), of_row.x(), of_row.y()};
+    for (int column = 0; column < side; column += kColumns)
+      sample_row(recorded_, samples, column - half, std::min(kColumns, side - column), values + column);
+  }
+}
 
 StereoRig with_equal_scales(StereoRig rig) {
   const double ratio = focal_length(rig.left) / focal_length(rig.right);

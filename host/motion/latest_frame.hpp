@@ -1,5 +1,5 @@
 #pragma once
-/// \file latest_frame.hpp  The frame tracked last, as a map of the same library sees it.
+/// \file latest_frame.hpp  The frame tracked last, as maps and the commands see it.
 
 #include <vector>
 

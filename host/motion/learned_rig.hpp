@@ -11,7 +11,7 @@ namespace quadedge::rig {
 
 /// A Kalman filter for the common offset of a rig's disparities, a rectification error of a fraction of a pixel (KITTI:
 /// 0.2 px and more), and for the displacements of single right images from it. The offset is observable in the quads of
-/// a moving camera (pose::fit_offset()); one frame per key rig contributes a measurement. It is that of the rig less
+/// a moving camera (pose::fit_offset()); one frame per keyframe contributes a measurement. It is that of the rig less
 /// the displacement of the frames, which share it according to their uncertainties. Displacements are measured from
 /// frame to frame; as they scatter about zero, each is drawn there, and their errors do not add up without bound.
 class LearnedRig {
@@ -29,7 +29,7 @@ class LearnedRig {
   static RigEstimate refined(RigEstimate frame, const RigEstimate& base, const pose::PoseAndOffset& learned);
   /// Draws the displacement of a frame towards 0, where those of a recording scatter about, and takes note of it.
   RigEstimate anchored(RigEstimate frame);
-  /// Takes over the offset of a key rig, which is `frames` after the last one.
+  /// Takes over the offset of a keyframe, which is `frames` after the last one.
   void adopt(const RigEstimate& frame, int frames);
   /// The images of the next recording may not be displaced.
   void forget_displacements();

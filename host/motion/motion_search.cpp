@@ -35,11 +35,6 @@ void hide_masked(const PixelMask& hidden, TemporalSearch& search) {
   }
 }
 
-/// Whether a motion explains so little beside a confirmed one that further rounds would not make them ambiguous.
-bool cannot_compete(const MotionStep& step, const MotionStep* known) {
-  return known != nullptr && step.verdict.area < kHopelessAreaRatio * known->verdict.area;
-}
-
 }  // namespace
 
 MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig)
@@ -69,12 +64,18 @@ bool MotionSearch::advance(State& state) {
   const std::vector<Hypothesis>& hypotheses = hypotheses_at(state.level_);
   while (state.next_ < hypotheses.size()) {
     const Hypothesis hypothesis = hypotheses[state.next_++];
-    attempt(hypothesis, query, candidates);
-    if (hypothesis == Hypothesis::near_prediction) follow_displacement(state.query, candidates);
+    if (hypothesis == Hypothesis::near_prediction)
+      try_prediction(state.query, candidates);
+    else
+      attempt(hypothesis, query, candidates);
     if (hypothesis == Hypothesis::global_matches) return false;
   }
   std::vector<Verdict> verdicts = verdicts_on(candidates, query);
-  const std::size_t chosen = verdicts.empty() ? 0 : choose(candidates, query, verdicts);
+  std::size_t chosen = verdicts.empty() ? 0 : choose(candidates, query, verdicts);
+  if (!verdicts.empty() && use_support_of_base(query, candidates[chosen])) {
+    verdicts = verdicts_on(candidates, query);
+    chosen = choose(candidates, query, verdicts);
+  }
   const SearchLevel needed = verdicts.empty() ? SearchLevel::everything : verdicts[chosen].needed;
   if (!query.only_near_prediction && needed > state.level_) {
     state.level_ = needed;
@@ -117,33 +118,47 @@ void MotionSearch::check(const MotionQuery& query, MotionStep& found) {
   decide(query.accepts_ambiguous, other_part, found.verdict);
 }
 
-/// If the matches near the prediction show that the right image is displaced, the prediction is tried again with the
-/// displacement, which the query keeps if so much more of the image is explained then.
-void MotionSearch::follow_displacement(MotionQuery& query, Candidates& candidates) {
-  if (candidates.empty() || query.rig.displacement != 0) return;
-  const MotionStep& step = *candidates.front().proposed;
+/// Tries the prediction, unless that has been tried. If the matches near it show that the right image is displaced, it
+/// is tried with the displacement as well, which the query keeps if so much more of the image is explained then.
+void MotionSearch::try_prediction(MotionQuery& query, Candidates& candidates) {
+  if (!candidates.empty()) return;
+  Candidate plain{Hypothesis::near_prediction, proposals_.near_prediction(query), nullptr};
+  if (!plain.proposed) return;
+  Candidates displaced;
+  MotionQuery with_jump = query;
+  if (follow_displacement(*plain.proposed, with_jump)) attempt(Hypothesis::near_prediction, with_jump, displaced);
+  const bool is_displaced = !displaced.empty() && displaced.front().is_confirmed();
+  // What a motion without the displacement has to explain.
+  const double needed = is_displaced ? displaced.front().confirmed->verdict.area / query.displacement.gain : 0;
+  const auto confirmed = [&](const Eigen::Isometry3d& motion) {
+    return confirm(query, motion, false, {nullptr, nullptr, kFirstRoundArea * needed});
+  };
+  const auto area = [](const StepHandle& step) { return step && step->ok() ? step->verdict.area : 0; };
+  if (plain.proposed->ok()) plain.confirmed = confirmed(plain.proposed->motion.current_from_previous);
+  if (area(plain.confirmed) < needed && query.displacement.gain > 1) {  // a second chance, from a better start
+    StepHandle again = confirmed(motion_since(query.base, query, *displaced.front().confirmed));
+    if (area(again) > area(plain.confirmed)) plain.confirmed = std::move(again);
+  }
+  if (area(plain.confirmed) < needed) {
+    candidates = std::move(displaced);
+    query = std::move(with_jump);
+  } else {
+    candidates.push_back(std::move(plain));
+  }
+}
+
+/// Whether the matches near the prediction show that the right image is displaced, by what the query then contains.
+bool MotionSearch::follow_displacement(const MotionStep& near_prediction, MotionQuery& query) {
+  if (query.rig.displacement != 0) return false;
+  const MotionStep& step = near_prediction;
   const auto jump =
       jump_meter_.measure(fits_.measured(*step.base, query), fits_.measured(*query.current, query), step.matches,
                           step.ok() ? step.motion.current_from_previous : *query.prediction);
   // The base is measured with its own displacement, the current frame without one.
-  if (!jump || !jump->is_certain(query.displacement.least)) return;
-  MotionQuery with_jump = query;
-  with_jump.rig.displacement = jump->shift;
-  with_jump.rig.displacement_sigma = std::hypot(jump->sigma, rig::kJumpSigma, step.base->rig().displacement_sigma);
-  Candidates displaced;
-  attempt(Hypothesis::near_prediction, with_jump, displaced);
-  if (!displaced.front().is_confirmed()) return;
-  double without = candidates.front().is_confirmed() ? candidates.front().confirmed->verdict.area : 0;
-  const double area = displaced.front().confirmed->verdict.area;
-  if (query.displacement.gain > 1 &&
-      area > query.displacement.gain * without) {  // a second chance, from a better start
-    const Eigen::Isometry3d motion = motion_since(query.base, query, *displaced.front().confirmed);
-    const StepHandle again = confirm(query, motion, false, nullptr);
-    if (again && again->ok()) without = std::max(without, again->verdict.area);
-  }
-  if (area <= query.displacement.gain * without) return;
-  candidates = std::move(displaced);
-  query = std::move(with_jump);
+  if (!jump || !jump->is_certain(query.displacement.least)) return false;
+  query.rig.displacement = jump->shift;
+  query.rig.displacement_sigma = std::hypot(jump->sigma, rig::kJumpSigma, step.base->rig().displacement_sigma);
+  return true;
 }
 
 /// The hypotheses of a level, in an order in which each has what it builds on.
@@ -175,9 +190,12 @@ void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Cand
   }
   Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
   if (!candidate.proposed) return;
-  if (candidate.proposed->ok())
+  if (candidate.proposed->ok()) {
+    const bool closely = is_close_to_another(hypothesis);
+    const double competing = closely && known != nullptr ? kHopelessAreaRatio * known->verdict.area : 0;
     candidate.confirmed =
-        confirm(query, candidate.proposed->motion.current_from_previous, is_close_to_another(hypothesis), known);
+        confirm(query, candidate.proposed->motion.current_from_previous, closely, {known, nullptr, competing});
+  }
   candidates.push_back(std::move(candidate));
 }
 
@@ -201,30 +219,36 @@ StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query
   return nullptr;
 }
 
-/// The motion since the key rig or, if that is not confirmed, since the base; null if the proposal leads to `known`.
+/// The motion since the keyframe or, if that is not confirmed, since the base; null if the proposal leads to `known`.
 /// \param closely whether inliers have to lie within a third of the usual distance
 StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
-                                 const MotionStep* known) {
+                                 const Others& others) {
   PoseConfig limits = config_.pose;
   limits.min_hypotheses = 0;  // the proposal has drawn them; more are drawn only as its inlier ratio requires
   if (closely) limits.inlier_distance *= kCloseAgreement;
-  const Others others{known, nullptr, closely};
   if (query.key) {
     StepHandle step = confirm_with(query.key, query, limits, current_from_base * query.base_from_key, others);
-    if (step && step->ok() && !closely && step->verdict.support < record_.confident_support())
-      use_support_of_base(query, limits, *step);
     if (!step || step->ok()) return step;
   }
   return confirm_with(query.base, query, limits, current_from_base, others);
 }
 
-/// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
-/// same motion, their support is used.
-void MotionSearch::use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
-  const Eigen::Isometry3d current_from_base = motion_since(query.base, query, by_key);
+/// Few edges match a keyframe that is moving out of view. If the edges of the base, which is closer in time, follow the
+/// same motion, their support is used. \returns whether it is larger
+bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_key) {
+  if (!query.key || !by_key.is_confirmed() || is_close_to_another(by_key.hypothesis)) return false;
+  MotionStep& step = *by_key.confirmed;
+  if (step.base != query.key || step.verdict.support >= record_.confident_support() ||
+      std::exchange(by_key.has_support_of_base, true))
+    return false;
+  PoseConfig limits = config_.pose;
+  limits.min_hypotheses = 0;
+  const Eigen::Isometry3d current_from_base = motion_since(query.base, query, step);
   const StepHandle by_base = confirm_with(query.base, query, limits, current_from_base, {});
-  if (by_base->ok() && evidence_.is_same_motion(*by_base, current_from_base))
-    by_key.verdict.support = std::max(by_key.verdict.support, by_base->verdict.support);
+  if (!by_base->ok() || by_base->verdict.support <= step.verdict.support) return false;
+  if (!evidence_.is_same_motion(*by_base, current_from_base)) return false;
+  step.verdict.support = by_base->verdict.support;
+  return true;
 }
 
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
@@ -266,7 +290,7 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
     current_from_base = step->motion.current_from_previous;
     predict(current_from_base, kSettledStep, next_search_);
     if (known != nullptr && shift_from_known() < kSettled) return nullptr;
-    if (round == kGuidedRounds || (others.must_compete && cannot_compete(*step, known)) ||
+    if (round == kGuidedRounds || step->verdict.area < others.least_area ||
         frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
       break;
     predict_all();
@@ -339,7 +363,7 @@ OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const Mo
   PoseConfig limits = limits_of_proposals(config_);
   limits.min_hypotheses = 0;
   const StepHandle other =
-      confirm_with(query.base, query, limits, proposed.motion.current_from_previous, {nullptr, &chosen.cells, false});
+      confirm_with(query.base, query, limits, proposed.motion.current_from_previous, {nullptr, &chosen.cells, 0});
   if (!other->ok()) return part;
   const Eigen::Isometry3d by_chosen = motion_since(query.base, query, chosen);
   const ExplainedCells cells = evidence_.explained_beside(*other, by_chosen, config_.pose.inlier_distance);

@@ -47,7 +47,8 @@ class MotionSearch : public MotionFinder {
   struct Candidate {
     Hypothesis hypothesis;
     StepHandle proposed;
-    StepHandle confirmed;  ///< null if the proposal has no motion, or if it led to the known motion
+    StepHandle confirmed;              ///< null if the proposal has no motion, or if it led to the known motion
+    bool has_support_of_base = false;  ///< whether that has been asked for
 
     bool is_confirmed() const { return confirmed && confirmed->ok(); }
     StepHandle& outcome() { return confirmed ? confirmed : proposed; }
@@ -58,19 +59,20 @@ class MotionSearch : public MotionFinder {
   struct Others {
     const MotionStep* known = nullptr;          ///< a motion that has been confirmed
     const ExplainedCells* explained = nullptr;  ///< if not null, only edges where it explains nothing are matched
-    bool must_compete = false;                  ///< whether a motion that explains much less than `known` is given up
+    double least_area = 0;                      ///< a motion that explains less after a round gets no further one
   };
 
   StepHandle find_by_few_matches(const MotionQuery& query);
   static bool is_close_to_another(Hypothesis hypothesis);
-  void follow_displacement(MotionQuery& query, Candidates& candidates);
+  void try_prediction(MotionQuery& query, Candidates& candidates);
+  bool follow_displacement(const MotionStep& near_prediction, MotionQuery& query);
   const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
   void check(const MotionQuery& query, MotionStep& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
-                     const MotionStep* known);
-  void use_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
+                     const Others& others);
+  bool use_support_of_base(const MotionQuery& query, Candidate& by_key);
   StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
                           Eigen::Isometry3d current_from_base, const Others& others);
   std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;

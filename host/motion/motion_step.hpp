@@ -22,7 +22,7 @@ namespace quadedge::odometry {
 struct MotionQuery {
   frontend::FrameEdgesHandle current;
   frontend::FrameEdgesHandle base;  ///< the edges that the motion starts from
-  frontend::FrameEdgesHandle key;   ///< the key rig, preferred while in view; null if the base is the key rig
+  frontend::FrameEdgesHandle key;   ///< the keyframe, preferred while in view; null if the base is the keyframe
   Eigen::Isometry3d base_from_key = Eigen::Isometry3d::Identity();  ///< valid if `key` is not null
   std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
   bool at_start = false;  ///< whether the base is the first frame, and nothing has been lost since

@@ -86,9 +86,9 @@ constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1, kAppearanceS
 /// Two motions whose explained areas have a ratio above this are ambiguous.
 constexpr double kCompetingAreaRatio = 0.4;
 
-/// A motion that after the first round explains less than this fraction of the area that another one explains gets no
-/// further rounds: these have added at most a quarter, which leaves it below kCompetingAreaRatio.
-constexpr double kHopelessAreaRatio = 0.75 * kCompetingAreaRatio;
+/// Fraction of the area that a motion has to explain, below which it gets no further round: these have added at most a
+/// quarter. Beside another motion, that is what makes it ambiguous.
+constexpr double kFirstRoundArea = 0.75, kHopelessAreaRatio = kFirstRoundArea * kCompetingAreaRatio;
 
 /// Fraction of the quads that are static although the motion would have moved them, above which the camera may be
 /// stationary.
@@ -127,7 +127,7 @@ constexpr int kGuidedRounds = 3;
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
 
-/// Key rigs with different views that are kept for a loss, how many of them a lost frame is compared with, and the
+/// Keyframes with different views that are kept for a loss, how many of them a lost frame is compared with, and the
 /// difference between the directions to points [rad] up to which two of them say the same of its pose.
 constexpr std::size_t kEarlierRigs = 12, kEarlierTrials = 6;
 constexpr double kSamePlace = 0.05;

@@ -135,7 +135,8 @@ class StereoOdometry::Implementation {
   Config config_;
   odometry::FramePreparation preparation_;
   rig::LearnedRig learned_;
-  std::optional<rig::SharedLens> lenses_{std::in_place};  ///< nothing once told, or images displaced, which looks alike
+  /// None once it has warned, or once images are displaced, which looks alike.
+  std::optional<rig::SharedLens> lenses_{std::in_place};
   std::unique_ptr<odometry::MotionFinder> motion_search_;
 
   odometry::TrackingState state_;
@@ -143,7 +144,7 @@ class StereoOdometry::Implementation {
   bool keeps_key_ = true;     ///< for a loss, when it is replaced: the motion that gave it its pose is not ambiguous
   double inverse_depth_ = 0;  ///< mean of what the frame located last sees [1/m]
   odometry::ConstantVelocity velocity_;
-  bool has_returned_ = false;                           ///< the last frame was located against an earlier key rig
+  bool has_returned_ = false;                           ///< the last frame was located against an earlier keyframe
   bool was_lost_ = false;                               ///< the last frame
   std::optional<Eigen::Isometry3d> current_from_last_;  ///< of a frame just located, if the last one was, too
   frontend::FrameEdgesHandle current_;                  ///< of the last frame tracked; null before the first frame
@@ -298,7 +299,7 @@ odometry::StepHandle StereoOdometry::Implementation::search() {
   return relocalised->ok() ? std::move(relocalised) : std::move(found);
 }
 
-/// Finds the motion since one of the earlier key rigs; null if there is none, or if two contradict one another, as in
+/// Finds the motion since one of the earlier keyframes; null if there is none, or if two contradict one another, as in
 /// places that look alike. A motion that accidental matches support is none.
 odometry::StepHandle StereoOdometry::Implementation::search_earlier(odometry::MotionQuery query) {
   if (config_.is_paper()) return nullptr;
@@ -333,7 +334,7 @@ void StereoOdometry::Implementation::adopt(odometry::StepHandle found, FrameResu
   result.counts.quads = static_cast<int>(step_->matches.size());
 }
 
-/// If the motion was found from an earlier key rig, makes that the key rig again. Nothing is known of the velocity.
+/// If the motion was found from an earlier keyframe, makes that the keyframe again. Nothing is known of the velocity.
 void StereoOdometry::Implementation::return_to_earlier(FrameResult& result) {
   const odometry::KeyRig* found = earlier_.find(step_->base);
   has_returned_ = found != nullptr && step_->base != state_.base.frame_edges && step_->base != state_.key.frame_edges();
@@ -346,7 +347,7 @@ void StereoOdometry::Implementation::return_to_earlier(FrameResult& result) {
   add_message("located against frame " + std::to_string(earlier.frame()) + ", not since the last frame", result);
 }
 
-/// Makes the lost frame the key rig of a new segment, in which its predicted pose counts as exact.
+/// Makes the lost frame the keyframe of a new segment, in which its predicted pose counts as exact.
 void StereoOdometry::Implementation::start_segment(FrameResult& result) {
   const auto number = [](int of) { return std::to_string(of); };
   const int last = state_.base.frame_edges->frame, lost = state_.lost->frame_edges->frame, segment = ++state_.segment;
@@ -418,7 +419,7 @@ void StereoOdometry::Implementation::report(const odometry::MotionStep& step, Fr
   result.diagnostics.search = step.matches.search;
 }
 
-/// That of the current frame's pose in the key rig, the last column of its sensitivity.
+/// That of the current frame's pose in the keyframe, the last column of its sensitivity.
 Eigen::Matrix<double, 6, 1> StereoOdometry::Implementation::offset_sensitivity(const odometry::MotionStep& step) const {
   pose::UncertainPose found = pose::pose_in_earlier(step.motion.adopted());
   found.by_rig.rightCols<1>() = pose::offset_sensitivity(found.fixed_from_camera, step.motion.learned.by_offset);
@@ -426,8 +427,8 @@ Eigen::Matrix<double, 6, 1> StereoOdometry::Implementation::offset_sensitivity(c
   return found.by_rig.rightCols<1>();
 }
 
-/// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
-/// becomes the key rig.
+/// Locates the frame against the keyframe or, if that is out of view, against the base; in the latter case the frame
+/// becomes the keyframe.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == state_.key.frame_edges();
   pose::RelativePose current_from_key = step.motion.adopted();
@@ -462,7 +463,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   was_lost_ = false;
   inverse_depth_ = step.mean_inverse_depth();
   if (result.new_key_rig) {
-    // All frames located against one key rig share its disparities, so that together they carry no more information
+    // All frames located against one keyframe share its disparities, so that together they carry no more information
     // than the last, most distant one.
     learned_.adopt(current_->rig(), fitness.frames);
     if (keeps_key_) earlier_.remember(state_.key, step.mean_inverse_depth());
@@ -473,8 +474,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   }
 }
 
-/// Repeats the last motion. A lost frame that has edges is kept in addition to the base, which becomes the key rig; the
-/// next frame may be located against either.
+/// Repeats the last motion. A lost frame that has edges is kept in addition to the base, which becomes the keyframe;
+/// the next frame may be located against either.
 void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
   result.status = status;
   add_message(message, result);
@@ -486,7 +487,7 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   if (!state_.base_is_key()) {
     if (keeps_key_) earlier_.remember(state_.key, inverse_depth_);
     state_.set_key(state_.base.frame_edges, state_.world_from_base());
-    keeps_key_ = false;  // no result says that it is a key rig, and its motion may be ambiguous
+    keeps_key_ = false;  // no result says that it is a keyframe, and its motion may be ambiguous
   }
   state_.lost = odometry::LostFrame{current_, *result.predicted_world_from_left};
 }

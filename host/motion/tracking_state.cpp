@@ -9,7 +9,7 @@
 namespace quadedge::odometry {
 namespace {
 
-/// A key rig is replaced below this inlier ratio, and above this median parallax [px] or rotation, from which patches
+/// A keyframe is replaced below this inlier ratio, and above this median parallax [px] or rotation, from which patches
 /// look too different to be matched well.
 constexpr double kMinInlierRatio = 0.4, kMaxParallax = 16.0, kMaxRotation = 10.0 * kDegree;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file tracking_state.hpp  State between frames: the velocity, the key rig and the other rigs against which the next
+/// \file tracking_state.hpp  State between frames: the velocity, the keyframe and the other rigs against which the next
 /// frame may be located (paper section 6, doc/method.md section 7).
 
 #include <Eigen/Geometry>
@@ -47,26 +47,26 @@ class ConstantVelocity {
   double interval_ns_ = 0;
 };
 
-/// Quality of the current frame's location relative to the key rig.
+/// Quality of the current frame's location relative to the keyframe.
 struct KeyRigFitness {
-  int quads = 0;  ///< with the key rig
+  int quads = 0;  ///< with the keyframe
   double inlier_ratio = 1;
   double median_parallax = 0;  ///< [px], left image
-  double rotation = 0;         ///< [rad], from the key rig to the current one
-  int frames = 0;              ///< since the key rig
+  double rotation = 0;         ///< [rad], from the keyframe to the current one
+  int frames = 0;              ///< since the keyframe
 };
 
 /// Median displacement of the quads in the left image [px]; 0 without quads.
 /// \param distances a buffer that is kept between calls
 double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std::vector<double>& distances);
 
-/// Whether the pose of a key rig was measured or predicted.
+/// Whether the pose of a keyframe was measured or predicted.
 enum class PoseOrigin { found, predicted };
 
 /// A frame with a known world pose, and its initial number of quads.
 class KeyRig {
  public:
-  /// No key rig.
+  /// No keyframe.
   KeyRig() = default;
   KeyRig(frontend::FrameEdgesHandle frame_edges, pose::UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
       : frame_edges_(std::move(frame_edges)), pose_(std::move(pose)), origin_(origin) {}
@@ -78,8 +78,8 @@ class KeyRig {
   /// World pose with covariance.
   const pose::UncertainPose& pose() const { return pose_; }
 
-  /// Whether the current frame should become the key rig, see doc/method.md section 7. The first frame sets the
-  /// reference for the number of quads. A key rig whose pose was predicted serves for one frame only.
+  /// Whether the current frame should become the keyframe, see doc/method.md section 7. The first frame sets the
+  /// reference for the number of quads. A keyframe whose pose was predicted serves for one frame only.
   bool needs_replacement(const KeyRigFitness& fitness, const OdometryConfig& config);
 
  private:
@@ -89,7 +89,7 @@ class KeyRig {
   int first_quads_ = -1;  ///< of the first frame located against it
 };
 
-/// The edges that the next frame is matched with: those of the last frame with a pose, which may be the key rig's.
+/// The edges that the next frame is matched with: those of the last frame with a pose, which may be the keyframe's.
 struct BaseFrame {
   frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame with edges
   pose::RelativePose from_key;             ///< base_from_key, left cameras
@@ -106,7 +106,7 @@ struct LostFrame {
 struct TrackingState {
   BaseFrame base;
   KeyRig key;
-  std::optional<LostFrame> lost;  ///< set from a loss until the next frame with a pose; the base is then the key rig
+  std::optional<LostFrame> lost;  ///< set from a loss until the next frame with a pose; the base is then the keyframe
   int segment = 0;                ///< see FrameResult::segment
   Eigen::Isometry3d world_from_last = Eigen::Isometry3d::Identity();  ///< pose of the last frame, measured or predicted
 
@@ -114,7 +114,7 @@ struct TrackingState {
   bool base_is_key() const { return base.frame_edges == key.frame_edges(); }
   pose::UncertainPose world_from_base() const { return key.pose() * base.in_key; }
 
-  /// Makes a frame the key rig and the base.
+  /// Makes a frame the keyframe and the base.
   void set_key(frontend::FrameEdgesHandle frame_edges, const pose::UncertainPose& pose,
                PoseOrigin origin = PoseOrigin::found) {
     key = KeyRig(frame_edges, pose, origin);

@@ -9,7 +9,7 @@
 #include "data/toml_file.hpp"
 #include "quadedge/error.hpp"
 
-namespace quadedge::report {
+namespace quadedge {
 namespace {
 
 /// "key = value  # help"; the key without its section.
@@ -20,7 +20,33 @@ std::string line_of(const Constant& constant, Config& config) {
          (constant.unit.empty() ? "" : " [" + constant.unit + "]") + "\n";
 }
 
+Config with_entries(const std::vector<data::TomlEntry>& entries, Config config) {
+  const auto& all = constants();
+  for (const auto& entry : entries) {
+    const auto named = [&](const Constant& constant) { return constant.key() == entry.key; };
+    const auto constant = std::find_if(all.begin(), all.end(), named);
+    if (constant != all.end()) {
+      report::set_constant(entry, *constant, config);
+    } else if (entry.key == "variant") {
+      std::vector<std::string> choices;
+      data::assign(entry, choices);
+      try {
+        for (const auto& choice : choices) report::add_variant(choice, config);
+      } catch (const UsageError&) {
+        data::refuse(entry, "texts of the form STAGE=NAME");
+      }
+    } else if (entry.key != "device") {
+      std::vector<std::string> keys{"variant", "device"};
+      for (const auto& known : all) keys.push_back(known.key());
+      data::refuse_key(entry, keys);
+    }
+  }
+  return config;
+}
+
 }  // namespace
+
+namespace report {
 
 std::string config_toml(const Config& config, const std::string& device) {
   std::string top = "# Effective configuration; `quadedge run PATH --config FILE` reads it again.\n";
@@ -57,36 +83,7 @@ void add_variant(const std::string& choice, Config& config) {
   config.variants[choice.substr(0, equals)] = choice.substr(equals + 1);
 }
 
-}  // namespace quadedge::report
-
-namespace quadedge {
-namespace {
-
-Config with_entries(const std::vector<data::TomlEntry>& entries, Config config) {
-  const auto& all = constants();
-  for (const auto& entry : entries) {
-    const auto named = [&](const Constant& constant) { return constant.key() == entry.key; };
-    const auto constant = std::find_if(all.begin(), all.end(), named);
-    if (constant != all.end()) {
-      report::set_constant(entry, *constant, config);
-    } else if (entry.key == "variant") {
-      std::vector<std::string> choices;
-      data::assign(entry, choices);
-      try {
-        for (const auto& choice : choices) report::add_variant(choice, config);
-      } catch (const UsageError&) {
-        data::refuse(entry, "texts of the form STAGE=NAME");
-      }
-    } else if (entry.key != "device") {
-      std::vector<std::string> keys{"variant", "device"};
-      for (const auto& known : all) keys.push_back(known.key());
-      data::refuse_key(entry, keys);
-    }
-  }
-  return config;
-}
-
-}  // namespace
+}  // namespace report
 
 Config read_config(const std::string& file, const Config& base) { return with_entries(data::read_toml(file), base); }
 

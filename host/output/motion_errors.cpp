@@ -23,7 +23,7 @@ Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, cons
   return error;
 }
 
-/// The chain of references of a frame: the frame itself, its key rig, the key rig of that frame ... up to the first.
+/// The chain of references of a frame: the frame itself, its keyframe, the keyframe of that frame ... up to the first.
 std::vector<int> references(const std::vector<FrameResult>& results, int frame) {
   std::vector<int> chain{frame};
   while (results[static_cast<std::size_t>(chain.back())].diagnostics.covariance_in_reference &&

@@ -27,7 +27,7 @@ inline const StampedPose* pose_at(const Trajectory& poses, std::int64_t stamp_ns
 }
 
 /// Normalised estimation error squared (NEES) e^T C^-1 e over the tracked frames, per degree of freedom. It is 1 if the
-/// covariances C of the poses relative to their key rigs describe the errors, and larger if they are too small.
+/// covariances C of the poses relative to their keyframes describe the errors, and larger if they are too small.
 struct Consistency {
   int poses = 0;           ///< frames compared
   double pose = 0;         ///< mean over the frames, for all six degrees of freedom
@@ -39,7 +39,7 @@ struct Consistency {
 /// ms. Frames without covariance, and frames without ground truth at both ends, are ignored.
 Consistency judge_covariances(const std::vector<FrameResult>& results, const Trajectory& truth);
 
-/// The same for motions over `frames` frames, composed over the key rigs: errors of the ground truth do not
+/// The same for motions over `frames` frames, composed over the keyframes: errors of the ground truth do not
 /// depend on the length of the motion, those of the estimator grow with it.
 struct StepConsistency {
   int frames = 0;        ///< length of the motions

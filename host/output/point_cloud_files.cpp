@@ -20,33 +20,6 @@ void append(std::string& bytes, T value) {
   bytes.append(raw, sizeof raw);
 }
 
-}  // namespace
-
-void write_ply(const std::string& file, const std::vector<CloudPoint>& points) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment edges in space, metres\nelement vertex " +
-                      std::to_string(points.size()) + "\n";
-  for (const char* name : {"x", "y", "z"}) bytes += std::string("property double ") + name + "\n";
-  for (const char* name : {"tangent_x", "tangent_y", "tangent_z", "grey", "sigma"})
-    bytes += std::string("property float ") + name + "\n";
-  bytes += "property int views\n";
-  for (const char* name : {"red", "green", "blue"}) bytes += std::string("property uchar ") + name + "\n";
-  bytes += "end_header\n";
-  for (const auto& point : points) {
-    for (int i = 0; i < 3; ++i) append(bytes, point.position[i]);
-    for (int i = 0; i < 3; ++i) append(bytes, point.tangent[i]);
-    append(bytes, point.grey);
-    append(bytes, point.sigma);
-    append(bytes, static_cast<std::int32_t>(point.views));
-    for (int i = 0; i < 3; ++i) append(bytes, static_cast<std::uint8_t>(std::lround(point.grey)));
-  }
-  data::write_atomically(file, bytes);
-}
-
-// A map as COLMAP's text files. COLMAP counts pixels from the corner of the top-left one, whose centre is (0.5, 0.5)
-// there; poses are camera_from_world, quaternions w x y z.
-
-namespace {
-
 constexpr double kCorner = 0.5;  // px from a pixel's corner to its centre
 
 std::string camera_row(int id, const PinholeCamera& camera) {
@@ -105,6 +78,29 @@ double reprojection_error(const StereoRig& rig, const std::vector<CloudView>& vi
 }
 
 }  // namespace
+
+void write_ply(const std::string& file, const std::vector<CloudPoint>& points) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment edges in space, metres\nelement vertex " +
+                      std::to_string(points.size()) + "\n";
+  for (const char* name : {"x", "y", "z"}) bytes += std::string("property double ") + name + "\n";
+  for (const char* name : {"tangent_x", "tangent_y", "tangent_z", "grey", "sigma"})
+    bytes += std::string("property float ") + name + "\n";
+  bytes += "property int views\n";
+  for (const char* name : {"red", "green", "blue"}) bytes += std::string("property uchar ") + name + "\n";
+  bytes += "end_header\n";
+  for (const auto& point : points) {
+    for (int i = 0; i < 3; ++i) append(bytes, point.position[i]);
+    for (int i = 0; i < 3; ++i) append(bytes, point.tangent[i]);
+    append(bytes, point.grey);
+    append(bytes, point.sigma);
+    append(bytes, static_cast<std::int32_t>(point.views));
+    for (int i = 0; i < 3; ++i) append(bytes, static_cast<std::uint8_t>(std::lround(point.grey)));
+  }
+  data::write_atomically(file, bytes);
+}
+
+// Points as COLMAP's text files. COLMAP counts pixels from the corner of the top-left one, whose centre is (0.5, 0.5)
+// there; poses are camera_from_world, quaternions w x y z.
 
 void write_colmap(const std::string& folder, const StereoRig& rig, const PointCloud& cloud) {
   data::make_folder(folder);

@@ -45,7 +45,7 @@ CsvRow locations_row(int number, const Localisation& frame);
 /// ground truth; origin-aligned. The first pose of a segment has no step before it: its RPE fields are empty.
 std::string errors_csv(const TrajectoryEvaluation& evaluation);
 
-/// loops.csv, the comparisons of frames with earlier key rigs: frame, other, verdict, similarity, inliers,
+/// loops.csv, the comparisons of frames with earlier keyframes: frame, other, verdict, similarity, inliers,
 /// support; x, y, z [m] and qx, qy, qz, qw of the frame's left camera in that of the other frame, empty without a
 /// motion; deviation, distance_m and angle_deg from the map before, empty for frames of different segments.
 std::string loops_csv(const std::vector<Closure>& closures);

@@ -42,7 +42,7 @@ struct DeviceTrust {
 /// The points that a run wrote.
 struct PointFacts {
   std::size_t points = 0;
-  std::size_t views = 0;    ///< key rigs that it was made from
+  std::size_t views = 0;    ///< keyframes that it was made from
   std::size_t dropped = 0;  ///< points dropped because memory was full
 };
 
@@ -53,11 +53,11 @@ struct LatencySummary {
 
 /// The closures of a run with --loops.
 struct LoopFacts {
-  std::size_t compared = 0, kept = 0;  ///< pairs of a frame and an earlier key rig
+  std::size_t compared = 0, kept = 0;  ///< pairs of a frame and an earlier keyframe
   int segments = 0;                    ///< that remain
   std::size_t frames = 0;              ///< in the corrected trajectory
   std::size_t key_rigs = 0;            ///< kept
-  double megabytes = 0;                ///< of the kept key rigs, on the host
+  double megabytes = 0;                ///< of the kept keyframes, on the host
   double total_ms = 0;                 ///< time of the map in all frames, which is not part of their latency
   LatencySummary latency;              ///< of the frames with the time of the map in it
 };

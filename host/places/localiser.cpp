@@ -25,10 +25,10 @@ namespace quadedge {
 namespace {
 
 /// Two poses are the same if points at the depth of the scene are seen in directions that differ by less than this: far
-/// more than the error of a map between neighbouring key rigs, and less than the distance of two places.
+/// more than the error of a map between neighbouring keyframes, and less than the distance of two places.
 constexpr double kSamePlace = 3 * kDegree;
 
-/// A motion from a key rig of the map to the frame.
+/// A motion from a keyframe of the map to the frame.
 struct Match {
   const places::Place* place;
   pose::RelativePose current_from_key;
@@ -44,7 +44,7 @@ bool agree(const Match& one, const Match& other) {
   return Eigen::AngleAxisd(error.linear()).angle() + depth_shift < kSamePlace;
 }
 
-/// Whether a key rig sees the scene from another place than the frame, by the location that a match gives.
+/// Whether a keyframe sees the scene from another place than the frame, by the location that a match gives.
 bool sees_other_place(const Match& match, const Eigen::Isometry3d& map_from_key) {
   const Eigen::Isometry3d motion = map_from_key.inverse() * match.map_from_left;
   return odometry::view_change(motion, match.inverse_depth) > odometry::kSameView;
@@ -87,7 +87,7 @@ Config checked(const places::SavedPlaces& map, const StereoRig& rig, const Confi
   return config;
 }
 
-/// Key rigs of the map were not masked.
+/// Keyframes of the map were not masked.
 Config without_auto_mask(Config config) {
   config.odometry.auto_mask = false;
   return config;
@@ -192,7 +192,7 @@ Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
   return result;
 }
 
-/// Tries the key rig nearest to the predicted pose: 1 rad counts as much as 1 m.
+/// Tries the keyframe nearest to the predicted pose: 1 rad counts as much as 1 m.
 bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& frame_edges, Localisation& result) {
   const auto motion = velocity_.predict(since_last_);
   if (!follow_ || !last_ || !motion) return false;
@@ -212,7 +212,7 @@ bool Localiser::Implementation::follow(const frontend::FrameEdgesHandle& frame_e
   return true;
 }
 
-/// Compares the frame with the most similar key rigs, and with more of them while it is lost.
+/// Compares the frame with the most similar keyframes, and with more of them while it is lost.
 void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& frame_edges, Localisation& result) {
   const places::PlaceSignature signature = places::place_signature(frontend().keep());
   const auto may_be = [](const places::Place&) { return true; };
@@ -233,7 +233,7 @@ void Localiser::Implementation::locate(const frontend::FrameEdgesHandle& frame_e
   }
 }
 
-/// Searches further key rigs, from places that the located frame does not see, for one that matches all the same,
+/// Searches further keyframes, from places that the located frame does not see, for one that matches all the same,
 /// ambiguously or not.
 std::optional<Match> Localiser::Implementation::find_rival(const Match& best, const SimilarPlaces& similar,
                                                            std::size_t next,

@@ -37,7 +37,7 @@ constexpr double kCovered = 3;
 constexpr double kMostChange = 1;
 
 /// A closure within a segment is worth its search if the map's motion has this many times the variance of a motion
-/// since the key rig. A closure has about four times that variance, since a kept frame has a fraction of the edges.
+/// since the keyframe. A closure has about four times that variance, since a kept frame has a fraction of the edges.
 constexpr double kWorthwhile = 12;
 
 /// A node is not kept as a place if its view differs by less than this from that of one of the latest places [rad].
@@ -100,6 +100,13 @@ struct WaitingNode {
   std::optional<ListedClosure> own;    ///< with that place
   std::vector<ListedClosure> joining;  ///< with places of other segments
 };
+
+/// \throws UsageError for the paper's method, which keeps no frames.
+StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
+  if (odometry.config().is_paper())
+    throw UsageError("the paper's method has no map: choose another preset for --loops");
+  return odometry;
+}
 
 }  // namespace
 
@@ -195,7 +202,7 @@ int Map::Implementation::node_of_reference(int number) {
   return edge.to;
 }
 
-/// Enters the frame tracked last. Key rigs and lost frames with edges become nodes.
+/// Enters the frame tracked last. Keyframes and lost frames with edges become nodes.
 void Map::Implementation::locate(const FrameResult& result) {
   const int number = static_cast<int>(frames_.size());
   frames_.emplace_back().stamp_ns = result.stamp_ns;
@@ -549,17 +556,6 @@ SavedMap Map::Implementation::saved() const {
   }
   return {std::move(saved), std::move(places)};
 }
-
-namespace {
-
-/// \throws UsageError for the paper's method, which keeps no frames.
-StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
-  if (odometry.config().is_paper())
-    throw UsageError("the paper's method has no map: choose another preset for --loops");
-  return odometry;
-}
-
-}  // namespace
 
 Map::Map(StereoOdometry& odometry) {
   const auto use = odometry::LatestFrame::of(odometry).device.use();

@@ -1,5 +1,5 @@
 #pragma once
-/// \file place_store.hpp  Kept key rigs: their signatures, those most similar to a given one, and what a map file
+/// \file place_store.hpp  Kept keyframes: their signatures, those most similar to a given one, and what a map file
 /// holds (doc/method.md section 10).
 
 #include <Eigen/Core>

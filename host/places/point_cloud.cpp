@@ -1,4 +1,4 @@
-/// \file point_cloud.cpp  Merges the stereo edges of key rigs (doc/method.md section 9).
+/// \file point_cloud.cpp  Merges the stereo edges of keyframes (doc/method.md section 9).
 #include "quadedge/point_cloud.hpp"
 
 #include <algorithm>
@@ -60,8 +60,8 @@ constexpr double kAlong = 1.0;          ///< the same along the edge; edges are 
 constexpr double kMaxSlide = 2;         ///< maximum displacement along the tangent, whose depth may be wrong [px]
 constexpr double kTurn = 15 * kPi / 180;  ///< maximum angle between a projected tangent and an edge [rad]
 constexpr double kDeviations = 3;         ///< maximum deviation of the disparity, in standard deviations
-constexpr double kPoseNoise = 0.5;        ///< effect of pose errors between two key rigs on disparities [px]
-constexpr int kMaxUnseenViews = 20;       ///< key rigs for which a point with few views may remain unobserved
+constexpr double kPoseNoise = 0.5;        ///< effect of pose errors between two keyframes on disparities [px]
+constexpr int kMaxUnseenViews = 20;       ///< keyframes for which a point with few views may remain unobserved
 constexpr std::size_t kMostSightings = 8;
 constexpr std::int32_t kNone = -1;
 
@@ -74,7 +74,7 @@ struct Point {
   Eigen::Vector3f tangent;
   float grey;
   std::int32_t views;
-  std::int32_t last_view;  ///< number of the last key rig that observed it
+  std::int32_t last_view;  ///< number of the last keyframe that observed it
 
   Eigen::Matrix3d information_matrix() const {
     const auto& i = information;
@@ -90,7 +90,7 @@ struct Point {
   }
 };
 
-/// A point that may be merged with an edge of the current key rig.
+/// A point that may be merged with an edge of the current keyframe.
 struct Offer {
   std::int32_t point = kNone;
   double distance = std::numeric_limits<double>::infinity();  ///< [px]
@@ -141,7 +141,7 @@ class PointCloud::Implementation {
   std::vector<Point> points_;
   std::vector<Sightings> sightings_;  ///< the first observations of each point; empty without tracks
   std::vector<CloudView> views_;
-  std::vector<Offer> offers_;  ///< one per edge of the current key rig
+  std::vector<Offer> offers_;  ///< one per edge of the current keyframe
   EdgeGrid grid_;
   std::size_t dropped_ = 0;
   int frames_ = 0;  ///< number of calls of add()

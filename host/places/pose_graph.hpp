@@ -1,5 +1,5 @@
 #pragma once
-/// \file pose_graph.hpp  Poses of key rigs from measured motions between them (doc/method.md section 10).
+/// \file pose_graph.hpp  Poses of keyframes from measured motions between them (doc/method.md section 10).
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>

@@ -80,6 +80,99 @@ double sum_of(const std::array<std::int64_t, N>& tally) {
   return static_cast<double>(std::accumulate(tally.begin(), tally.end(), std::int64_t{0}));
 }
 
+/// Taps of one derivative order, for the pixels i - radius .. i + radius around pixel i.
+std::vector<double> taps_of(double sigma, std::size_t order) {
+  const int radius = kernel_radius(sigma);
+  std::vector<double> taps;
+  for (int k = -radius; k <= radius; ++k) taps.push_back(gaussian_derivatives(-k, sigma)[order]);
+  return taps;
+}
+
+int clamp_index(int i, int size) { return std::clamp(i, 0, size - 1); }
+
+/// Signed step along the gradient onto F = 0 [px], clamped. F falls across an edge towards the bright side; where it
+/// does not, there is no edge to step to.
+double newton_step(const Derivatives& d, const std::array<double, 2>& gradient_f, double longest) {
+  const double f = d.ix * d.ix * d.ixx + 2.0 * d.ix * d.iy * d.ixy + d.iy * d.iy * d.iyy;
+  const double m = std::hypot(d.ix, d.iy);
+  const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
+  return slope < 0 ? std::clamp(-f / slope, -longest, longest) : 0.0;
+}
+
+/// How far F = 0 moves along the gradient per unit of log(sigma) [px]. The smoothed image obeys the heat equation
+/// dI / dlog(sigma) = sigma^2 Laplacian(I), which gives the same of F.
+double scale_shift(const Derivatives& d, const std::array<double, 2>& gradient_f, double sigma) {
+  const double m = std::hypot(d.ix, d.iy);
+  const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
+  if (!(slope < 0)) return 0.0;
+  const double change_x = d.ixxx + d.ixyy, change_y = d.ixxy + d.iyyy;  // of the gradient
+  const double by_scale = 2.0 * (d.ix * d.ixx + d.iy * d.ixy) * change_x +
+                          2.0 * (d.ix * d.ixy + d.iy * d.iyy) * change_y + d.ix * d.ix * (d.ixxxx + d.ixxyy) +
+                          2.0 * d.ix * d.iy * (d.ixxxy + d.ixyyy) + d.iy * d.iy * (d.ixxyy + d.iyyyy);
+  // Of F / |grad I|^2, whose changes hardly depend on how near F = 0 they are taken.
+  const double f = d.ix * d.ix * d.ixx + 2.0 * d.ix * d.iy * d.ixy + d.iy * d.iy * d.iyy;
+  const double shift = by_scale - 2.0 * f * (d.ix * change_x + d.iy * change_y) / (m * m);
+  const double fall = slope - 2.0 * f * f / (m * m * m);
+  if (!(fall < 0)) return 0.0;
+  const auto longest = static_cast<double>(kLongestScaleDrift);
+  return std::clamp(-sigma * sigma * shift / fall, -longest, longest);
+}
+
+// What follows selects edges in single precision, so that the device makes the same decisions.
+constexpr float kHalfAnOctave = 0.70710678F;
+
+/// Directions of gradients are quantised by direction_code() of kernels/edge_detection.cl.
+constexpr float kCodes = 255.5F;
+float code_of(float ratio) { return std::rint((ratio + 1.0F) * kCodes); }
+
+/// See kernels/edge_selection.cl.
+struct Crossing {
+  float row = 0, step = 0, sine = 0;
+};
+
+Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& maxima, std::size_t i) {
+  const float x = maxima.x[i], y = maxima.y[i], gx = maxima.gradient_x[i], gy = maxima.gradient_y[i];
+  const bool steep = std::abs(gx) >= std::abs(gy);
+  const float ratio = steep ? gy / gx : gx / gy;
+  const float tangent_x = steep ? -ratio : 1.0F, tangent_y = steep ? 1.0F : -ratio;
+  const EpipolarRows& rows = arguments.rows;
+  const float depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;
+  Crossing result;
+  const float plane = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;
+  const float bend_x = rows.bend_xx * x + rows.bend_xy * y, bend_y = rows.bend_yy * y;
+  result.row = plane - (bend_x * x + bend_y * y);
+  const float by_x = (rows.across_x - plane * rows.forward_x) / depth - (bend_x + rows.bend_xx * x),
+              by_y = (rows.across_y - plane * rows.forward_y) / depth - (2.0F * bend_y + rows.bend_xy * x);
+  const float rise = std::abs(tangent_x * by_x + tangent_y * by_y);
+  result.step = rise;
+  result.sine = rise / std::sqrt((1.0F + ratio * ratio) * (by_x * by_x + by_y * by_y));
+  return result;
+}
+
+float density_of(float sine) {
+  float density = 1.0F;
+  while (sine < kHalfAnOctave * density && density > 0.0625F) density *= 0.5F;
+  return density;
+}
+
+bool meets(const Crossing& at, float spacing, float width) {
+  const float distance = at.row - spacing * std::rint(at.row / spacing), reach = 0.5F * width * at.step;
+  return distance >= -reach && distance < reach;
+}
+
+/// From a sample of the rows.
+double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
+  double sum = 0;
+  for (std::size_t i = 0; i < maxima.x.size(); ++i) {
+    if (maxima.row[i] % kSelectionSample != 0) continue;
+    const Crossing at = crossing(arguments, maxima, i);
+    if (at.sine >= arguments.min_sine)
+      sum += kSelectionSample *
+             static_cast<double>(std::rint(static_cast<float>(kSelectionUnit) * at.step / density_of(at.sine)));
+  }
+  return sum;
+}
+
 }  // namespace
 
 void ContrastTally::add(const ImageView& image, double sigma) {
@@ -140,20 +233,6 @@ double EdgeThreshold::next(const std::vector<ImageView>& images, std::optional<d
   if (!held) threshold_ = measured;
   return threshold_;
 }
-
-namespace {
-
-/// Taps of one derivative order, for the pixels i - radius .. i + radius around pixel i.
-std::vector<double> taps_of(double sigma, std::size_t order) {
-  const int radius = kernel_radius(sigma);
-  std::vector<double> taps;
-  for (int k = -radius; k <= radius; ++k) taps.push_back(gaussian_derivatives(-k, sigma)[order]);
-  return taps;
-}
-
-int clamp_index(int i, int size) { return std::clamp(i, 0, size - 1); }
-
-}  // namespace
 
 double GradientField::magnitude(int column, int row) const {
   const std::size_t i = index(column, row);
@@ -259,38 +338,6 @@ std::array<double, 2> gradient_of_f(const Derivatives& d) {
               2.0 * d.ix * d.iy * d.ixyy + d.iy * d.iy * d.iyyy};
 }
 
-namespace {
-
-/// Signed step along the gradient onto F = 0 [px], clamped. F falls across an edge towards the bright side; where it
-/// does not, there is no edge to step to.
-double newton_step(const Derivatives& d, const std::array<double, 2>& gradient_f, double longest) {
-  const double f = d.ix * d.ix * d.ixx + 2.0 * d.ix * d.iy * d.ixy + d.iy * d.iy * d.iyy;
-  const double m = std::hypot(d.ix, d.iy);
-  const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
-  return slope < 0 ? std::clamp(-f / slope, -longest, longest) : 0.0;
-}
-
-/// How far F = 0 moves along the gradient per unit of log(sigma) [px]. The smoothed image obeys the heat equation
-/// dI / dlog(sigma) = sigma^2 Laplacian(I), which gives the same of F.
-double scale_shift(const Derivatives& d, const std::array<double, 2>& gradient_f, double sigma) {
-  const double m = std::hypot(d.ix, d.iy);
-  const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
-  if (!(slope < 0)) return 0.0;
-  const double change_x = d.ixxx + d.ixyy, change_y = d.ixxy + d.iyyy;  // of the gradient
-  const double by_scale = 2.0 * (d.ix * d.ixx + d.iy * d.ixy) * change_x +
-                          2.0 * (d.ix * d.ixy + d.iy * d.iyy) * change_y + d.ix * d.ix * (d.ixxxx + d.ixxyy) +
-                          2.0 * d.ix * d.iy * (d.ixxxy + d.ixyyy) + d.iy * d.iy * (d.ixxyy + d.iyyyy);
-  // Of F / |grad I|^2, whose changes hardly depend on how near F = 0 they are taken.
-  const double f = d.ix * d.ix * d.ixx + 2.0 * d.ix * d.iy * d.ixy + d.iy * d.iy * d.iyy;
-  const double shift = by_scale - 2.0 * f * (d.ix * change_x + d.iy * change_y) / (m * m);
-  const double fall = slope - 2.0 * f * f / (m * m * m);
-  if (!(fall < 0)) return 0.0;
-  const auto longest = static_cast<double>(kLongestScaleDrift);
-  return std::clamp(-sigma * sigma * shift / fall, -longest, longest);
-}
-
-}  // namespace
-
 ReferenceEdges detect_edges(const ImageView& image, const EdgesConfig& config, double threshold) {
   const GradientField field = gradient_field(image, config);
   ReferenceEdges edges;
@@ -351,65 +398,6 @@ EdgeSet first_edges(const ReferenceEdges& all, int most, int& dropped) {
   }
   return edges;
 }
-
-namespace {
-
-// Single precision, so that the device makes the same decisions.
-constexpr float kHalfAnOctave = 0.70710678F;
-
-/// Directions of gradients are quantised by direction_code() of kernels/edge_detection.cl.
-constexpr float kCodes = 255.5F;
-float code_of(float ratio) { return std::rint((ratio + 1.0F) * kCodes); }
-
-/// See kernels/edge_selection.cl.
-struct Crossing {
-  float row = 0, step = 0, sine = 0;
-};
-
-Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& maxima, std::size_t i) {
-  const float x = maxima.x[i], y = maxima.y[i], gx = maxima.gradient_x[i], gy = maxima.gradient_y[i];
-  const bool steep = std::abs(gx) >= std::abs(gy);
-  const float ratio = steep ? gy / gx : gx / gy;
-  const float tangent_x = steep ? -ratio : 1.0F, tangent_y = steep ? 1.0F : -ratio;
-  const EpipolarRows& rows = arguments.rows;
-  const float depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;
-  Crossing result;
-  const float plane = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;
-  const float bend_x = rows.bend_xx * x + rows.bend_xy * y, bend_y = rows.bend_yy * y;
-  result.row = plane - (bend_x * x + bend_y * y);
-  const float by_x = (rows.across_x - plane * rows.forward_x) / depth - (bend_x + rows.bend_xx * x),
-              by_y = (rows.across_y - plane * rows.forward_y) / depth - (2.0F * bend_y + rows.bend_xy * x);
-  const float rise = std::abs(tangent_x * by_x + tangent_y * by_y);
-  result.step = rise;
-  result.sine = rise / std::sqrt((1.0F + ratio * ratio) * (by_x * by_x + by_y * by_y));
-  return result;
-}
-
-float density_of(float sine) {
-  float density = 1.0F;
-  while (sine < kHalfAnOctave * density && density > 0.0625F) density *= 0.5F;
-  return density;
-}
-
-bool meets(const Crossing& at, float spacing, float width) {
-  const float distance = at.row - spacing * std::rint(at.row / spacing), reach = 0.5F * width * at.step;
-  return distance >= -reach && distance < reach;
-}
-
-/// From a sample of the rows.
-double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
-  double sum = 0;
-  for (std::size_t i = 0; i < maxima.x.size(); ++i) {
-    if (maxima.row[i] % kSelectionSample != 0) continue;
-    const Crossing at = crossing(arguments, maxima, i);
-    if (at.sine >= arguments.min_sine)
-      sum += kSelectionSample *
-             static_cast<double>(std::rint(static_cast<float>(kSelectionUnit) * at.step / density_of(at.sine)));
-  }
-  return sum;
-}
-
-}  // namespace
 
 GradientMaxima maxima_of(const ReferenceEdges& edges) {
   GradientMaxima maxima;

@@ -9,6 +9,77 @@
 #include "reference/edge_descriptions.hpp"
 
 namespace quadedge::reference {
+namespace {
+
+/// Number of groups that chain up by position and direction: single linkage, flooding from every member without a
+/// group.
+int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& edges) {
+  std::vector<bool> reached(members.size(), false);
+  int clusters = 0;
+  for (std::size_t seed = 0; seed < members.size(); ++seed) {
+    if (reached[seed]) continue;
+    ++clusters;
+    reached[seed] = true;
+    std::vector<std::size_t> open = {members[seed]};
+    while (!open.empty()) {
+      const std::size_t a = open.back();
+      open.pop_back();
+      for (std::size_t m = 0; m < members.size(); ++m) {
+        const std::size_t b = members[m];
+        if (reached[m] ||
+            std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= kClusterGap)
+          continue;
+        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > kClusterOrientation) continue;
+        reached[m] = true;
+        open.push_back(b);
+      }
+    }
+  }
+  return clusters;
+}
+
+/// Rows that kept a candidate.
+int alive_rows(const TemporalMatchLists& lists) {
+  int rows = 0;
+  for (std::size_t row = 0; row + 1 < lists.candidates.first.size(); ++row) {
+    const auto begin = lists.scores.state.begin() + lists.candidates.first[row],
+               end = lists.scores.state.begin() + lists.candidates.first[row + 1];
+    if (std::find(begin, end, kCandidateAlive) != end) ++rows;
+  }
+  return rows;
+}
+
+/// Filters 1 to 6 in one image.
+TemporalMatchLists match_side(const EdgePositionsView& predicted, const EdgePositionsView& current,
+                              const TemporalMatchSide& side, const TemporalSearch& search,
+                              const TemporalConfig& config) {
+  PointIndex index;
+  make_point_index(current.x, current.y, side.width, side.height, index);
+  TemporalMatchLists lists;
+  lists.candidates = temporal_candidates(predicted, current, index, search.radius,
+                                         static_cast<float>(kTemporalOrientation), search.step);
+  lists.scores =
+      candidate_filters(lists.candidates, side.base, side.current, temporal_limits(config, search), search.step);
+  return lists;
+}
+
+constexpr float kSquare = static_cast<float>(kWideNorm * kWideNorm);  // squared norm of a wide descriptor
+
+float similarity(const WideEdges& a, std::size_t i, const WideEdges& b, std::size_t j) {
+  int sum = 0;
+  for (std::size_t k = 0; k < kWideBytes; ++k)
+    sum += a.descriptors[i * kWideBytes + k] * b.descriptors[j * kWideBytes + k];
+  return static_cast<float>(sum);  // whole numbers below 2^24
+}
+
+bool apart(const WideEdges& set, std::size_t i, std::size_t j, float distance) {
+  const auto step = static_cast<std::size_t>(set.step);
+  const float dx = set.edges.left_x[i * step] - set.edges.left_x[j * step],
+              dy = set.edges.left_y[i * step] - set.edges.left_y[j * step];
+  return dx * dx + dy * dy > distance * distance;
+}
+
+}  // namespace
 
 void make_point_index(const std::vector<float>& xs, const std::vector<float>& ys, int width, int height,
                       PointIndex& index) {
@@ -48,37 +119,6 @@ Candidates temporal_candidates(const EdgePositionsView& predicted, const EdgePos
   }
   return candidates;
 }
-
-namespace {
-
-/// Number of groups that chain up by position and direction: single linkage, flooding from every member without a
-/// group.
-int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& edges) {
-  std::vector<bool> reached(members.size(), false);
-  int clusters = 0;
-  for (std::size_t seed = 0; seed < members.size(); ++seed) {
-    if (reached[seed]) continue;
-    ++clusters;
-    reached[seed] = true;
-    std::vector<std::size_t> open = {members[seed]};
-    while (!open.empty()) {
-      const std::size_t a = open.back();
-      open.pop_back();
-      for (std::size_t m = 0; m < members.size(); ++m) {
-        const std::size_t b = members[m];
-        if (reached[m] ||
-            std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= kClusterGap)
-          continue;
-        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > kClusterOrientation) continue;
-        reached[m] = true;
-        open.push_back(b);
-      }
-    }
-  }
-  return clusters;
-}
-
-}  // namespace
 
 std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left,
                                       const Candidates& right_candidates, const CandidateScores& right) {
@@ -129,35 +169,6 @@ TemporalMatches temporal_best(const Candidates& candidates, const CandidateScore
   return matches;
 }
 
-namespace {
-
-/// Rows that kept a candidate.
-int alive_rows(const TemporalMatchLists& lists) {
-  int rows = 0;
-  for (std::size_t row = 0; row + 1 < lists.candidates.first.size(); ++row) {
-    const auto begin = lists.scores.state.begin() + lists.candidates.first[row],
-               end = lists.scores.state.begin() + lists.candidates.first[row + 1];
-    if (std::find(begin, end, kCandidateAlive) != end) ++rows;
-  }
-  return rows;
-}
-
-/// Filters 1 to 6 in one image.
-TemporalMatchLists match_side(const EdgePositionsView& predicted, const EdgePositionsView& current,
-                              const TemporalMatchSide& side, const TemporalSearch& search,
-                              const TemporalConfig& config) {
-  PointIndex index;
-  make_point_index(current.x, current.y, side.width, side.height, index);
-  TemporalMatchLists lists;
-  lists.candidates = temporal_candidates(predicted, current, index, search.radius,
-                                         static_cast<float>(kTemporalOrientation), search.step);
-  lists.scores =
-      candidate_filters(lists.candidates, side.base, side.current, temporal_limits(config, search), search.step);
-  return lists;
-}
-
-}  // namespace
-
 TemporalMatchResult temporal_match(const TemporalSearch& search, const StereoEdges& current,
                                    const TemporalMatchSide& left, const TemporalMatchSide& right,
                                    const TemporalConfig& config) {
@@ -172,26 +183,6 @@ TemporalMatchResult temporal_match(const TemporalSearch& search, const StereoEdg
   result.matches.alive_right = alive_right;
   return result;
 }
-
-namespace {
-
-constexpr float kSquare = static_cast<float>(kWideNorm * kWideNorm);
-
-float similarity(const WideEdges& a, std::size_t i, const WideEdges& b, std::size_t j) {
-  int sum = 0;
-  for (std::size_t k = 0; k < kWideBytes; ++k)
-    sum += a.descriptors[i * kWideBytes + k] * b.descriptors[j * kWideBytes + k];
-  return static_cast<float>(sum);  // whole numbers below 2^24
-}
-
-bool apart(const WideEdges& set, std::size_t i, std::size_t j, float distance) {
-  const auto step = static_cast<std::size_t>(set.step);
-  const float dx = set.edges.left_x[i * step] - set.edges.left_x[j * step],
-              dy = set.edges.left_y[i * step] - set.edges.left_y[j * step];
-  return dx * dx + dy * dy > distance * distance;
-}
-
-}  // namespace
 
 TemporalMatches find_global_matches(const WideEdges& earlier, const WideEdges& current) {
   const std::size_t rows = earlier.descriptors.size() / kWideBytes, columns = current.descriptors.size() / kWideBytes;

@@ -14,6 +14,7 @@
 
 namespace quadedge::rig {
 
+/// Each has its text in warning(). A kind of warning (quadedge/error.hpp) stands for several.
 enum class RigFindingKind {
   // The frame cannot be used:
   frozen_camera,         ///< one image is identical to the previous one, the other is not
@@ -45,7 +46,7 @@ enum class RigFindingKind {
   principal_point,
 };
 
-/// Whether a frame with such a finding has no pose.
+/// Whether a frame with such a finding has no pose: the order of the kinds decides.
 constexpr bool is_mismatch(RigFindingKind kind) { return kind <= RigFindingKind::far_off_lines; }
 
 /// A finding and the figures that its sentence states; other figures keep their initial values.

@@ -14,6 +14,8 @@
 namespace quadedge {
 namespace {
 
+const double kWidest = std::tan(80 * kDegree);  // tangent of the widest ray that pixels are inverted for
+
 struct NamedLens {
   const char* name;
   LensModel model;
@@ -75,17 +77,6 @@ StereoCalibration eth3d_slam_rig() {
   calibration.right_from_left = rounded_transform(calibration.right_from_left);
   return calibration;
 }
-
-}  // namespace synthetic
-
-}  // namespace quadedge
-
-namespace quadedge::synthetic {
-namespace {
-
-const double kWidest = std::tan(80 * kDegree);
-
-}  // namespace
 
 PixelRays::PixelRays(const Lens& lens) : camera_(lens.camera), pinhole_(lens.camera) {
   if (lens.is_pinhole()) return;
@@ -172,4 +163,5 @@ PixelBox PixelRays::footprint(const PixelBox& pixels) const {
           static_cast<int>(std::ceil(high.x())) + 2, static_cast<int>(std::ceil(high.y())) + 2};
 }
 
-}  // namespace quadedge::synthetic
+}  // namespace synthetic
+}  // namespace quadedge

@@ -146,31 +146,6 @@ void DeadLeaves::add_leaves(const TexelSquare& square, int level) const {
   }
 }
 
-}  // namespace
-
-std::unique_ptr<const Painter> dead_leaves(const TextureStyle& style, std::uint64_t seed) {
-  return std::make_unique<DeadLeaves>(style, seed);
-}
-
-void add_noise(const TexelSquare& square, double amplitude, double wavelength, std::uint64_t seed, double stretch) {
-  constexpr int kOctaves = 4;
-  for (int octave = 0; octave < kOctaves; ++octave, amplitude *= 0.6, wavelength *= 0.25) {
-    const double height =
-        amplitude * std::clamp(wavelength / square.texel / 3.0 - 1.0, 0.0, 1.0);  // fades at the sampling limit
-    if (height == 0.0) continue;
-    GradientNoise noise(combine(seed, -1 - octave));
-    for (int y = 0; y < square.side; ++y)
-      for (int x = 0; x < square.side; ++x)
-        square.texels[y * square.side + x] +=
-            static_cast<float>(height * noise((square.left + x * square.texel) / wavelength,
-                                              (square.top + y * square.texel) / (wavelength * stretch)));
-  }
-  std::for_each_n(square.texels, square.side * square.side,
-                  [](float& texel) { texel = std::clamp(texel, 25.0f, 235.0f); });
-}
-
-namespace {
-
 constexpr double kFilter = 1.5;  // width of the averaging filter [texels]
 
 /// Contribution of a unit to the mean over an interval.
@@ -228,6 +203,27 @@ class Cladding : public Painter {
 };
 
 }  // namespace
+
+std::unique_ptr<const Painter> dead_leaves(const TextureStyle& style, std::uint64_t seed) {
+  return std::make_unique<DeadLeaves>(style, seed);
+}
+
+void add_noise(const TexelSquare& square, double amplitude, double wavelength, std::uint64_t seed, double stretch) {
+  constexpr int kOctaves = 4;
+  for (int octave = 0; octave < kOctaves; ++octave, amplitude *= 0.6, wavelength *= 0.25) {
+    const double height =
+        amplitude * std::clamp(wavelength / square.texel / 3.0 - 1.0, 0.0, 1.0);  // fades at the sampling limit
+    if (height == 0.0) continue;
+    GradientNoise noise(combine(seed, -1 - octave));
+    for (int y = 0; y < square.side; ++y)
+      for (int x = 0; x < square.side; ++x)
+        square.texels[y * square.side + x] +=
+            static_cast<float>(height * noise((square.left + x * square.texel) / wavelength,
+                                              (square.top + y * square.texel) / (wavelength * stretch)));
+  }
+  std::for_each_n(square.texels, square.side * square.side,
+                  [](float& texel) { texel = std::clamp(texel, 25.0f, 235.0f); });
+}
 
 std::unique_ptr<const Painter> cladding(const CladdingStyle& style, std::uint64_t seed) {
   return std::make_unique<Cladding>(style, seed);

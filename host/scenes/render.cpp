@@ -239,6 +239,11 @@ class TileRenderer {
   Radiance& view_;
 };
 
+// MovingBoard and exposures.
+constexpr double kBoardDepth = 1.15;      // [m], in front of nearly everything but beyond the nearest depth
+constexpr double kBoardRhythm = 0.11;     // [rad per frame]
+constexpr double kMomentsPerPixel = 2.0;  // of image motion
+
 }  // namespace
 
 Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry3d& camera_from_world,
@@ -268,14 +273,6 @@ Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry
   for (std::future<void>& other : others) other.get();
   return view;
 }
-
-namespace {
-
-constexpr double kBoardDepth = 1.15;      // [m], in front of nearly everything but beyond the nearest depth
-constexpr double kBoardRhythm = 0.11;     // [rad per frame]
-constexpr double kMomentsPerPixel = 2.0;  // of image motion
-
-}  // namespace
 
 MovingBoard::MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed) {
   const double side = std::sqrt(fraction);  // of the image's sides

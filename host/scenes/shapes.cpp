@@ -202,68 +202,6 @@ class VisibleCylinder : public VisibleSurface {
   const Texture& texture_;
 };
 
-}  // namespace
-
-Vector3d light_direction() { return Vector3d(-0.5, -0.75, -0.45).normalized(); }
-
-PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& camera) {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
-  for (const Vector3d& point : points) {
-    if (point.z() < kNear) return {0, 0, camera.width, camera.height};
-    const Eigen::Vector2d pixel = camera.project(point);
-    low = low.cwiseMin(pixel);
-    high = high.cwiseMax(pixel);
-  }
-  const auto clip = [](double value, int size) {
-    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
-  };
-  constexpr double kFirst = 0.5 - 0.01,
-                   kLast = 1.5 + 0.01;  // a pixel extends by half a pixel; 0.01 px for rounding
-  return {clip(std::floor(low.x() + kFirst), camera.width), clip(std::floor(low.y() + kFirst), camera.height),
-          clip(std::floor(high.x() + kLast), camera.width), clip(std::floor(high.y() + kLast), camera.height)};
-}
-
-PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_width, double half_height,
-                           std::shared_ptr<const Texture> texture, bool elliptic)
-    : world_from_surface_(world_from_surface),
-      half_width_(half_width),
-      half_height_(half_height),
-      texture_(std::move(texture)),
-      elliptic_(elliptic) {}
-
-void PlaneSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  const Isometry3d camera_from_surface = camera_from_world * world_from_surface_;
-  if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // back face
-  auto part = std::make_unique<VisiblePlane>(camera_from_surface, half_width_, half_height_, *texture_, elliptic_);
-  part->set_shade(shade(-world_from_surface_.linear().col(2), light_direction(), kAmbient));
-  parts.push_back(std::move(part));
-}
-
-SphereSurface::SphereSurface(const Isometry3d& world_from_surface, double radius,
-                             std::shared_ptr<const Texture> texture)
-    : world_from_surface_(world_from_surface), radius_(radius), texture_(std::move(texture)) {}
-
-void SphereSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  parts.push_back(std::make_unique<VisibleSphere>(camera_from_world * world_from_surface_, radius_, *texture_,
-                                                  camera_from_world.linear() * light_direction()));
-}
-
-CylinderSurface::CylinderSurface(const Isometry3d& world_from_surface, double radius, double half_height,
-                                 std::shared_ptr<const Texture> texture)
-    : world_from_surface_(world_from_surface),
-      radius_(radius),
-      half_height_(half_height),
-      texture_(std::move(texture)) {}
-
-void CylinderSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface_, radius_, half_height_,
-                                                    *texture_, camera_from_world.linear() * light_direction()));
-}
-
-namespace {
-
-using Eigen::Vector3d;
-
 constexpr double kTubeAmbient = 0.3;  // low, so that the two sides of a cable differ clearly
 
 /// Position and derivative of a uniform cubic B-spline in segment `i`, t in 0..1.
@@ -336,6 +274,62 @@ class VisibleLink : public VisibleSurface {
 };
 
 }  // namespace
+
+Vector3d light_direction() { return Vector3d(-0.5, -0.75, -0.45).normalized(); }
+
+PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& camera) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
+  for (const Vector3d& point : points) {
+    if (point.z() < kNear) return {0, 0, camera.width, camera.height};
+    const Eigen::Vector2d pixel = camera.project(point);
+    low = low.cwiseMin(pixel);
+    high = high.cwiseMax(pixel);
+  }
+  const auto clip = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+  };
+  constexpr double kFirst = 0.5 - 0.01,
+                   kLast = 1.5 + 0.01;  // a pixel extends by half a pixel; 0.01 px for rounding
+  return {clip(std::floor(low.x() + kFirst), camera.width), clip(std::floor(low.y() + kFirst), camera.height),
+          clip(std::floor(high.x() + kLast), camera.width), clip(std::floor(high.y() + kLast), camera.height)};
+}
+
+PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_width, double half_height,
+                           std::shared_ptr<const Texture> texture, bool elliptic)
+    : world_from_surface_(world_from_surface),
+      half_width_(half_width),
+      half_height_(half_height),
+      texture_(std::move(texture)),
+      elliptic_(elliptic) {}
+
+void PlaneSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
+  const Isometry3d camera_from_surface = camera_from_world * world_from_surface_;
+  if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // back face
+  auto part = std::make_unique<VisiblePlane>(camera_from_surface, half_width_, half_height_, *texture_, elliptic_);
+  part->set_shade(shade(-world_from_surface_.linear().col(2), light_direction(), kAmbient));
+  parts.push_back(std::move(part));
+}
+
+SphereSurface::SphereSurface(const Isometry3d& world_from_surface, double radius,
+                             std::shared_ptr<const Texture> texture)
+    : world_from_surface_(world_from_surface), radius_(radius), texture_(std::move(texture)) {}
+
+void SphereSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
+  parts.push_back(std::make_unique<VisibleSphere>(camera_from_world * world_from_surface_, radius_, *texture_,
+                                                  camera_from_world.linear() * light_direction()));
+}
+
+CylinderSurface::CylinderSurface(const Isometry3d& world_from_surface, double radius, double half_height,
+                                 std::shared_ptr<const Texture> texture)
+    : world_from_surface_(world_from_surface),
+      radius_(radius),
+      half_height_(half_height),
+      texture_(std::move(texture)) {}
+
+void CylinderSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
+  parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface_, radius_, half_height_,
+                                                    *texture_, camera_from_world.linear() * light_direction()));
+}
 
 TubeSurface::TubeSurface(const std::vector<Vector3d>& control, double radius, double reflectance, double tolerance)
     : radius_(radius), reflectance_(reflectance) {

@@ -49,14 +49,14 @@ class DeviceError : public Error {
   explicit DeviceError(const std::string& message) : Error(ExitCode::device, message) {}
 };
 
-/// What a warning is about.
+/// What a warning is about. What to do about each kind: python/quadedge/report/advice.py, which a test compares.
 enum class WarningKind {
   device_memory,            ///< the device's memory holds fewer edges than configured
   implausible_calibration,  ///< an unusual baseline, focal length, pixel shape or principal point
   doubtful_calibration,     ///< corners lie beside their epipolar lines
   small_disparity_range,    ///< corners have disparities beyond the range searched
   negative_disparities,     ///< corners have negative disparities
-  unsynchronised_cameras,   ///< the cameras seem to record at different times
+  unsynchronised_cameras,   ///< the cameras, or the rows of an image, seem to record at different times
   unknown_motion,           ///< the motion between two tracked frames is unknown; a new segment starts
   repeated_images,          ///< both images are those of the previous frame, byte for byte
   large_disparity_offset,   ///< the disparities have a larger common offset than rectification leaves

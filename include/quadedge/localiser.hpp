@@ -23,8 +23,8 @@ enum class LocalisationStatus {
   located,
   lost_too_few_edges,  ///< too few stereo edges in this frame
   lost_rig_mismatch,   ///< the images do not match the calibration
-  lost_unknown_place,  ///< no key rig of the map matches, or one alone with little support
-  lost_ambiguous,      ///< more than one motion from a key rig, or more than one place, explains the images
+  lost_unknown_place,  ///< no keyframe of the map matches, or one alone with little support
+  lost_ambiguous,      ///< more than one motion from a keyframe, or more than one place, explains the images
 };
 const char* to_string(LocalisationStatus status);
 
@@ -34,10 +34,10 @@ struct Localisation {
   LocalisationStatus status = LocalisationStatus::lost_unknown_place;
   /// Pose of the left camera in the frame of the map [m]; empty for a lost frame.
   std::optional<Eigen::Isometry3d> map_from_left;
-  /// Covariance of that pose, due to edge and calibration errors; the pose of the key rig counts as exact.
+  /// Covariance of that pose, due to edge and calibration errors; the pose of the keyframe counts as exact.
   std::optional<PoseCovariance> covariance;
   int key_rig = -1;          ///< number of the frame of the map's recording that it was located against
-  int inliers = 0;           ///< quads with that key rig that agree with the pose
+  int inliers = 0;           ///< quads with that keyframe that agree with the pose
   double support = 0;        ///< inliers divided by the kept edges that the pose brings into view
   bool is_followed = false;  ///< whether it was found near the prediction from the frames before
   std::string message;       ///< why a frame is lost; else empty

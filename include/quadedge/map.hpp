@@ -20,7 +20,7 @@ struct Place;
 struct SavedPlaces;
 }  // namespace places
 
-/// Key rigs with their poses in the frame of a map, and the cameras that recorded them. Copies share the rigs.
+/// Keyframes with their poses in the frame of a map, and the cameras that recorded them. Copies share the rigs.
 /// Map::saved() makes one, Localiser locates frames in it.
 class SavedMap {
  public:
@@ -52,7 +52,7 @@ void write_map(const std::string& file, const SavedMap& map);
 /// cut, of another kind, or of another version of the format
 SavedMap read_map(const std::string& file);
 
-/// Outcome of the comparison of a frame with a kept key rig.
+/// Outcome of the comparison of a frame with a kept keyframe.
 enum class ClosureVerdict {
   kept,         ///< the motion is part of the map
   not_found,    ///< no motion between the two was found
@@ -62,7 +62,7 @@ enum class ClosureVerdict {
 };
 const char* to_string(ClosureVerdict verdict);
 
-/// A frame compared with an earlier key rig that looks similar or, according to the map, sees the same.
+/// A frame compared with an earlier keyframe that looks similar or, according to the map, sees the same.
 struct Closure {
   int frame = 0;          ///< number of the frame
   int other = 0;          ///< number of the earlier frame
@@ -78,7 +78,7 @@ struct Closure {
   std::optional<double> angle_deg;   ///< and as an angle
 };
 
-/// A map of places beside an odometry, which it never changes: compares key rigs and lost frames with similar
+/// A map of places beside an odometry, which it never changes: compares keyframes and lost frames with similar
 /// earlier ones (doc/method.md section 10), joins segments of the trajectory, and corrects it. Deterministic.
 /// Comparisons that take long are made in the frames that follow, so that each takes about as long as without the map.
 class Map {
@@ -101,14 +101,14 @@ class Map {
   Trajectory trajectory() const;
   /// Pose of a frame in this trajectory; empty if it is not among them.
   std::optional<Eigen::Isometry3d> pose(int frame) const;
-  /// The kept key rigs of these frames with their corrected poses, copied.
+  /// The kept keyframes of these frames with their corrected poses, copied.
   SavedMap saved() const;
   /// Number of segments: groups of at least two frames that measured motions connect.
   int segments() const;
 
   const std::vector<Closure>& closures() const;
   std::size_t key_rigs() const;  ///< kept
-  std::size_t bytes() const;     ///< of the kept key rigs on the host
+  std::size_t bytes() const;     ///< of the kept keyframes on the host
 
  private:
   class Implementation;

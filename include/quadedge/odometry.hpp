@@ -24,7 +24,7 @@ namespace quadedge {
 /// Outcome of a frame.
 enum class FrameStatus {
   first,               ///< the origin of the trajectory
-  tracked,             ///< pose found against the key rig or an earlier frame
+  tracked,             ///< pose found against the keyframe or an earlier frame
   lost_too_few_edges,  ///< too few stereo edges in this frame
   lost_too_few_quads,  ///< too few quads with an earlier frame
   lost_no_consensus,   ///< no motion that enough of the image supports, or more than one
@@ -39,7 +39,7 @@ struct FrameCounts {
   int stereo_edges = 0;
   int temporal_left = 0,
       temporal_right = 0;  ///< previous stereo edges with at least one candidate in the left / right image
-  int quads = 0;           ///< with the key rig, or with the previous frame if the key rig is out of view
+  int quads = 0;           ///< with the keyframe, or with the previous frame if the keyframe is out of view
   int inliers = 0;
 };
 
@@ -61,7 +61,7 @@ struct FrameDiagnostics {
   double edge_threshold = 0;   ///< gradient threshold of the edges in both images [grey levels per px]
   double disparity_range = 0;  ///< up to which stereo matches were searched for, in the middle of the left image [px]
   bool overflow = false;       ///< whether edges were dropped because a capacity was exceeded; see FrameResult::message
-  /// Number of the frame that the pose was measured against: the key rig or, if that is out of view, the last
+  /// Number of the frame that the pose was measured against: the keyframe or, if that is out of view, the last
   /// frame with a pose; -1 without a pose.
   int base_frame = -1;
   int search = -1;  ///< number of the frame's temporal search that gave its motion; -1: no motion
@@ -96,17 +96,17 @@ struct FrameResult {
   /// Pose of a lost frame if the last motion is repeated; empty for any other frame.
   std::optional<Eigen::Isometry3d> predicted_world_from_left;
   /// Covariance of world_from_left, translation first as in ROS, within the segment: the pose that the segment starts
-  /// from (the first frame; later, a predicted pose) counts as exact. Composed over the key rigs: edge errors
+  /// from (the first frame; later, a predicted pose) counts as exact. Composed over the keyframes: edge errors
   /// are independent between rigs, calibration errors (`pose.rig_sigma_*`) are common to all. Empty for a lost frame.
   std::optional<PoseCovariance> covariance;
-  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key rig. Empty for a lost
+  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the keyframe. Empty for a lost
   /// frame.
   std::optional<Eigen::Isometry3d> current_from_reference;
   /// Covariance of current_from_reference due to edge errors alone, in the order of PoseCovariance, as a left
   /// perturbation in the current left camera frame. Empty for a lost frame.
   std::optional<PoseCovariance> relative_covariance;
-  int reference_frame = 0;   ///< number of the frame that was the key rig; -1 before the first
-  bool new_key_rig = false;  ///< whether this frame becomes the key rig of the following frames
+  int reference_frame = 0;   ///< number of the frame that was the keyframe; -1 before the first
+  bool new_key_rig = false;  ///< whether this frame becomes the keyframe of the following frames
   /// With which the frame was measured; the disparity offset as estimated so far.
   RigEstimate rig;
   /// Another motion explains nearly as much of the image, or what moves may be the scene: see `message`.

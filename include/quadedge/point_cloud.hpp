@@ -1,5 +1,5 @@
 #pragma once
-/// \file point_cloud.hpp  The edges of a recording in space, extended with every key rig.
+/// \file point_cloud.hpp  The edges of a recording in space, extended with every keyframe.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -25,17 +25,17 @@ struct CloudPoint {
   /// Standard deviation of the position in its least certain direction, usually the depth, due to edge noise alone;
   /// errors of the camera poses add to it [m].
   float sigma = 0;
-  int views = 1;  ///< number of key rigs that observed it
+  int views = 1;  ///< number of keyframes that observed it
 };
 
 /// Limits of a point cloud.
 struct PointCloudOptions {
-  int min_views = 3;                    ///< points() omits points observed by fewer key rigs
+  int min_views = 3;                    ///< points() omits points observed by fewer keyframes
   std::size_t most_points = 2'000'000;  ///< maximum number in memory, at 80 bytes each; 230 bytes with tracks
   bool tracks = false;                  ///< store the observations of each point, for write_colmap()
 };
 
-/// A key rig that points were made from.
+/// A keyframe that points were made from.
 struct CloudView {
   int frame = 0;  ///< number of the frame
   std::int64_t stamp_ns = 0;
@@ -49,7 +49,7 @@ struct CloudSighting {
   float x = 0, y = 0;  ///< [px]
 };
 
-/// Stereo edges of key rigs. Edges of a later rig are merged with the existing point whose projection lies on an
+/// Stereo edges of keyframes. Edges of a later rig are merged with the existing point whose projection lies on an
 /// edge of the same direction and depth (doc/method.md section 9). Memory is bounded: points with few observations are
 /// discarded first.
 class PointCloud {
@@ -58,7 +58,7 @@ class PointCloud {
   explicit PointCloud(const Config& config, const PointCloudOptions& options = {});
   ~PointCloud();
 
-  /// To be called for every frame after it was tracked. Adds the frame's edges if the frame became the key rig
+  /// To be called for every frame after it was tracked. Adds the frame's edges if the frame became the keyframe
   /// and its motion is not ambiguous. \returns whether they were added
   bool add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry);
 
@@ -67,7 +67,7 @@ class PointCloud {
   /// points.
   void correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left);
 
-  /// Points observed by enough key rigs, in the world frame (the first left camera), oldest first.
+  /// Points observed by enough keyframes, in the world frame (the first left camera), oldest first.
   std::vector<CloudPoint> points() const;
   /// Observations of these points, at most eight per point; empty without PointCloudOptions::tracks.
   std::vector<std::vector<CloudSighting>> sightings() const;

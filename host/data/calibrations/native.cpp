@@ -1,4 +1,4 @@
-/// \file native.cpp  The program's own calibration format: ten entries, exact numbers.
+/// \file native.cpp  The program's own calibration format: ten entries; exact lenses, a rounded relative pose.
 
 #include "data/calibrations/forms.hpp"
 #include "data/text.hpp"
