@@ -39,6 +39,8 @@ const std::vector<Variant>& all_variants() {
       {"edge_detection", "tile64", {"edge_detection.cl", "edge_detection_tile.cl"},
        Form::groups, {{"TILE_X", "16"}, {"TILE_Y", "16"}}, 64, false, false,
        "one work-group of 64 per tile of 16 x 16 pixels, 8 work-items per edge for third order", 8192},
+      {"grid_edges", "strip", {"edge_detection.cl", "grid_edges.cl"}, Form::items, {}, 1, true, true,
+       "work-items walk along rows of the grid with float16, 8 lanes per edge for third order"},
       {"patches", "edge", {"direction.cl", "photometric.cl", "patches.cl"}, Form::items, {}, 1, true, false,
        "one work-item per edge, float8 across the edge"},
       {"patches", "lanes", {"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"},
