@@ -34,6 +34,25 @@ static inline float line_angle_between(float a, float b) {
   return d > 0.5f * PI_F ? PI_F - d : d;
 }
 
+// The same for sixteen directions.
+static inline float16 angle_between16(const float16 a, const float b) {
+  const float16 d = fabs(a - b);
+  return min(d, 2.0f * PI_F - d);
+}
+static inline float16 line_angle_between16(const float16 a, const float b) {
+  const float16 d = angle_between16(a, b);
+  return min(d, PI_F - d);
+}
+
+// How candidates' directions are compared: with HALF_TURN as in the paper, whose method ignores contrast.
+#ifdef HALF_TURN
+#define TURN_BETWEEN line_angle_between
+#define TURN_BETWEEN16 line_angle_between16
+#else
+#define TURN_BETWEEN angle_between
+#define TURN_BETWEEN16 angle_between16
+#endif
+
 // Vectors at any address of their elements. PoCL splits vload16 into pairs of floats and vstore16 into four parts; a
 // packed structure becomes one or two plain loads or stores.
 typedef struct __attribute__((packed)) {

@@ -143,11 +143,12 @@ typedef struct {
   float lowest, highest;  // highest wins
 } ThresholdArguments;
 
-// Scratch memory of edge_detection_strip.cl: lines per work-item, and floats of a line in front of the first pixel.
-enum { kStripLines = 11, kStripLineFront = 16 };
+// Scratch memory of edge_detection_strip.cl and grid_edges.cl: lines per work-item, and floats of a line in front of
+// the first pixel.
+enum { kStripLines = 11, kGridLines = 26, kStripLineFront = 16 };
 
-// edge_detection_strip.cl and edge_detection_tile.cl. Edges are packed in blocks of max_edges floats: x, y, direction,
-// strength.
+// edge_detection_strip.cl, edge_detection_tile.cl and grid_edges.cl. Edges are packed in blocks of max_edges floats: x,
+// y, direction, strength.
 typedef struct {
   int width, height;  // of the image
   int plane_stride;   // floats per row of the padded image

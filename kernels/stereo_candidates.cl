@@ -6,7 +6,7 @@
 // Out: candidate lists in compressed rows, targets in the scan order of the right edges; which right edges are listed
 // (1, else 0).
 // One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after
-// an exclusive scan) fill.
+// an exclusive scan) fill. With HALF_TURN directions are compared modulo half a turn.
 // Reference: host/reference/stereo_matching.cpp.
 
 // A position differs from that of its pixel by at most this along both axes [px] (kEdgeRowReach in
@@ -46,7 +46,7 @@ static inline int passes(const Wanted* wanted, const float x, const float y, con
   const float s = dx * wanted->line.ex + dy * wanted->line.ey;
   const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
   return !(distance > wanted->tau || s < wanted->s_low || s > wanted->s_high) &&
-         !(angle_between(direction, wanted->direction) > wanted->orientation);
+         !(TURN_BETWEEN(direction, wanted->direction) > wanted->orientation);
 }
 
 // Visits the right edges [begin, end) of a row up to x = `to` and writes at most `room` of those that pass to target[].
@@ -57,15 +57,14 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
   (void)total;
 #else
   // The same tests in the same arithmetic. Edges beyond the row's end are read and left out.
-  const float16 full_turn = 2.0f * PI_F;
   for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
     const float16 x = LOAD(xs + begin);
     const float16 dx = x - wanted->line.x, dy = LOAD(ys + begin) - wanted->line.y;
     const float16 s = dx * wanted->line.ex + dy * wanted->line.ey;
     const float16 distance = fabs(dx * wanted->nx + dy * wanted->ny);
-    const float16 turn = fabs(LOAD(directions + begin) - wanted->direction);
+    const float16 turn = TURN_BETWEEN16(LOAD(directions + begin), wanted->direction);
     uint passing = lane_bits((distance <= wanted->tau) & (s >= wanted->s_low) & (s <= wanted->s_high) &
-                             (min(turn, full_turn - turn) <= wanted->orientation));
+                             (turn <= wanted->orientation));
     if (end - begin < LANES) passing &= (1u << (uint)(end - begin)) - 1u;
 #ifdef PACKED_LANES
     if (count + LANES <= room) {

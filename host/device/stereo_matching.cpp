@@ -14,9 +14,9 @@ constexpr int kFirstCapacityPerEdge = 24;  // initial; grows as needed
 
 }  // namespace
 
-StereoCandidates::StereoCandidates(opencl::Context& context, const opencl::VariantChoice& variants)
+StereoCandidates::StereoCandidates(opencl::Context& context, const opencl::VariantChoice& variants, Turns turns)
     : Stage(context, "stereo_candidates", variants), scan_(context, variants) {
-  const auto program = variant_.program(context);
+  const auto program = candidates_program(context, variant_, turns);
   count_ = {context, program, "stereo_candidates_count"};
   fill_ = {context, program, "stereo_candidates_fill"};
 }

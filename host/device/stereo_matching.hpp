@@ -17,7 +17,7 @@ namespace quadedge::stages {
 /// Filters 1 to 3 of doc/method.md section 3. Variants of the stage "stereo_candidates".
 class StereoCandidates : private Stage {
  public:
-  StereoCandidates(opencl::Context& context, const opencl::VariantChoice& variants);
+  StereoCandidates(opencl::Context& context, const opencl::VariantChoice& variants, Turns turns = Turns::full);
 
   /// One row per left edge. `right_height` [px].
   void run(const DeviceEdges& left, const DeviceEdges& right, int right_height, const EpipolarGeometry& geometry,

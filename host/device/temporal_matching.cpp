@@ -65,9 +65,9 @@ void PointIndex::run_in_groups(const PointIndexArguments& arguments, const Posit
         right.points, right.cells);
 }
 
-TemporalCandidates::TemporalCandidates(opencl::Context& context, const opencl::VariantChoice& variants)
+TemporalCandidates::TemporalCandidates(opencl::Context& context, const opencl::VariantChoice& variants, Turns turns)
     : Stage(context, "temporal_candidates", variants), scan_(context, variants) {
-  const auto program = variant_.program(context);
+  const auto program = candidates_program(context, variant_, turns);
   count_ = {context, program, "temporal_candidates_count"};
   fill_ = {context, program, "temporal_candidates_fill"};
 }

@@ -73,7 +73,7 @@ class PointIndex : private Stage {
 /// Filters 1 and 2 of doc/method.md section 4. Variants of the stage "temporal_candidates".
 class TemporalCandidates : private Stage {
  public:
-  TemporalCandidates(opencl::Context& context, const opencl::VariantChoice& variants);
+  TemporalCandidates(opencl::Context& context, const opencl::VariantChoice& variants, Turns turns = Turns::full);
 
   /// `radius` [px], `orientation` [rad]. Every row_step-th predicted position has a row. `current`: the stereo edges of
   /// one side.

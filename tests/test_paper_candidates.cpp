@@ -1,0 +1,219 @@
+/// \file test_paper_candidates.cpp  Candidates of the paper's method and the filters on them on devices, against
+/// host/paper/cascades.cpp.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "common/matching_constants.hpp"
+#include "device/stereo_matching.hpp"
+#include "device/temporal_matching.hpp"
+#include "edge_images.hpp"
+#include "matching.hpp"
+#include "paper/cascades.hpp"
+#include "paper/grid_edges.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+constexpr int kPaperWidth = 143, kPaperHeight = 97, kPaperShift = 6;
+constexpr double kPaperOffset = 5;  // of patches, px
+
+/// A texture, a part of it that is seen from 6 px further right, and its negative: directions that differ by half a
+/// turn.
+struct PaperViews {
+  Image left{kPaperWidth, kPaperHeight}, right{kPaperWidth, kPaperHeight};
+  paper::View in_left, in_right;
+
+  PaperViews() : in_left(view_of(fill(left, 0))), in_right(view_of(fill(right, kPaperShift))) {}
+
+  static const Image& fill(Image& image, int shift) {
+    const Image wide = textured_image(kPaperWidth + kPaperShift, kPaperHeight);
+    for (int y = 0; y < kPaperHeight; ++y)
+      for (int x = 0; x < kPaperWidth; ++x) {
+        const int grey = static_cast<int>(wide.view().at(x + shift, y));
+        image.set(x, y, shift > 0 && y > kPaperHeight / 2 ? 255 - grey : grey);
+      }
+    return image;
+  }
+  static paper::View view_of(const Image& image) {
+    EdgesConfig config;
+    paper::Picture picture(image.view());
+    EdgeSet edges = reference::to_edge_set(paper::grid_edges(image.view(), config, 2));
+    auto described = paper::describe(image.view(), picture, edges.positions(), kPaperOffset);
+    return {std::move(picture), std::move(edges), std::move(described)};
+  }
+};
+
+const PaperViews& paper_views() {
+  static const PaperViews views;
+  return views;
+}
+
+EpipolarGeometry paper_geometry() {
+  StereoConfig config;
+  config.max_disparity = 20;
+  config.epipolar_distance = 0.5;
+  config.orientation = 10;
+  return make_epipolar_geometry(flat_rig(kPaperWidth, kPaperHeight, 120), config);
+}
+
+StereoConfig paper_stereo_config() {
+  StereoConfig config;
+  config.refine_steps = 1;
+  config.ncc_min = 0.6;
+  config.sift_max = 500;
+  config.ncc_nearly_best = 0.9;
+  return config;
+}
+
+/// In the layout of kernels/paper_patches.cl.
+std::vector<cl_float> packed_patches(const std::vector<paper::SidePatches>& patches) {
+  std::vector<cl_float> packed;
+  for (const auto& edge : patches) {
+    for (std::size_t row = 0; row < kPaperPatchRows; ++row)
+      for (const auto& side : edge.sides)
+        packed.insert(packed.end(), side.begin() + static_cast<std::ptrdiff_t>(8 * row),
+                      side.begin() + static_cast<std::ptrdiff_t>(8 * row + 8));
+    packed.insert(packed.end(), edge.inverse_norm.begin(), edge.inverse_norm.end());
+    packed.resize(packed.size() + 14, 0.0F);
+  }
+  return packed;
+}
+
+/// A set of described edges on a device.
+struct UploadedDescriptions {
+  opencl::Buffer<cl_float> patches;
+  opencl::Buffer<cl_int> itself;
+  opencl::Buffer<cl_uchar> sift;
+
+  UploadedDescriptions(opencl::Context& context, const paper::Described& described) {
+    patches.write(context, packed_patches(described.patches));
+    std::vector<cl_int> numbers(described.patches.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    itself.write(context, numbers);
+    sift.write(context, described.sift);
+  }
+  stages::PaperDescribedEdges edges() const { return {patches, itself, sift}; }
+};
+
+/// Runs every variant twice and compares: the same bytes; NCC within 1e-5, SIFT distances within 1e-3, states but where
+/// a score is as close to its threshold.
+void check_paper_filters(const reference::Candidates& lists, const paper::Described& a, const paper::Described& b,
+                         const FilterLimits& limits, bool all_scores) {
+  const auto truth = paper::judge(lists, a, b, limits, all_scores);
+  for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+    INFO(name);
+    stages::PaperFilters stage(context, variants);
+    const UploadedDescriptions on_a(context, a), on_b(context, b);
+    const std::size_t size = lists.target.size();
+    std::vector<reference::CandidateScores> runs;
+    std::vector<cl_int> alive;
+    for (int run = 0; run < 2; ++run) {
+      auto device = upload(context, lists);
+      stage.run(on_a.edges(), on_b.edges(), limits, 1, all_scores, device);
+      runs.push_back({device.ncc.read(size), device.sift.read(size), device.state.read(size)});
+      alive = device.alive.read(static_cast<std::size_t>(device.rows));
+    }
+    CHECK(runs[0].ncc == runs[1].ncc);
+    CHECK(runs[0].state == runs[1].state);
+    std::size_t apart = 0, differing = 0;
+    for (std::size_t c = 0; c < size; ++c) {
+      const bool near = std::abs(truth.ncc[c] - limits.ncc_min) < 1e-5F;
+      apart += std::abs(runs[0].ncc[c] - truth.ncc[c]) > 1e-5F ? 1 : 0;
+      if (!near) apart += std::abs(runs[0].sift[c] - truth.sift[c]) > 1e-3F ? 1 : 0;
+      differing += runs[0].state[c] != truth.state[c] ? 1 : 0;
+    }
+    CHECK(apart == 0);
+    CHECK(differing <= 2);  // of thousands
+    std::size_t living = 0;
+    for (const auto state : runs[0].state) living += state == kCandidateAlive ? 1 : 0;
+    CHECK(living == static_cast<std::size_t>(std::accumulate(alive.begin(), alive.end(), 0)));
+    CHECK(living > size / 50);
+    CHECK(living < size);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("paper candidates: in stereo, devices list what the plain form lists", "[paper][matching][device]") {
+  const PaperViews& views = paper_views();
+  const EpipolarGeometry geometry = paper_geometry();
+  const auto truth =
+      paper::match_stereo(views.in_left, views.in_right, geometry, paper_stereo_config(), kPaperOffset, false)
+          .candidates;
+  REQUIRE(truth.target.size() > 2 * views.in_left.edges.size());
+  for_each_variant(
+      "stereo_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+        INFO(name);
+        stages::StereoCandidates stage(context, variants, stages::Turns::half);
+        const auto left = upload(context, views.in_left.edges), right = upload(context, views.in_right.edges);
+        stages::DeviceCandidates found;
+        stage.run(left, right, kPaperHeight, geometry, {0, 0}, found);
+        const auto lists = found.read();
+        CHECK(lists.first == truth.first);
+        CHECK(lists.target == truth.target);
+      });
+}
+
+TEST_CASE("paper candidates: in time, devices list what the plain form lists", "[paper][matching][device]") {
+  const PaperViews& views = paper_views();
+  const auto &before = views.in_left, &now = views.in_right;
+  const paper::StereoEdgesInView earlier{before.picture, before.edges.positions(), before.described, kPaperWidth,
+                                         kPaperHeight},
+      later{now.picture, now.edges.positions(), now.described, kPaperWidth, kPaperHeight};
+  for (const double orientation : {10 * kDegree, 2 * kPi}) {
+    const auto truth = paper::near_previous(earlier, later, 9.5, orientation);
+    for_each_variant("temporal_candidates",
+                     [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+                       INFO(name << " " << orientation);
+                       stages::TemporalCandidates stage(context, variants, stages::Turns::half);
+                       stages::PointIndex indexing(context, {});
+                       const auto from = upload(context, before.edges), to = upload(context, now.edges);
+                       stages::DevicePointIndex index(kPaperWidth, kPaperHeight), unused(kPaperWidth, kPaperHeight);
+                       indexing.run(to.positions(), to.positions(), index, unused);
+                       stages::DeviceCandidates found;
+                       stage.run(from.positions(), 1, index, 9.5F, static_cast<float>(orientation), found);
+                       const auto lists = found.read();
+                       CHECK(lists.first == truth.first);
+                       CHECK(lists.target == truth.target);
+                     });
+  }
+}
+
+TEST_CASE("paper filters: devices agree with the plain form on candidates in stereo and in time",
+          "[paper][filters][matching][device]") {
+  const PaperViews& views = paper_views();
+  const auto stereo =
+      paper::match_stereo(views.in_left, views.in_right, paper_geometry(), paper_stereo_config(), kPaperOffset, false)
+          .candidates;
+  check_paper_filters(stereo, views.in_left.described, views.in_right.described, {0.6F, 500, 0.9F, 0.4F, 5, 4}, true);
+  check_paper_filters(stereo, views.in_left.described, views.in_right.described, {0.6F, 500, 0.9F, 0.4F, 5, 4}, false);
+  check_paper_filters(stereo, views.in_left.described, views.in_right.described, {0.8F, 200, 0.8F, 0.8F, 3, 4}, false);
+}
+
+TEST_CASE("paper filters: flat patches are similar to none", "[paper][filters][matching][device][oclgrind]") {
+  paper::Described flat, other;
+  flat.patches.resize(2);
+  other.patches.resize(1);
+  flat.patches[1].sides[1][3] = -2;
+  flat.patches[1].inverse_norm[1] = 0.5F;
+  other.patches[0].sides[0][3] = 4;
+  other.patches[0].inverse_norm[0] = 0.25F;
+  flat.sift.resize(2 * kEdgeSiftBytes);
+  other.sift.resize(kEdgeSiftBytes);
+  const reference::Candidates lists{{0, 1, 2}, {0, 0}};
+  for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+    INFO(name);
+    stages::PaperFilters stage(context, variants);
+    const UploadedDescriptions on_a(context, flat), on_b(context, other);
+    auto device = upload(context, lists);
+    stage.run(on_a.edges(), on_b.edges(), {0.6F, 500, 0.9F, 0.4F, 5, 4}, 1, true, device);
+    CHECK(device.ncc.read(2) == std::vector<float>{-1, -1});
+    CHECK(device.state.read(2) == std::vector<cl_uchar>{5, 5});
+  });
+  CHECK(paper::best_pairing(flat.patches[0], other.patches[0]).ncc == -1);
+  CHECK(paper::best_pairing(flat.patches[1], other.patches[0]).ncc == -1);
+}
