@@ -1,7 +1,8 @@
 // candidate_filters.cl: NCC, SIFT and both best-and-nearly-best filters over candidate lists, in stereo and in time.
 //
 // Needs similarity.cl, for the paper's patches also paper_similarity.cl. In: candidate lists; patches of both sets of
-// edges, with the patch number of every edge, and their SIFT descriptors in the order of the edges.
+// edges, with the patch number of every edge, and their SIFT descriptors in the order of the edges, for the paper's
+// patches in that of the patches.
 // Out per candidate: NCC, SIFT distance and state; per row the number of survivors. One work-item = one row.
 // Reference: host/reference/candidates.cpp.
 
@@ -11,6 +12,7 @@
 #define OPENED_PATCH global const char*
 #define OPEN_PATCH(patch) (patch)
 #define PATCH_NCC patch_ncc
+#define DESCRIPTOR_OF(patch_of, edge) (edge)
 #endif
 
 kernel void candidate_filters(const FilterArguments args, global const int* first, global const int* target,
@@ -24,7 +26,7 @@ kernel void candidate_filters(const FilterArguments args, global const int* firs
   const int edge = row * args.row_step;
   const int begin = first[row], end = min(first[row + 1], args.capacity);
   const OPENED_PATCH patch = OPEN_PATCH(patches_a + PATCH_VALUES * (size_t)patch_of_a[edge]);
-  global const uchar* descriptor = sift_a + kEdgeSiftBytes * (size_t)edge;
+  global const uchar* descriptor = sift_a + kEdgeSiftBytes * (size_t)DESCRIPTOR_OF(patch_of_a, edge);
 
   // The order of the two filters does not change the survivors; only taps need both scores of all candidates.
   float best_ncc = 0.0f;
@@ -35,7 +37,7 @@ kernel void candidate_filters(const FilterArguments args, global const int* firs
     int sift_fails = 0;
     float distance = 0.0f;
     if (args.all_scores || (!ncc_fails && limits.sift_max > 0.0f)) {
-      distance = sqrt((float)sift_distance2(descriptor, sift_b + kEdgeSiftBytes * (size_t)j));
+      distance = sqrt((float)sift_distance2(descriptor, sift_b + kEdgeSiftBytes * (size_t)DESCRIPTOR_OF(patch_of_b, j)));
       sift_fails = limits.sift_max > 0.0f && distance > limits.sift_max;
     }
     ncc[c] = similarity;

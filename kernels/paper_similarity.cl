@@ -7,6 +7,7 @@
 #define OPENED_PATCH PaperPatch
 #define OPEN_PATCH open_paper_patch
 #define PATCH_NCC paper_patch_ncc
+#define DESCRIPTOR_OF(patch_of, edge) ((patch_of)[edge])
 
 // Patches of an edge that is compared with many: its rows, and the same with dark and bright exchanged.
 typedef struct {

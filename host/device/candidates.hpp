@@ -72,7 +72,8 @@ template <class Value>
 struct DescribedBy {
   const opencl::Buffer<Value>& patches;
   const opencl::Buffer<cl_int>& patch_of;  ///< number of the patches of each edge
-  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/edge_descriptions.hpp
+  /// See host/reference/edge_descriptions.hpp; in the order of the edges, with the paper's patches in theirs.
+  const opencl::Buffer<cl_uchar>& sift;
 };
 
 using DescribedEdges = DescribedBy<cl_char>;

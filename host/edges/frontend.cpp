@@ -6,7 +6,8 @@
 #include "edges/common_view.hpp"
 #include "edges/device_frontend.hpp"
 #include "edges/memory_fit.hpp"
-#include "edges/paper_frontend.hpp"
+#include "edges/paper_device_frontend.hpp"
+#include "edges/paper_reference_frontend.hpp"
 #include "edges/reference_frontend.hpp"
 
 namespace quadedge::frontend {
@@ -29,7 +30,8 @@ std::shared_ptr<const PixelMask> Frontend::take_masks(const StereoFrame& frame) 
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,
                                         std::vector<Warning>* warnings) {
   opencl::check_variants(config.variants);
-  if (config.is_paper()) return std::make_unique<PaperFrontend>(rig, config);
+  if (config.is_paper() && device.is_reference()) return std::make_unique<PaperReferenceFrontend>(rig, config);
+  if (config.is_paper()) return std::make_unique<PaperDeviceFrontend>(rig, *device.context(), config);
   const StereoRig seen = within_common_view(rig);
   if (device.is_reference()) return std::make_unique<ReferenceFrontend>(seen, config);
   const MemoryFit fit = fit_memory(seen, config, device.context()->limits().memory_bytes);

@@ -1,4 +1,4 @@
-/// \file paper_frontend.cpp  Edges, descriptions and stereo matches frame by frame, quads on request; feeds a tap.
+/// \file paper_frontend.cpp  The order of a frame in the paper's method; feeds a tap.
 #include "edges/paper_frontend.hpp"
 
 #include <algorithm>
@@ -9,9 +9,7 @@
 #include "edges/prediction.hpp"
 #include "edges/tap_lists.hpp"
 #include "geometry/disparity_range.hpp"
-#include "paper/grid_edges.hpp"
 #include "reference/edge_detection.hpp"
-#include "reference/images.hpp"
 
 namespace quadedge::frontend {
 namespace {
@@ -19,18 +17,6 @@ namespace {
 constexpr double kAnyDirection = kPi / 2;  // modulo half a turn
 
 [[noreturn]] void refuse() { throw std::logic_error("the paper's method keeps no rigs"); }
-
-/// The descriptions of some of the edges.
-paper::Described some_of(const paper::Described& all, const std::vector<std::int32_t>& numbers) {
-  paper::Described some;
-  for (const auto number : numbers) {
-    const auto i = static_cast<std::size_t>(number);
-    some.patches.push_back(all.patches[i]);
-    const auto sift = all.sift.begin() + static_cast<std::ptrdiff_t>(i * kEdgeSiftBytes);
-    some.sift.insert(some.sift.end(), sift, sift + kEdgeSiftBytes);
-  }
-  return some;
-}
 
 /// Clusters as lists; those for which `wanted(row, number)` holds.
 template <class Wanted>
@@ -54,85 +40,47 @@ CandidateLists lists_of(const std::vector<std::vector<paper::Cluster>>& rows, co
 PaperFrontend::PaperFrontend(const StereoRig& rig, const Config& config)
     : Frontend(rig, config),
       config_(config),
-      geometry_(make_epipolar_geometry(rig, with_disparity_range(config, rig).stereo)),
-      threshold_(config.edges) {
+      geometry_(make_epipolar_geometry(rig, with_disparity_range(config, rig).stereo)) {
   counts_.disparity_range = static_cast<double>(
       epipolar_line(geometry_, static_cast<float>(rig.left.width) / 2, static_cast<float>(rig.left.height) / 2).s_max);
 }
 
-EdgeSet PaperFrontend::detect(const Image& image, const PixelMask& mask) {
-  const auto found = reference::outside_mask(paper::grid_edges(image.view(), config_.edges, counts_.edge_threshold),
-                                             mask, config_.edges.margin);
-  return reference::first_edges(found, config_.edges.max_edges, counts_.dropped_edges);
-}
-
 FrameEdgesHandle PaperFrontend::process(const StereoFrame& frame) {
-  PaperFrameEdges& now = frames_.next();
-  now.stamp_ns = frame.stamp_ns;
-  now.hidden = take_masks(frame);
+  auto hidden = take_masks(frame);
   searches_ = 0;
-  const Image left = reference::pinhole_image(frame.left, calibration_.left_undistortion),
-              right = reference::pinhole_image(frame.right, calibration_.right_undistortion);
-  counts_.edge_threshold = threshold_.next({left.view(), right.view()});
-  counts_.dropped_edges = 0;
-  left_edges_ = detect(left, masks_.left);
-  right_edges_ = detect(right, masks_.right);
-  counts_.edges_left = static_cast<int>(left_edges_.size());
-  counts_.edges_right = static_cast<int>(right_edges_.size());
-  const auto view_of = [&](const Image& image, const EdgeSet& edges) {
-    paper::Picture picture(image.view());
-    auto described = paper::describe(image.view(), picture, edges.positions(), config_.patches.offset);
-    return paper::View{std::move(picture), edges, std::move(described)};
-  };
-  paper::View in_left = view_of(left, left_edges_), in_right = view_of(right, right_edges_);
-  const auto matching =
-      paper::match_stereo(in_left, in_right, geometry_, config_.stereo, config_.patches.offset, tap_ != nullptr);
-  now.edges = paper::stereo_edges(matching, left_edges_, geometry_);
-  now.left_described = some_of(in_left.described, now.edges.left_index);
-  now.right_described =
-      paper::describe(right.view(), in_right.picture, now.edges.positions(Side::right), config_.patches.offset);
-  now.left = std::move(in_left.picture);
-  now.right = std::move(in_right.picture);
+  FrameEdges& now = detect(frame);
+  now.stamp_ns = frame.stamp_ns;
+  now.hidden = std::move(hidden);
+  paper::StereoMatching all;
+  find_stereo_edges(now, tap_ == nullptr ? nullptr : &all);
   if (tap_ != nullptr) {
-    tap_->edges(left_edges_, right_edges_);
-    tap_stereo(matching);
+    tap_->edges(edges(Side::left), edges(Side::right));
+    tap_stereo(all);
     tap_->stereo(now.edges);
   }
-  return frames_.current_handle();
+  return latest();
 }
 
 void PaperFrontend::match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch&,
                           TemporalMatches& matches) {
-  const PaperFrameEdges &before = frames_.own(base), &now = frames_.own(current);
-  const paper::RefinementSettings settings = paper::refinement_settings(config_.stereo);
-  const auto seen = [&](const PaperFrameEdges& frame_edges, Side side) {
-    const bool is_left = side == Side::left;
-    const PinholeCamera& camera = is_left ? calibration_.left : calibration_.right;
-    return paper::StereoEdgesInView{is_left ? *frame_edges.left : *frame_edges.right, frame_edges.edges.positions(side),
-                                    is_left ? frame_edges.left_described : frame_edges.right_described, camera.width,
-                                    camera.height};
-  };
   if (tap_ != nullptr) {
-    const TemporalSearch around = search_without_motion(before.edges, config_.temporal, false);
-    tap_->temporal_search({searches_, before.frame, around.left, around.right, around.radius, 1});
+    const TemporalSearch around = search_without_motion(base.edges, config_.temporal, false);
+    tap_->temporal_search({searches_, base.frame, around.left, around.right, around.radius, 1});
   }
-  std::array<paper::SideMatching, 2> sides;
-  for (const Side side : kSides) {
-    auto& matching = sides[static_cast<std::size_t>(index_of(side))];
-    matching = paper::match_side(seen(before, side), seen(now, side), config_.temporal, settings, tap_ != nullptr);
-    if (tap_ != nullptr) tap_temporal(seen(before, side), seen(now, side), matching, side);
-  }
-  matches = paper::quads_of(sides[0], sides[1]);
+  std::array<paper::SideMatching, 2> all;
+  find_quads(base, current, tap_ == nullptr ? nullptr : &all, matches);
   matches.search = searches_++;
   if (tap_ == nullptr) return;
-  tap_quads(sides[0], sides[1]);
+  for (const Side side : kSides) tap_temporal(base, current, all[static_cast<std::size_t>(index_of(side))], side);
+  tap_quads(all[0], all[1]);
   tap_->quads(matches);
 }
 
 void PaperFrontend::tap_stereo(const paper::StereoMatching& matching) {
+  const EdgeSet left = edges(Side::left), right = edges(Side::right);
   for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
     const auto lists = reference::stereo_candidates(
-        left_edges_, right_edges_, without_limits(geometry_, filter < StereoFilter::disparity, true), {});
+        left, right, without_limits(geometry_, filter < StereoFilter::disparity, true), {});
     tap_->stereo_filter(filter, {lists.first, lists.target, {}, {}, {}});
   }
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
@@ -141,13 +89,15 @@ void PaperFrontend::tap_stereo(const paper::StereoMatching& matching) {
     const auto passes = [&](std::size_t, std::size_t k) {
       return filter == StereoFilter::refinement || matching.clusters.similarity[k] >= config_.stereo.refined_ncc_min;
     };
-    tap_->stereo_filter(filter, clusters_that(matching.clusters, geometry_, left_edges_.x, left_edges_.y, passes));
+    tap_->stereo_filter(filter, clusters_that(matching.clusters, geometry_, left.x, left.y, passes));
   }
 }
 
-void PaperFrontend::tap_temporal(const paper::StereoEdgesInView& before, const paper::StereoEdgesInView& now,
-                                 const paper::SideMatching& matching, Side side) {
-  const auto displaced = paper::near_previous(before, now, config_.temporal.radius, kAnyDirection);
+void PaperFrontend::tap_temporal(const FrameEdges& before, const FrameEdges& now, const paper::SideMatching& matching,
+                                 Side side) {
+  const PinholeCamera& camera = side == Side::left ? calibration_.left : calibration_.right;
+  const auto displaced = paper::near_previous(before.edges.positions(side), now.edges.positions(side), camera.width,
+                                              camera.height, config_.temporal.radius, kAnyDirection);
   tap_->temporal_filter(TemporalFilter::displacement, side, {displaced.first, displaced.target, {}, {}, {}});
   for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter))
     tap_->temporal_filter(filter, side, reference::alive_after(filter, matching.candidates, matching.scores));

@@ -1,25 +1,16 @@
 #pragma once
-/// \file paper_frontend.hpp  The front end of the paper's method (doc/paper.md), in plain C++ on all processors.
+/// \file paper_frontend.hpp  What both front ends of the paper's method (doc/paper.md) do alike.
 
 #include "edges/frontend.hpp"
 #include "paper/cascades.hpp"
-#include "reference/edge_detection.hpp"
 
 namespace quadedge::frontend {
 
-/// The edges of a frame with their images and the descriptions of the stereo edges.
-struct PaperFrameEdges : FrameEdges {
-  std::optional<paper::Picture> left, right;
-  paper::Described left_described, right_described;
-};
-
-/// It has no global search and keeps no frames: those functions throw std::logic_error.
+/// The edges of an image are kept on the host. It has no global search and keeps no frames: those functions throw
+/// std::logic_error.
 class PaperFrontend : public Frontend {
  public:
-  PaperFrontend(const StereoRig& rig, const Config& config);
-
   FrameEdgesHandle process(const StereoFrame& frame) override;
-  FrameEdgesHandle latest() const override { return frames_.current_handle(); }
   /// The search of the paper: around the previous positions, whatever `search` contains.
   void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,
              TemporalMatches& matches) override;
@@ -28,21 +19,25 @@ class PaperFrontend : public Frontend {
                       TemporalMatches& matches) override;
   KeptFrameEdges keep() override;
   FrameEdgesHandle restore(const KeptFrameEdges& kept) override;
-  EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }
-  std::size_t device_bytes() const override { return 0; }
 
- private:
-  EdgeSet detect(const Image& image, const PixelMask& mask);
-  void tap_stereo(const paper::StereoMatching& matching);
-  void tap_temporal(const paper::StereoEdgesInView& before, const paper::StereoEdgesInView& now,
-                    const paper::SideMatching& matching, Side side);
-  void tap_quads(const paper::SideMatching& left, const paper::SideMatching& right);
+ protected:
+  PaperFrontend(const StereoRig& rig, const Config& config);
+
+  /// Detects the edges of both images and sets `counts_`, but for those of edges().
+  virtual FrameEdges& detect(const StereoFrame& frame) = 0;
+  /// Finds the stereo edges of the frame that was detected last. \param all for a tap, else null
+  virtual void find_stereo_edges(FrameEdges& current, paper::StereoMatching* all) = 0;
+  /// Both cascades in time, and the quads. \param all of either side, for a tap, else null
+  virtual void find_quads(const FrameEdges& base, const FrameEdges& current, std::array<paper::SideMatching, 2>* all,
+                          TemporalMatches& matches) = 0;
 
   Config config_;
   EpipolarGeometry geometry_;
-  reference::EdgeThreshold threshold_;
-  EdgeSet left_edges_, right_edges_;
-  FrameEdgesPool<PaperFrameEdges> frames_;
+
+ private:
+  void tap_stereo(const paper::StereoMatching& matching);
+  void tap_temporal(const FrameEdges& before, const FrameEdges& now, const paper::SideMatching& matching, Side side);
+  void tap_quads(const paper::SideMatching& left, const paper::SideMatching& right);
 };
 
 }  // namespace quadedge::frontend

@@ -261,19 +261,19 @@ Hypothesis refined(const StereoEdgesInView& before, std::size_t i, const SidePat
 
 }  // namespace
 
-reference::Candidates near_previous(const StereoEdgesInView& before, const StereoEdgesInView& now, double radius,
-                                    double orientation) {
+reference::Candidates near_previous(const EdgePositionsView& before, const EdgePositionsView& now, int width, int height,
+                                    double radius, double orientation) {
   const auto reach = static_cast<float>(radius), most = static_cast<float>(orientation);
   reference::PointIndex index;
-  reference::make_point_index(now.edges.x, now.edges.y, now.width, now.height, index);
-  std::vector<std::vector<std::int32_t>> rows(before.edges.size());
+  reference::make_point_index(now.x, now.y, width, height, index);
+  std::vector<std::vector<std::int32_t>> rows(before.size());
   for_row_blocks(rows.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Place from = place_of(before.edges, i);
+      const Place from = place_of(before, i);
       index.visit_square(from.x, from.y, reach, [&](std::int32_t number) {
         const auto j = static_cast<std::size_t>(number);
-        const float dx = now.edges.x[j] - from.x, dy = now.edges.y[j] - from.y;
-        if (dx * dx + dy * dy <= reach * reach && line_angle_between(now.edges.direction[j], from.direction) <= most)
+        const float dx = now.x[j] - from.x, dy = now.y[j] - from.y;
+        if (dx * dx + dy * dy <= reach * reach && line_angle_between(now.direction[j], from.direction) <= most)
           rows[i].push_back(number);
       });
     }
@@ -290,7 +290,7 @@ reference::Candidates near_previous(const StereoEdgesInView& before, const Stere
 SideMatching match_side(const StereoEdgesInView& before, const StereoEdgesInView& now, const TemporalConfig& config,
                         const RefinementSettings& settings, bool all_scores) {
   SideMatching matching;
-  matching.candidates = near_previous(before, now, config.radius, kTemporalOrientation);
+  matching.candidates = near_previous(before.edges, now.edges, now.width, now.height, config.radius, kTemporalOrientation);
   matching.scores =
       judge(matching.candidates, before.described, now.described, temporal_limits(config, {}), all_scores);
   matching.clusters.resize(before.edges.size());
