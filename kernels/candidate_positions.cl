@@ -24,22 +24,12 @@ static inline void open_edge(const StereoRefinementArguments* args, global const
   edge->sine = sine_cosine(direction, &edge->cosine);
 }
 
-// Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its
-// position s.
+// Position s of the candidate after its shift onto the line.
 static inline float epipolar_shift(const StereoRefinementArguments* args, const EpipolarLine* line,
                                    global const float* right_edges, const int candidate) {
   global const float* x = right_edges + args->right.first + candidate;
-  const float direction = x[2 * args->right.stride];
-  const float dx = x[0] - line->x, dy = x[args->right.stride] - line->y;
-  const float s = dx * line->ex + dy * line->ey;
-  const float distance = -dx * line->ey + dy * line->ex;
-  float cosine;
-  const float sine = sine_cosine(direction, &cosine);
-  const float across = -cosine * line->ey + sine * line->ex;  // sine of the angle between line and tangent
-  const float along = cosine * line->ex + sine * line->ey;
-  if (fabs(across) <= args->shift_min_sine) return s;
-  const float shift = -distance / across;
-  return fabs(shift) < args->shift_max ? s + shift * along : s;
+  return position_on_line(line, x[0], x[args->right.stride], x[2 * args->right.stride], args->shift_min_sine,
+                          args->shift_max);
 }
 
 // Candidate c against the earlier ones of its row, which begins at `begin`: of candidates at one position the one whose

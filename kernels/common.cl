@@ -18,6 +18,9 @@ typedef uchar Pixel;
 // compilation takes two to four times as long, a minute for temporal_match.cl. Other compilers ignore it.
 #define IN_VECTORS __attribute__((vec_type_hint(float16)))
 
+// For functions of patches: called ones pass the rows through memory.
+#define INLINED static inline __attribute__((always_inline))
+
 #ifndef PI_F
 #define PI_F 3.14159265358979f
 #endif

@@ -53,3 +53,19 @@ static inline float left_epipolar_sine(const EpipolarGeometry* g, const float x,
   const float sine = sine_cosine(direction, &cosine);
   return fabs(cosine * dy - sine * dx) / sqrt(dx * dx + dy * dy);
 }
+
+// Moves an edge onto the line: along its tangent where the angle between them has at least the sine `min_sine` and the
+// shift is shorter than `most` px, else orthogonally. Returns its position s.
+static inline float position_on_line(const EpipolarLine* line, const float x, const float y, const float direction,
+                                     const float min_sine, const float most) {
+  const float dx = x - line->x, dy = y - line->y;
+  const float s = dx * line->ex + dy * line->ey;
+  const float distance = -dx * line->ey + dy * line->ex;
+  float cosine;
+  const float sine = sine_cosine(direction, &cosine);
+  const float across = -cosine * line->ey + sine * line->ex;  // sine of the angle between line and tangent
+  const float along = cosine * line->ex + sine * line->ey;
+  if (fabs(across) <= min_sine) return s;
+  const float shift = -distance / across;
+  return fabs(shift) < most ? s + shift * along : s;
+}

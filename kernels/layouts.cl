@@ -255,6 +255,41 @@ typedef struct {
   float cluster_sigma;
 } StereoClusterArguments;
 
+// paper_refinement.cl. Settings as in AlignmentSettings. `fixed` are the edges of the rows, `moving` their candidates.
+typedef struct {
+  PackedPositions fixed, moving;
+  int capacity;  // of the candidate lists
+  int fixed_width, fixed_height, moving_width, moving_height;
+  float offset;  // px from an edge to the middle of its patches
+  int steps;
+  float tolerance;                  // px
+  float huber;                      // grey levels
+  int both_sides;                   // 0: only the most similar pair of sides
+  float shift_min_sine, shift_max;  // of the shift onto the line
+  float largest_residual;           // rms that a free move may leave [grey levels]
+  EpipolarGeometry geometry;        // for a move along a line
+} PaperRefinementArguments;
+
+// paper_clusters.cl. Blocks of `capacity`: refined positions x, y; of clusters x, y, direction and similarity as floats,
+// the first member and the number of members as ints.
+typedef struct {
+  PackedPositions moving;  // the candidates
+  int rows;
+  int capacity;       // of the candidate lists
+  float gap;          // px
+  float orientation;  // rad
+  int size_max;
+  float sigma;  // px
+} PaperClusterArguments;
+
+// paper_clusters.cl: paper_similarity().
+typedef struct {
+  int rows, capacity;  // of the candidate lists
+  int width, height;   // of the image of the clusters
+  float offset;        // px from an edge to the middle of its patches
+  float ncc_min;       // of the chosen cluster
+} PaperSimilarityArguments;
+
 // coarse_disparity.cl.
 enum {
   kCoarseLanes = 16,        // levels of a vector

@@ -62,9 +62,6 @@ static inline int lies_inside(const int base_x, const int base_y, const int widt
   return base_x >= 0 && base_y >= 0 && base_x + 2 * PATCH_REACH < width && base_y + 2 * PATCH_REACH < height;
 }
 
-// Called functions pass the rows through memory.
-#define INLINED static inline __attribute__((always_inline))
-
 // Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
 INLINED void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame,
                        const float dx, const float dy, float8* rows) {

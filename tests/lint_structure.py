@@ -27,7 +27,7 @@ MOST_LINES = {
     "host/common": 930,
     "host/data": 6140,
     "host/data/calibrations": 2150,
-    "host/device": 4100,
+    "host/device": 4400,
     "host/edges": 2790,
     "host/geometry": 2240,
     "host/motion": 6190,
@@ -38,10 +38,10 @@ MOST_LINES = {
     "host/rig": 4390,
     "host/scenes": 2980,
     "include": 2240,
-    "kernels": 5210,
+    "kernels": 5900,
     "python": 11510,
     "scripts": 3080,
-    "tests": 34130,
+    "tests": 34650,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
@@ -166,7 +166,7 @@ def check_twins(tree: Tree, show: bool = True) -> list[str]:
     places = {"kernel": "kernels/{}.cl", "class": 'Stage(context, "{}"', "reference": "kernels/{}.cl",
               "test": "tests/test_{}.cpp"}
     texts = {what: "".join(tree.text(name) for name in tree.files if name.startswith(folder))
-             for what, folder in (("class", "host/device/"), ("reference", "host/reference/"))}
+             for what, folder in (("class", "host/device/"), ("reference", ("host/reference/", "host/paper/")))}
     findings = []
     if show:
         print(f"{'stage':22}" + "".join(f"{what:11}" for what in places))

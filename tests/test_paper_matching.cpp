@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "common/matching_constants.hpp"
 #include "edge_images.hpp"
 #include "paper/cascades.hpp"
 #include "quadedge/camera.hpp"
@@ -55,7 +56,7 @@ TEST_CASE("paper matching: the refinement finds a move along a line and a free o
   const paper::RefinementSettings settings{20, 1e-3, false};
   for (const double direction : {0.3, 1.4, -2.2}) {
     const paper::Place edge{40.2F, 35.4F, static_cast<float>(direction)};
-    const paper::SidePatches fixed = paper::cut_sides(before, edge, paper::kRefinementOffset);
+    const paper::SidePatches fixed = paper::cut_sides(before, edge, kPaperRefinementOffset);
     for (const std::vector<paper::Pairing>& sides :
          {std::vector<paper::Pairing>{{0, 0, 1}}, std::vector<paper::Pairing>{{1, 1, 1}}, paper::kBothSides}) {
       const paper::Picture right(wavy_image(80, 70, 1.3, 0).view());

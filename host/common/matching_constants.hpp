@@ -38,6 +38,10 @@ constexpr double kRefinementClamp = 2.0;
 /// weighted. Only its ratio to stereo.refine_prior_sigma, which is configurable, matters.
 constexpr double kRefinementNoise = 5.0;
 
+/// Distance of the patches' centres from the edge in the paper's refinement [px]; its code's, half a pixel less than
+/// for the NCC. And the residual above which a free move is not taken over [grey levels].
+constexpr double kPaperRefinementOffset = 4.5, kPaperLargestResidual = 6.0;
+
 /// Maximum number of members of a cluster, which limits chains of neighbours without gaps.
 constexpr int kClusterSizeMax = 10;
 

@@ -31,6 +31,9 @@
   VISIT(FilterArguments)               \
   VISIT(StereoRefinementArguments)     \
   VISIT(StereoClusterArguments)        \
+  VISIT(PaperRefinementArguments)      \
+  VISIT(PaperClusterArguments)         \
+  VISIT(PaperSimilarityArguments)      \
   VISIT(CoarseDisparityArguments)      \
   VISIT(StereoRelaxationArguments)     \
   VISIT(StereoMutualArguments)         \

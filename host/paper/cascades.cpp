@@ -130,7 +130,7 @@ class Row {
       std::size_t i)
       : left_(left.described.patches[i]),
         direction_(left.edges.direction[i]),
-        fixed_(cut_sides(left.picture, {left.edges.x[i], left.edges.y[i], direction_}, kRefinementOffset)),
+        fixed_(cut_sides(left.picture, {left.edges.x[i], left.edges.y[i], direction_}, kPaperRefinementOffset)),
         right_(right),
         settings_(refinement_settings(config)),
         offset_(offset),
@@ -240,9 +240,6 @@ StereoEdges stereo_edges(const StereoMatching& matching, const EdgeSet& left, co
 
 namespace {
 
-/// Residual above which a refined position is not taken over [grey levels]; the code's.
-constexpr double kLargestResidual = 6.0;
-
 Place place_of(const EdgePositionsView& edges, std::size_t i) { return {edges.x[i], edges.y[i], edges.direction[i]}; }
 
 /// Candidate j, moved freely in the image. \param fixed of the previous edge, for the refinement
@@ -255,7 +252,7 @@ Hypothesis refined(const StereoEdgesInView& before, std::size_t i, const SidePat
   const Refined found = refine(fixed, pairings, now.picture, start, Eigen::Matrix2d::Identity(), settings);
   Hypothesis hypothesis{
       {static_cast<double>(start.x), static_cast<double>(start.y)}, start.direction, static_cast<std::int32_t>(j)};
-  if (found.rms <= kLargestResidual) hypothesis.position = found.position;
+  if (found.rms <= kPaperLargestResidual) hypothesis.position = found.position;
   return hypothesis;
 }
 
@@ -296,7 +293,7 @@ SideMatching match_side(const StereoEdgesInView& before, const StereoEdgesInView
   matching.clusters.resize(before.edges.size());
   for_row_blocks(matching.clusters.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const SidePatches fixed = cut_sides(before.picture, place_of(before.edges, i), kRefinementOffset);
+      const SidePatches fixed = cut_sides(before.picture, place_of(before.edges, i), kPaperRefinementOffset);
       std::vector<Hypothesis> hypotheses;
       for (auto c = static_cast<std::size_t>(matching.candidates.first[i]);
            c < static_cast<std::size_t>(matching.candidates.first[i + 1]); ++c)

@@ -34,6 +34,8 @@ float line_angle_between(float a, float b);
 reference::CandidateScores judge(const reference::Candidates& candidates, const Described& a, const Described& b,
                                  const FilterLimits& limits, bool all_scores);
 
+// Plain C++ twin of kernels/paper_clusters.cl.
+
 /// A refined candidate.
 struct Hypothesis {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [px]

@@ -161,7 +161,7 @@ struct Equations {
            const Eigen::Matrix<double, 2, Unknowns>& axes) {
     PatchValues xs, ys, seen{};
     std::array<PatchValues, Unknowns> slopes;
-    for_samples(static_cast<float>(position.x()), static_cast<float>(position.y()), turn, side, kRefinementOffset,
+    for_samples(static_cast<float>(position.x()), static_cast<float>(position.y()), turn, side, kPaperRefinementOffset,
                 [&](std::size_t k, float x, float y) {
                   xs[k] = x;
                   ys[k] = y;

@@ -12,6 +12,8 @@
 
 namespace quadedge::paper {
 
+// Plain C++ twin of kernels/paper_patches.cl and kernels/paper_refinement.cl.
+
 /// Seven rows of eight lanes, the last of which is zero; mean-free grey levels. Rows follow the tangent (cos t, sin t),
 /// lanes the normal to the bright side (-sin t, cos t).
 using PatchValues = std::array<float, 56>;
@@ -59,10 +61,6 @@ std::vector<SidePatches> cut_sides(const Picture& picture, const EdgePositionsVi
 /// The pairing with the highest NCC of the four; -1 if patches are flat.
 Pairing best_pairing(const SidePatches& a, const SidePatches& b);
 
-/// Distance of the patches' centres from the edge in the refinement [px]; the code's, half a pixel less than for the
-/// NCC.
-constexpr double kRefinementOffset = 4.5;
-
 /// Settings of the refinement.
 struct RefinementSettings {
   int steps;
@@ -79,7 +77,7 @@ struct Refined {
 
 /// Moves `start` along `axes` (one or two unit vectors, as columns) until its patches look like those of `fixed`:
 /// Gauss-Newton on the differences of the mean-free patches of each pairing, with Huber weights. No move is rejected.
-/// \param fixed cut kRefinementOffset px from its edge, as are those that are moved
+/// \param fixed cut kPaperRefinementOffset px from its edge, as are those that are moved
 Refined refine(const SidePatches& fixed, const std::vector<Pairing>& pairings, const Picture& picture,
                const Place& start, const Eigen::Matrix2Xd& axes, const RefinementSettings& settings);
 
