@@ -282,6 +282,11 @@ typedef struct {
   float sigma;  // px
 } PaperClusterArguments;
 
+// paper_quads.cl. The clusters of either image are in blocks of that capacity, the quads in blocks of `capacity`.
+typedef struct {
+  int rows, left_capacity, right_capacity, capacity;
+} PaperQuadArguments;
+
 // paper_clusters.cl: paper_similarity().
 typedef struct {
   int rows, capacity;  // of the candidate lists

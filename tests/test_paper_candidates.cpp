@@ -161,11 +161,9 @@ TEST_CASE("paper candidates: in stereo, devices list what the plain form lists",
 TEST_CASE("paper candidates: in time, devices list what the plain form lists", "[paper][matching][device]") {
   const PaperViews& views = paper_views();
   const auto &before = views.in_left, &now = views.in_right;
-  const paper::StereoEdgesInView earlier{before.picture, before.edges.positions(), before.described, kPaperWidth,
-                                         kPaperHeight},
-      later{now.picture, now.edges.positions(), now.described, kPaperWidth, kPaperHeight};
   for (const double orientation : {10 * kDegree, 2 * kPi}) {
-    const auto truth = paper::near_previous(earlier, later, 9.5, orientation);
+    const auto truth = paper::near_previous(before.edges.positions(), now.edges.positions(), kPaperWidth, kPaperHeight,
+                                            9.5, orientation);
     for_each_variant("temporal_candidates",
                      [&](opencl::Context& context, const Variants& variants, const std::string& name) {
                        INFO(name << " " << orientation);

@@ -253,7 +253,7 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   std::printf("sequence   %s (%s), %s of %d x %d\n", visible(run.input.name).c_str(), run.input.format.c_str(),
               data::counted(static_cast<int>(run.frames.size()), "frame").c_str(), run.input.width, run.input.height);
   if (run.config.is_paper()) {
-    std::printf("method     the paper's own (doc/paper.md)%s, in C++ on the host\n",
+    std::printf("method     the paper's own (doc/paper.md)%s\n",
                 run.config.pose.refine ? " with least squares added" : "");
   }
   std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),

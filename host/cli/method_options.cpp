@@ -124,7 +124,6 @@ Config MethodOptions::config() const {
 }
 
 std::vector<std::string> MethodOptions::choices() const {
-  if (config_.is_paper()) return {"reference"};  // no stage of the paper's method runs on a device
   if (device_ != "auto") return {device_};
   std::vector<std::string> numbers;
   for (const auto& device : by_preference(list_devices())) numbers.push_back(std::to_string(device.index));

@@ -34,6 +34,7 @@
   VISIT(PaperRefinementArguments)      \
   VISIT(PaperClusterArguments)         \
   VISIT(PaperSimilarityArguments)      \
+  VISIT(PaperQuadArguments)            \
   VISIT(CoarseDisparityArguments)      \
   VISIT(StereoRelaxationArguments)     \
   VISIT(StereoMutualArguments)         \

@@ -78,6 +78,8 @@ const std::vector<Variant>& all_variants() {
       {"paper_clusters", "row", {"direction.cl", "paper_sides.cl", "paper_clusters.cl"},
        Form::items, {}, 16, true, true,
        "one work-item per row of candidates, groups of 16"},
+      {"paper_quads", "row", {"paper_quads.cl"}, Form::items, {}, 16, true, true,
+       "one work-item per previous stereo edge, groups of 16"},
       {"coarse_disparity", "rows", {"coarse_planes.cl", "coarse_disparity.cl"},
        Form::items, {{"COLUMNS", "8"}}, 1, true, false,
        "one work-item per row or eight columns, ushort16 of disparities"},

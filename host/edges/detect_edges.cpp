@@ -1,6 +1,7 @@
 /// \file detect_edges.cpp  Threshold, maxima, mask and directions of one image, on the host or on the device.
 #include "common/images.hpp"
 #include "device/edge_detection.hpp"
+#include "device/grid_edges.hpp"
 #include "device/images.hpp"
 #include "paper/grid_edges.hpp"
 #include "quadedge/error.hpp"
@@ -14,7 +15,7 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
   const auto use = device.use();
   EdgeSet edges;
   std::size_t found = 0;
-  if (device.is_reference() || config.is_paper()) {
+  if (device.is_reference()) {
     reference::EdgeThreshold threshold(config.edges);
     const auto detect = config.is_paper() ? paper::grid_edges : reference::detect_edges;
     const auto all = detect(image, config.edges, threshold.next({image}));
@@ -25,16 +26,21 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
     stages::Undistortion upload(context, {}, image.width, image.height, config.variants, image.max_value);
     stages::PaddedPlane plane(context, image.width, image.height, config.edges.sigma, image.max_value);
     stages::EdgeThreshold threshold(context, config.edges, config.variants);
-    stages::EdgeDetection detection(context, image.width, image.height, config.edges, config.variants);
     opencl::Buffer<cl_uchar> pixels;
     stages::DeviceEdges device_edges;
     const opencl::CopyGuard guard(context);  // of the image
     upload.run(image, pixels);
     plane.prepare(pixels);
     threshold.run(plane, nullptr);
-    detection.find_maxima(plane, threshold.values());
-    stages::EdgeMask(context, mask, config.edges.margin, detection.maxima()).run(detection.maxima());
-    detection.take_directions(plane, device_edges);
+    if (config.is_paper()) {
+      stages::GridEdges(context, image.width, image.height, config.edges, mask, config.variants)
+          .run(plane, threshold.values(), device_edges);
+    } else {
+      stages::EdgeDetection detection(context, image.width, image.height, config.edges, config.variants);
+      detection.find_maxima(plane, threshold.values());
+      stages::EdgeMask(context, mask, config.edges.margin, detection.maxima()).run(detection.maxima());
+      detection.take_directions(plane, device_edges);
+    }
     device_edges.read_count();
     edges = device_edges.read(image.height);
     found = edges.size() + static_cast<std::size_t>(device_edges.host_dropped);
