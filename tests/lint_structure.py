@@ -166,7 +166,7 @@ def check_twins(tree: Tree, show: bool = True) -> list[str]:
     places = {"kernel": "kernels/{}.cl", "class": 'Stage(context, "{}"', "reference": "kernels/{}.cl",
               "test": "tests/test_{}.cpp"}
     texts = {what: "".join(tree.text(name) for name in tree.files if name.startswith(folder))
-             for what, folder in (("class", "host/device/"), ("reference", "host/reference/"))}
+             for what, folder in (("class", "host/device/"), ("reference", ("host/reference/", "host/paper/")))}
     findings = []
     if show:
         print(f"{'stage':22}" + "".join(f"{what:11}" for what in places))

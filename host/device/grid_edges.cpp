@@ -9,7 +9,8 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr int kGridStripRows = 32;  // of the grid, that one work-item filters: two more are computed twice
+// Rows of the grid that one work-item filters; two more are computed twice.
+constexpr int kRowsOnCpus = 32, kRowsOnGpus = 4;
 
 /// The weights as kernels/grid_edges.cl describes them.
 std::vector<cl_float> grid_taps(double sigma) {
@@ -35,6 +36,7 @@ GridEdges::GridEdges(opencl::Context& context, int width, int height, const Edge
       width_(width),
       height_(height),
       config_(config),
+      strip_rows_(context.is_cpu() ? kRowsOnCpus : kRowsOnGpus),
       line_(kStripLineFront + round_up(width + 3 * kernel_radius(config.sigma) + 48, 16)),
       scan_(context, variants) {
   const cl::Program program = context.program(variant_.files, gradient_defines(config));
@@ -43,8 +45,7 @@ GridEdges::GridEdges(opencl::Context& context, int width, int height, const Edge
   merge_ = {context, program, "grid_edges_merge"};
   taps_.write(context, grid_taps(config.sigma));
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  const auto strips = static_cast<std::size_t>((2 * height + kGridStripRows - 1) / kGridStripRows);
-  const std::size_t floats = strips * kGridLines * static_cast<std::size_t>(line_) + kStripLineFront;
+  const std::size_t floats = strips() * kGridLines * static_cast<std::size_t>(line_) + kStripLineFront;
   scratch_.ensure(context, floats);
   scratch_.fill(0.0F, floats);
   found_.ensure(context, 16 * columns * rows);
@@ -62,9 +63,8 @@ void GridEdges::run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& th
   begin();
   edges.reserve(context_, config_.max_edges);
   const DetectionArguments arguments{width_, height_, plane.stride(), config_.margin, 0.0F, config_.max_edges};
-  const auto strips = static_cast<std::size_t>((2 * height_ + kGridStripRows - 1) / kGridStripRows);
   const auto rows = static_cast<std::size_t>(height_);
-  strips_(over(strips), arguments, threshold, kGridStripRows, plane.pixels(), taps_, hidden_, masked_ ? 1 : 0, scratch_,
+  strips_(over(strips()), arguments, threshold, strip_rows_, plane.pixels(), taps_, hidden_, masked_ ? 1 : 0, scratch_,
           line_, found_, counts_);
   count_(over(rows), height_, counts_, of_rows_);
   scan_.run(of_rows_, height_, config_.max_edges, edges.row_first, edges.count);

@@ -27,9 +27,12 @@ class GridEdges : private Stage {
   void run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
 
  private:
+  std::size_t strips() const { return static_cast<std::size_t>((2 * height_ + strip_rows_ - 1) / strip_rows_); }
+
   int width_, height_;
   EdgesConfig config_;
-  int line_;  ///< floats of a line of scratch memory
+  int strip_rows_;  ///< of the grid, per work-item
+  int line_;        ///< floats of a line of scratch memory
   bool masked_ = false;
   Scan scan_;
   opencl::Buffer<cl_float> taps_, scratch_, found_;

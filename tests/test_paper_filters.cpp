@@ -1,4 +1,4 @@
-/// \file test_paper_candidates.cpp  Candidates of the paper's method and the filters on them on devices, against
+/// \file test_paper_filters.cpp  Candidates of the paper's method and the filters on them on devices, against
 /// host/paper/cascades.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -69,7 +69,7 @@ StereoConfig paper_stereo_config() {
   return config;
 }
 
-/// In the layout of kernels/paper_patches.cl.
+/// In the layout of kPaperPatchFloats in kernels/layouts.cl.
 std::vector<cl_float> packed_patches(const std::vector<paper::SidePatches>& patches) {
   std::vector<cl_float> packed;
   for (const auto& edge : patches) {
