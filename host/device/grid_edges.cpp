@@ -1,6 +1,7 @@
 /// \file grid_edges.cpp  Strips of grid rows per work-item, then the edges of each pixel row in order.
 #include "device/grid_edges.hpp"
 
+#include <string>
 #include <vector>
 
 #include "common/images.hpp"
@@ -8,9 +9,6 @@
 
 namespace quadedge::stages {
 namespace {
-
-// Rows of the grid that one work-item filters; two more are computed twice.
-constexpr int kRowsOnCpus = 32, kRowsOnGpus = 4;
 
 /// The weights as kernels/grid_edges.cl describes them.
 std::vector<cl_float> grid_taps(double sigma) {
@@ -36,10 +34,10 @@ GridEdges::GridEdges(opencl::Context& context, int width, int height, const Edge
       width_(width),
       height_(height),
       config_(config),
-      strip_rows_(context.is_cpu() ? kRowsOnCpus : kRowsOnGpus),
+      strip_rows_(std::stoi(variant_.defines.at("STRIP_ROWS"))),
       line_(kStripLineFront + round_up(width + 3 * kernel_radius(config.sigma) + 48, 16)),
       scan_(context, variants) {
-  const cl::Program program = context.program(variant_.files, gradient_defines(config));
+  const cl::Program program = variant_.program(context, gradient_defines(config));
   strips_ = {context, program, "grid_edges_strips"};
   count_ = {context, program, "grid_edges_count"};
   merge_ = {context, program, "grid_edges_merge"};
@@ -64,8 +62,8 @@ void GridEdges::run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& th
   edges.reserve(context_, config_.max_edges);
   const DetectionArguments arguments{width_, height_, plane.stride(), config_.margin, 0.0F, config_.max_edges};
   const auto rows = static_cast<std::size_t>(height_);
-  strips_(over(strips()), arguments, threshold, strip_rows_, plane.pixels(), taps_, hidden_, masked_ ? 1 : 0, scratch_,
-          line_, found_, counts_);
+  strips_(over(strips()), arguments, threshold, plane.pixels(), taps_, hidden_, masked_ ? 1 : 0, scratch_, line_,
+          found_, counts_);
   count_(over(rows), height_, counts_, of_rows_);
   scan_.run(of_rows_, height_, config_.max_edges, edges.row_first, edges.count);
   merge_(over(rows), arguments, found_, counts_, edges.row_first, edges.packed);
