@@ -15,7 +15,7 @@ using namespace quadedge;
 
 namespace {
 
-constexpr float kGridThreshold = 2;
+constexpr float kGridEdgesThreshold = 2;
 
 struct FoundGridEdges {
   EdgeSet edges;
@@ -38,7 +38,7 @@ FoundGridEdges find_grid_edges(opencl::Context& context, const matching::Variant
   pixels.write(context, image.pixels);
   plane.prepare(pixels);
   opencl::Buffer<cl_float> threshold;
-  threshold.write(context, {kGridThreshold});
+  threshold.write(context, {kGridEdgesThreshold});
   stages::DeviceEdges edges;
   stage.run(plane, threshold, edges);
   edges.read_count();
@@ -47,8 +47,8 @@ FoundGridEdges find_grid_edges(opencl::Context& context, const matching::Variant
 
 reference::ReferenceEdges expected_grid_edges(const Image& image, const EdgesConfig& config,
                                               const PixelMask& mask = {}) {
-  return reference::outside_mask(paper::grid_edges(image.view(), config, static_cast<double>(kGridThreshold)), mask,
-                                 config.margin);
+  return reference::outside_mask(paper::grid_edges(image.view(), config, static_cast<double>(kGridEdgesThreshold)),
+                                 mask, config.margin);
 }
 
 /// Every edge of either set has one of the other within 1e-3 px, apart from one in a thousand, which rounding decides;
