@@ -7,6 +7,10 @@
 // Out: edges in blocks of max_edges floats, sorted by the row of the pixel that they lie in, then by x.
 // Reference: host/paper/grid_edges.cpp.
 
+#ifndef STRIP_ROWS
+#define STRIP_ROWS 32
+#endif
+
 #define FILTERS 4           // orders of derivation along an axis, 0 to 3
 #define PAIRS (RADIUS + 1)  // of pixels, of a filter
 #define GRID_DERIVATIVES 9  // ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy
@@ -142,7 +146,7 @@ static inline void take_directions(Maxima* maxima, global const float* windows, 
   maxima->count = 0;
 }
 
-// Edges of strip_rows grid rows per work-item.
+// Edges of STRIP_ROWS grid rows per work-item; two more are filtered twice.
 //
 // scratch: kGridLines lines of `line` floats per work-item, zero where nothing was written yet; hidden: height x width
 // bytes, not 0 where there are no edges, read if `masked`.
@@ -151,13 +155,13 @@ static inline void take_directions(Maxima* maxima, global const float* windows, 
 // many of either.
 // LONG: one pass over a strip, whose sums stay in the cache from row to row.
 kernel IN_VECTORS void grid_edges_strips(const DetectionArguments args, global const float* threshold_of_frame,
-                                         const int strip_rows, global const float* plane, global const float* taps,
+                                         global const float* plane, global const float* taps,
                                          global const uchar* hidden, const int masked, global float* scratch,
                                          const int line, global float* found, global int* counts) {
   const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
   const float threshold = threshold_of_frame[0];
   const int strip = (int)get_global_id(0);
-  const int first_row = strip * strip_rows, last_row = min(first_row + strip_rows, 2 * height);
+  const int first_row = strip * STRIP_ROWS, last_row = min(first_row + STRIP_ROWS, 2 * height);
   if (first_row >= last_row) return;
   // Pixels inside the margin, and one to either side.
   const int columns = width - 2 * margin > 0 ? width - 2 * margin + 2 : 0;

@@ -1,8 +1,6 @@
 /// \file candidates.cpp  One launch filters all rows of a list; the variant decides how many work-items share a row.
 #include "device/candidates.hpp"
 
-#include <type_traits>
-
 #include "common/layouts.hpp"
 
 namespace quadedge::stages {
@@ -21,15 +19,13 @@ cl::Program candidates_program(opencl::Context& context, const opencl::Variant& 
   return context.program(variant.files, defines);
 }
 
-template <class Value>
-FiltersOn<Value>::FiltersOn(opencl::Context& context, const opencl::VariantChoice& variants)
-    : Stage(context, std::is_same_v<Value, cl_char> ? "candidate_filters" : "paper_filters", variants) {
+CandidateFilters::CandidateFilters(opencl::Context& context, const opencl::VariantChoice& variants)
+    : Stage(context, "candidate_filters", variants) {
   kernel_ = {context, variant_.program(context), "candidate_filters"};
 }
 
-template <class Value>
-void FiltersOn<Value>::run(const DescribedBy<Value>& a, const DescribedBy<Value>& b, const FilterLimits& limits,
-                           int row_step, bool all_scores, DeviceCandidates& candidates) {
+void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step,
+                           bool all_scores, DeviceCandidates& candidates) {
   begin();
   candidates.alive.ensure(context_, static_cast<std::size_t>(candidates.rows));
   const FilterArguments arguments{candidates.rows, row_step, candidates.capacity, all_scores ? 1 : 0, limits};
@@ -38,7 +34,23 @@ void FiltersOn<Value>::run(const DescribedBy<Value>& a, const DescribedBy<Value>
           candidates.state, candidates.alive);
 }
 
-template class FiltersOn<cl_char>;
-template class FiltersOn<cl_float>;
+PaperFilters::PaperFilters(opencl::Context& context, const opencl::VariantChoice& variants)
+    : Stage(context, "paper_filters", variants), unused_(context, 1) {
+  const auto program = variant_.program(context);
+  ncc_ = {context, program, "paper_ncc"};
+  decide_ = {context, program, "candidate_filters"};
+}
+
+void PaperFilters::run(const PaperDescribedEdges& a, const PaperDescribedEdges& b, const FilterLimits& limits,
+                       int row_step, bool all_scores, DeviceCandidates& candidates) {
+  begin();
+  candidates.alive.ensure(context_, static_cast<std::size_t>(candidates.rows));
+  const FilterArguments arguments{candidates.rows, row_step, candidates.capacity, all_scores ? 1 : 0, limits};
+  const opencl::Range rows = over(static_cast<std::size_t>(candidates.rows), local_size_);
+  ncc_(rows, arguments, candidates.first, candidates.target, a.patches, a.number_of, b.patches, b.number_of,
+       candidates.ncc);
+  decide_(rows, arguments, candidates.first, candidates.target, unused_, a.number_of, a.sift, unused_, b.number_of,
+          b.sift, candidates.ncc, candidates.sift, candidates.state, candidates.alive);
+}
 
 }  // namespace quadedge::stages

@@ -66,39 +66,59 @@ enum class Turns { full, half };
 /// The program of a stage that finds candidates.
 cl::Program candidates_program(opencl::Context& context, const opencl::Variant& variant, Turns turns);
 
-/// Descriptions of a set of edges. `Value`: of the patches, cl_char as in host/reference/edge_descriptions.hpp or
-/// cl_float as in kernels/paper_patches.cl.
-template <class Value>
-struct DescribedBy {
-  const opencl::Buffer<Value>& patches;
+/// Descriptions of a set of edges.
+struct DescribedEdges {
+  const opencl::Buffer<cl_char>& patches;  ///< see host/reference/edge_descriptions.hpp
   const opencl::Buffer<cl_int>& patch_of;  ///< number of the patches of each edge
-  /// See host/reference/edge_descriptions.hpp; in the order of the edges, with the paper's patches in theirs.
-  const opencl::Buffer<cl_uchar>& sift;
+  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/edge_descriptions.hpp
 };
 
-using DescribedEdges = DescribedBy<cl_char>;
-using PaperDescribedEdges = DescribedBy<cl_float>;
-
 /// Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists.
-/// Variants of the stage "candidate_filters", with the paper's patches "paper_filters".
-template <class Value>
-class FiltersOn : private Stage {
+/// Variants of the stage "candidate_filters".
+class CandidateFilters : private Stage {
  public:
-  FiltersOn(opencl::Context& context, const opencl::VariantChoice& variants);
+  CandidateFilters(opencl::Context& context, const opencl::VariantChoice& variants);
 
   /// Fills ncc, sift and state of every candidate. Row r belongs to edge r * row_step of the first set.
   /// `all_scores`: computes both scores of every candidate, even where one of them decides (for a tap).
-  void run(const DescribedBy<Value>& a, const DescribedBy<Value>& b, const FilterLimits& limits, int row_step,
-           bool all_scores, DeviceCandidates& candidates);
+  void run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step, bool all_scores,
+           DeviceCandidates& candidates);
 
  private:
-  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const Value* patches_a,
-                      const cl_int* patch_of_a, const cl_uchar* sift_a, const Value* patches_b,
+  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_char* patches_a,
+                      const cl_int* patch_of_a, const cl_uchar* sift_a, const cl_char* patches_b,
                       const cl_int* patch_of_b, const cl_uchar* sift_b, cl_float* ncc, cl_float* sift, cl_uchar* state,
                       cl_int* alive)>
       kernel_;
 };
-using CandidateFilters = FiltersOn<cl_char>;
-using PaperFilters = FiltersOn<cl_float>;
+
+/// Descriptions of a set of edges by the paper's method.
+struct PaperDescribedEdges {
+  const opencl::Buffer<cl_float>& patches;  ///< kPaperPatchFloats of kernels/layouts.cl each
+  const opencl::Buffer<cl_int>& number_of;  ///< of each edge: the number of its patches and of its descriptor
+  const opencl::Buffer<cl_uchar>& sift;     ///< in the order of the patches, see host/reference/edge_descriptions.hpp
+};
+
+/// The same filters with the paper's patches.
+/// Variants of the stage "paper_filters".
+class PaperFilters : private Stage {
+ public:
+  PaperFilters(opencl::Context& context, const opencl::VariantChoice& variants);
+
+  /// As CandidateFilters::run().
+  void run(const PaperDescribedEdges& a, const PaperDescribedEdges& b, const FilterLimits& limits, int row_step,
+           bool all_scores, DeviceCandidates& candidates);
+
+ private:
+  opencl::Buffer<cl_char> unused_;  ///< in place of the patches that candidate_filters.cl does not read
+  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_float* patches_a,
+                      const cl_int* patch_of_a, const cl_float* patches_b, const cl_int* patch_of_b, cl_float* ncc)>
+      ncc_;
+  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_char* patches_a,
+                      const cl_int* patch_of_a, const cl_uchar* sift_a, const cl_char* patches_b,
+                      const cl_int* patch_of_b, const cl_uchar* sift_b, cl_float* ncc, cl_float* sift, cl_uchar* state,
+                      cl_int* alive)>
+      decide_;
+};
 
 }  // namespace quadedge::stages

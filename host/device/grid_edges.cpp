@@ -1,6 +1,7 @@
 /// \file grid_edges.cpp  Strips of grid rows per work-item, then the edges of each pixel row in order.
 #include "device/grid_edges.hpp"
 
+#include <string>
 #include <vector>
 
 #include "common/images.hpp"
@@ -8,8 +9,6 @@
 
 namespace quadedge::stages {
 namespace {
-
-constexpr int kGridStripRows = 32;  // of the grid, that one work-item filters: two more are computed twice
 
 /// The weights as kernels/grid_edges.cl describes them.
 std::vector<cl_float> grid_taps(double sigma) {
@@ -35,16 +34,16 @@ GridEdges::GridEdges(opencl::Context& context, int width, int height, const Edge
       width_(width),
       height_(height),
       config_(config),
+      strip_rows_(std::stoi(variant_.defines.at("STRIP_ROWS"))),
       line_(kStripLineFront + round_up(width + 3 * kernel_radius(config.sigma) + 48, 16)),
       scan_(context, variants) {
-  const cl::Program program = context.program(variant_.files, gradient_defines(config));
+  const cl::Program program = variant_.program(context, gradient_defines(config));
   strips_ = {context, program, "grid_edges_strips"};
   count_ = {context, program, "grid_edges_count"};
   merge_ = {context, program, "grid_edges_merge"};
   taps_.write(context, grid_taps(config.sigma));
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  const auto strips = static_cast<std::size_t>((2 * height + kGridStripRows - 1) / kGridStripRows);
-  const std::size_t floats = strips * kGridLines * static_cast<std::size_t>(line_) + kStripLineFront;
+  const std::size_t floats = strips() * kGridLines * static_cast<std::size_t>(line_) + kStripLineFront;
   scratch_.ensure(context, floats);
   scratch_.fill(0.0F, floats);
   found_.ensure(context, 16 * columns * rows);
@@ -62,10 +61,9 @@ void GridEdges::run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& th
   begin();
   edges.reserve(context_, config_.max_edges);
   const DetectionArguments arguments{width_, height_, plane.stride(), config_.margin, 0.0F, config_.max_edges};
-  const auto strips = static_cast<std::size_t>((2 * height_ + kGridStripRows - 1) / kGridStripRows);
   const auto rows = static_cast<std::size_t>(height_);
-  strips_(over(strips), arguments, threshold, kGridStripRows, plane.pixels(), taps_, hidden_, masked_ ? 1 : 0, scratch_,
-          line_, found_, counts_);
+  strips_(over(strips()), arguments, threshold, plane.pixels(), taps_, hidden_, masked_ ? 1 : 0, scratch_, line_,
+          found_, counts_);
   count_(over(rows), height_, counts_, of_rows_);
   scan_.run(of_rows_, height_, config_.max_edges, edges.row_first, edges.count);
   merge_(over(rows), arguments, found_, counts_, edges.row_first, edges.packed);

@@ -27,17 +27,20 @@ class GridEdges : private Stage {
   void run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
 
  private:
+  std::size_t strips() const { return static_cast<std::size_t>((2 * height_ + strip_rows_ - 1) / strip_rows_); }
+
   int width_, height_;
   EdgesConfig config_;
-  int line_;  ///< floats of a line of scratch memory
+  int strip_rows_;  ///< of the grid, per work-item
+  int line_;        ///< floats of a line of scratch memory
   bool masked_ = false;
   Scan scan_;
   opencl::Buffer<cl_float> taps_, scratch_, found_;
   opencl::Buffer<cl_int> counts_, of_rows_;
   opencl::Buffer<cl_uchar> hidden_;
-  opencl::Kernel<void(DetectionArguments args, const cl_float* threshold_of_frame, cl_int strip_rows,
-                      const cl_float* plane, const cl_float* taps, const cl_uchar* hidden, cl_int masked,
-                      cl_float* scratch, cl_int line, cl_float* found, cl_int* counts)>
+  opencl::Kernel<void(DetectionArguments args, const cl_float* threshold_of_frame, const cl_float* plane,
+                      const cl_float* taps, const cl_uchar* hidden, cl_int masked, cl_float* scratch, cl_int line,
+                      cl_float* found, cl_int* counts)>
       strips_;
   opencl::Kernel<void(cl_int height, const cl_int* counts, cl_int* of_rows)> count_;
   opencl::Kernel<void(DetectionArguments args, const cl_float* found, const cl_int* counts, const cl_int* row_first,

@@ -30,7 +30,8 @@ Described describe(const ImageView& image, const Picture& picture, const EdgePos
 float line_angle_between(float a, float b);
 
 /// NCC, SIFT distance and the decisions of the four filters on them for every candidate. Rows are edges of `a`, targets
-/// edges of `b`. \param all_scores SIFT distances also of candidates that the NCC rejects, for a tap
+/// edges of `b`. Plain C++ twin of kernels/paper_filters.cl. \param all_scores SIFT distances also of candidates that
+/// the NCC rejects, for a tap
 reference::CandidateScores judge(const reference::Candidates& candidates, const Described& a, const Described& b,
                                  const FilterLimits& limits, bool all_scores);
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file grid_edges.hpp  Third-order edges as published: two samples per pixel and axis, direction at the cell that
 /// won, position and strength at the peak of the parabola. After the code of the paper's reference [8]; the paper
-/// prints no constant of it.
+/// prints no constant of it. Plain C++ twin of kernels/grid_edges.cl.
 
 #include "quadedge/config.hpp"
 #include "quadedge/image.hpp"

@@ -1,4 +1,4 @@
-/// \file test_paper_candidates.cpp  Candidates of the paper's method and the filters on them on devices, against
+/// \file test_paper_filters.cpp  Candidates of the paper's method and the filters on them on devices, against
 /// host/paper/cascades.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -69,8 +69,8 @@ StereoConfig paper_stereo_config() {
   return config;
 }
 
-/// In the layout of kernels/paper_patches.cl.
-std::vector<cl_float> packed_patches(const std::vector<paper::SidePatches>& patches) {
+/// In the layout of kPaperPatchFloats in kernels/layouts.cl.
+std::vector<cl_float> patches_for_filters(const std::vector<paper::SidePatches>& patches) {
   std::vector<cl_float> packed;
   for (const auto& edge : patches) {
     for (std::size_t row = 0; row < kPaperPatchRows; ++row)
@@ -84,13 +84,13 @@ std::vector<cl_float> packed_patches(const std::vector<paper::SidePatches>& patc
 }
 
 /// A set of described edges on a device.
-struct UploadedDescriptions {
+struct DescriptionsForFilters {
   opencl::Buffer<cl_float> patches;
   opencl::Buffer<cl_int> itself;
   opencl::Buffer<cl_uchar> sift;
 
-  UploadedDescriptions(opencl::Context& context, const paper::Described& described) {
-    patches.write(context, packed_patches(described.patches));
+  DescriptionsForFilters(opencl::Context& context, const paper::Described& described) {
+    patches.write(context, patches_for_filters(described.patches));
     std::vector<cl_int> numbers(described.patches.size());
     std::iota(numbers.begin(), numbers.end(), 0);
     itself.write(context, numbers);
@@ -107,7 +107,7 @@ void check_paper_filters(const reference::Candidates& lists, const paper::Descri
   for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
     INFO(name);
     stages::PaperFilters stage(context, variants);
-    const UploadedDescriptions on_a(context, a), on_b(context, b);
+    const DescriptionsForFilters on_a(context, a), on_b(context, b);
     const std::size_t size = lists.target.size();
     std::vector<reference::CandidateScores> runs;
     std::vector<cl_int> alive;
@@ -206,7 +206,7 @@ TEST_CASE("paper filters: flat patches are similar to none", "[paper][filters][m
   for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
     INFO(name);
     stages::PaperFilters stage(context, variants);
-    const UploadedDescriptions on_a(context, flat), on_b(context, other);
+    const DescriptionsForFilters on_a(context, flat), on_b(context, other);
     auto device = upload(context, lists);
     stage.run(on_a.edges(), on_b.edges(), {0.6F, 500, 0.9F, 0.4F, 5, 4}, 1, true, device);
     CHECK(device.ncc.read(2) == std::vector<float>{-1, -1});
