@@ -60,7 +60,10 @@ int main(int count, char** arguments) {
     options.kernel_folder = kernels;
     options.profiling = true;
     Device device("auto", options);
-    const auto frontend = frontend::make_frontend(rig, device, config_with(number));
+    const Config config = config_with(number);
+    Config paper = read_preset("paper");
+    paper.variants = config.variants;
+    for (const Config& each : {config, paper}) frontend::make_frontend(rig, device, each);
     stages::long_loop_difference(*device.context());
     for (const auto& program : device.context()->programs()) programs.insert(program);
   }

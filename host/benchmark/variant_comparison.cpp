@@ -42,6 +42,7 @@ struct Candidate {
   std::unique_ptr<frontend::Frontend> frontend;
   frontend::FrontendOutput output;
   std::vector<double> times;
+  bool is_paper = false;  ///< the front end is that of the paper's method
 };
 
 /// Whether further measurements of a variant would only confirm that it is slower.
@@ -58,6 +59,11 @@ constexpr double kPaperSiftMax = 500;
 
 /// The configuration with a variant, modified so that it runs the stage.
 Config with_variant(Config config, const std::string& stage, const std::string& name) {
+  if (stage == "grid_edges" || stage.rfind("paper_", 0) == 0) {
+    Config paper = read_preset("paper");
+    paper.variants = config.variants;
+    config = paper;
+  }
   if (stage == "sift" && config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;
   if (stage == "coarse_disparity") config.stereo.coarse_ties = 0;
   if (stage == "temporal_candidates" || stage == "temporal_quads") config.variants[kGuidedMatch] = "lists";
@@ -75,8 +81,10 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
     candidate.frontend->match(first, frontend::search_without_motion(first.edges, input.config.temporal, coarse));
   };
   match(false);
-  if (stage != kGuidedMatch) match(true);
-  candidate.frontend->match_globally(first, input.config.temporal.global_edges);
+  if (!candidate.is_paper) {
+    if (stage != kGuidedMatch) match(true);
+    candidate.frontend->match_globally(first, input.config.temporal.global_edges);
+  }
   const auto names = booked_as(stage);
   double sum = kNaN;
   for (const auto& row : context.take_profile()) {
@@ -131,7 +139,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     if (row.is_default) by_default = result.variants.size();
     try {
       const Config config = with_variant(input.config, stage, variant.name);
-      const SelfTestResult test = self_test(*candidate.device, config.variants);
+      const SelfTestResult test = self_test(*candidate.device, config.variants, config.method);
       row.agrees = test.passed();
       if (!row.agrees) {
         row.why = "differs from the reference at " + test.stage + ": " + test.difference;
@@ -139,6 +147,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
         candidate.rows = std::make_unique<rig::RectificationFollower>(input.rig, config.stereo);
         candidate.frontend = frontend::make_frontend(input.rig, *candidate.device, config);
         candidate.frontend->correct_rows(candidate.rows.get());
+        candidate.is_paper = config.is_paper();
         candidate.output = run_frontend(*candidate.frontend, input.first.view(), input.second.view(), config);
       }
     } catch (const DeviceError& error) {

@@ -23,13 +23,15 @@ using report::Json;
 constexpr const char* kContent = "quadedge self-test";
 
 /// Stands for device, driver, kernels and program.
-std::string fingerprint(const DeviceInfo& device, const std::map<std::string, std::string>& variants) {
+std::string fingerprint(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
+                        const std::string& method) {
   data::ContentHash hash;
   for (const auto& text : {device.platform, device.name, device.driver, device.opencl, std::string(QUADEDGE_VERSION),
                            std::string(report::source_commit())})
     hash.add(text);
   for (const auto& [file, text] : opencl::embedded_kernels()) hash.add(file + text);
   for (const auto& [stage, name] : variants) hash.add(stage + "=" + name);
+  hash.add(method);
   return hash.hex();
 }
 
@@ -49,21 +51,21 @@ std::string heading(const std::string& section) {
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// The verdict on a device; not cached for kernels from a folder, which are being worked on.
-SelfTestResult verdict(Device& device, const std::map<std::string, std::string>& variants, bool own_kernels) {
+SelfTestResult verdict(Device& device, const Config& config, bool own_kernels) {
   if (device.is_reference()) return {};
-  const auto kept = own_kernels ? kept_verdict(device.info(), variants) : std::nullopt;
+  const auto kept = own_kernels ? kept_verdict(device.info(), config.variants, config.method) : std::nullopt;
   if (kept) return *kept;
-  const SelfTestResult result = self_test(device, variants);
-  if (own_kernels) keep_verdict(device.info(), variants, result);
+  const SelfTestResult result = self_test(device, config.variants, config.method);
+  if (own_kernels) keep_verdict(device.info(), config.variants, config.method, result);
   return result;
 }
 
 }  // namespace
 
-std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device,
-                                           const std::map<std::string, std::string>& variants) {
+std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
+                                           const std::string& method) {
   if (data::cache_folder().empty()) return std::nullopt;
-  const std::string key = fingerprint(device, variants);
+  const std::string key = fingerprint(device, variants, method);
   std::ifstream stream(verdict_path(key));
   if (!stream) return std::nullopt;
   const Json json = Json::parse(stream, nullptr, false);
@@ -74,9 +76,9 @@ std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device,
 }
 
 void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
-                  const SelfTestResult& result) {
+                  const std::string& method, const SelfTestResult& result) {
   if (data::cache_folder().empty()) return;
-  const std::string key = fingerprint(device, variants);
+  const std::string key = fingerprint(device, variants, method);
   const Json json = {{"content", kContent},   {"key", key},
                      {"device", device.name}, {"driver", device.driver},
                      {"stage", result.stage}, {"difference", result.difference},
@@ -133,7 +135,7 @@ std::vector<std::string> MethodOptions::choices() const {
 
 Device MethodOptions::open_device(const std::string& choice, const DeviceOptions& options, SelfTestResult* test) const {
   Device device(choice, options);
-  const SelfTestResult result = verdict(device, config().variants, kernels_.empty());
+  const SelfTestResult result = verdict(device, config(), kernels_.empty());
   if (test != nullptr) *test = result;
   if (!result.passed() && !trusts_) {
     throw DeviceError(device.info().name + " (" + device.info().platform + ", " + device.info().driver +

@@ -79,8 +79,9 @@ class Collector : public Tap {
       default: break;
     }
   }
-  void stereo(const StereoEdges& edges) override {
-    auto& rows = of("stereo_mutual");
+  void stereo(const StereoEdges& edges) override { add_stereo("stereo_mutual", edges); }
+  void add_stereo(const std::string& stage, const StereoEdges& edges) {
+    auto& rows = of(stage);
     for (std::size_t i = 0; i < edges.size(); ++i) {
       rows.push_back({place(edges.left_x[i]), place(edges.left_y[i]), place(edges.right_x[i]), place(edges.right_y[i]),
                       units(static_cast<double>(edges.ncc[i]), kSimilarities)});
@@ -266,6 +267,21 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
   return std::move(collector.stages);
 }
 
+std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Device& device,
+                                            const std::map<std::string, std::string>& variants) {
+  Collector collector;
+  Config config = read_preset("paper");
+  config.stereo.max_disparity = sequence.max_disparity;
+  config.variants = variants;
+  const auto frontend = make_frontend(sequence.rig, device, config);
+  const auto base = frontend->process({0, sequence.left[0].view(), sequence.right[0].view()});
+  frontend->process({50'000'000, sequence.left[1].view(), sequence.right[1].view()});
+  collector.add_edges("grid_edges", frontend->edges(Side::left));
+  collector.add_stereo("paper_patches, paper_filters, paper_refinement, paper_clusters", base->edges);
+  collector.add_quads("paper_quads", frontend->match(*base, {}), base->edges);
+  return std::move(collector.stages);
+}
+
 std::string difference(const StageRows& found, const StageRows& expected, double allowed) {
   const Row *first_wrong = nullptr, *first_missing = nullptr;
   const std::size_t wrong = missing(found.rows, expected.rows, first_wrong),
@@ -287,9 +303,11 @@ FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const 
   output.first = frontend.process(first);
   const auto now = frontend.process(second);
   output.previous = output.first->edges;
-  output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
   output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
-  output.global_matches = frontend.match_globally(*output.first, config.temporal.global_edges);
+  if (!config.is_paper()) {  // which has this search only
+    output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
+    output.global_matches = frontend.match_globally(*output.first, config.temporal.global_edges);
+  }
   output.left_edges = frontend.edges(Side::left);
   output.right_edges = frontend.edges(Side::right);
   output.current = now->edges;
@@ -338,17 +356,21 @@ class KernelCheck {
 };
 
 /// What the reference finds, computed once.
+template <auto observe>
 const std::vector<frontend::StageRows>& expected_rows() {
   static const std::vector<frontend::StageRows> rows = [] {
     Device reference("reference");
-    return frontend::observe_stages(frontend::small_sequence(), reference, {});
+    return observe(frontend::small_sequence(), reference, {});
   }();
   return rows;
 }
 
 }  // namespace
 
-SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
+namespace {
+
+template <auto observe>
+SelfTestResult self_test_by(Device& device, const std::map<std::string, std::string>& variants) {
   constexpr double kAllowed = 0.02;  // fraction of the rows: different rounding changes decisions near a limit
   const auto use = device.use();
   const KernelCheck kernels(device.context());
@@ -357,14 +379,22 @@ SelfTestResult self_test(Device& device, const std::map<std::string, std::string
     const std::string difference = stages::long_loop_difference(*device.context());
     if (!difference.empty()) return {"long_loop", difference + kernels.text()};
   }
-  auto computed = std::async(std::launch::async, [] { return &expected_rows(); });  // while kernels are built
-  const auto found = frontend::observe_stages(frontend::small_sequence(), device, variants);
+  auto computed = std::async(std::launch::async, [] { return &expected_rows<observe>(); });  // while kernels are built
+  const auto found = observe(frontend::small_sequence(), device, variants);
   const auto& expected = *computed.get();
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const std::string difference = frontend::difference(found.at(i), expected[i], kAllowed);
     if (!difference.empty()) return {expected[i].stage, difference + kernels.text()};
   }
   return {};
+}
+
+}  // namespace
+
+SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants,
+                         const std::string& method) {
+  return method == "paper" ? self_test_by<frontend::observe_paper_stages>(device, variants)
+                           : self_test_by<frontend::observe_stages>(device, variants);
 }
 
 }  // namespace quadedge

@@ -41,6 +41,10 @@ struct StageRows {
 std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& device,
                                       const std::map<std::string, std::string>& variants);
 
+/// The same for the stages of the paper's method, in the order of its cascades.
+std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Device& device,
+                                            const std::map<std::string, std::string>& variants);
+
 /// Describes how the results of a stage differ; empty if they agree except for a fraction `allowed` of either side's
 /// rows. The reference computes in double precision, so that decisions near a limit may differ.
 std::string difference(const StageRows& found, const StageRows& expected, double allowed);
@@ -50,8 +54,9 @@ struct FrontendOutput {
   FrameEdgesHandle first;  ///< those of the first frame
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
-  TemporalMatches coarse, quads;   ///< of a coarse search with its strict limits, and of a guided search
-  TemporalMatches global_matches;  ///< between edges anywhere in the left image
+  TemporalMatches quads;                   ///< of a guided search
+  TemporalMatches coarse, global_matches;  ///< of a search with strict limits, and anywhere in the left image; none in
+                                           ///< the paper's method
 };
 
 /// Processes both frames and matches them by both kinds of search, predicting no motion.

@@ -51,6 +51,13 @@ reference::StereoClusters on_lines(const stages::DevicePaperClusters::Lists& lis
 
 }  // namespace
 
+PaperDeviceFrameEdges::PaperDeviceFrameEdges(const StereoRig& calibration) {
+  left.picture.width = calibration.left.width;
+  left.picture.height = calibration.left.height;
+  right.picture.width = calibration.right.width;
+  right.picture.height = calibration.right.height;
+}
+
 PaperDeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera,
                                     const UndistortionTable& table, const PixelMask& hidden, int max_value,
                                     const Config& config)
@@ -118,7 +125,7 @@ FrameEdges& PaperDeviceFrontend::detect(const StereoFrame& frame) {
   counts_.edges_left = left_.edges.host_count;
   counts_.edges_right = right_.edges.host_count;
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
-  return frames_.next();
+  return frames_.next(calibration_);
 }
 
 void PaperDeviceFrontend::find_stereo_edges(FrameEdges& current, paper::StereoMatching* all) {

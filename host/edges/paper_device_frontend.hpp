@@ -26,6 +26,7 @@ struct PaperSide {
 
 /// The edges of a frame with what a later frame compares of them.
 struct PaperDeviceFrameEdges : FrameEdges {
+  explicit PaperDeviceFrameEdges(const StereoRig& calibration);
   PaperSide left, right;
   stages::DevicePositions positions;  ///< lists: left, right
 
