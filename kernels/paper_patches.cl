@@ -1,7 +1,7 @@
 // paper_patches.cl: the picture that the paper's method samples, and both side patches of every edge.
 //
-// In: image (width x height, packed), edges (x, y [px], direction [rad]). Out: the records of paper_sides.cl, height x (width + 1);
-// kPaperPatchFloats per edge, see layouts.cl.
+// In: image (width x height, packed), edges (x, y [px], direction [rad]). Out: the records of paper_sides.cl, height x
+// (width + 1); kPaperPatchFloats per edge, see layouts.cl.
 // Needs direction.cl and paper_sides.cl.
 // Reference: host/paper/side_patches.cpp.
 
