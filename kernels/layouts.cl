@@ -270,7 +270,7 @@ typedef struct {
   EpipolarGeometry geometry;        // for a move along a line
 } PaperRefinementArguments;
 
-// paper_clusters.cl. Blocks of `capacity`: refined positions x, y; of clusters x, y, direction and similarity as floats,
+// paper_clusters.cl. Blocks of `capacity`: refined positions x, y; of clusters x, y, direction, similarity as floats,
 // the first member and the number of members as ints.
 typedef struct {
   PackedPositions moving;  // the candidates

@@ -156,7 +156,7 @@ kernel IN_VECTORS void paper_similarity(const PaperSimilarityArguments args, glo
   const int begin = first[i], end = begin + count[i];
   int best = -1;
   if (begin < end) {
-    const Picture picture = {(global const uint4*)records, args.width, args.height};
+    const Picture picture = {records, args.width, args.height};
     float16 left[kPaperPatchRows], right[kPaperPatchRows];
     const float2 left_norms = load_sides(patches, i, left);
     float highest = args.ncc_min;

@@ -1,7 +1,7 @@
 // paper_refinement.cl: refines the alive candidates of every row, along the epipolar line in stereo, freely in time.
 //
 // Needs direction.cl, epipolar.cl and paper_sides.cl. In: both pictures (paper_patches.cl), edges, candidate lists;
-// with both_sides = 0 also the patches of both sets of edges. Out: x and y [px] of every alive candidate, in two blocks.
+// with both_sides = 0 also the patches of both. Out: x and y [px] of every alive candidate, in two blocks.
 // Gauss-Newton with Huber weights on the differences of mean-free patches. Sums are in single precision: rounding moves
 // a result by less than the tolerance of the steps.
 // One work-item = one row.
@@ -40,18 +40,20 @@ typedef struct {
   float along2, both, across2, pull_along, pull_across, squares;
 } Equations;
 
+// Tilted: the axis is not parallel to x, or the move is free. Clamped: see read_row().
 INLINED Equations equations_at(const Picture picture, const Samples* at, const Goal* goal, const float axis_x,
-                               const float axis_y, const float huber, const int is_free) {
+                               const float axis_y, const float huber, const int is_free, const int tilted,
+                               const int clamped) {
   float16 seen[kPaperPatchRows], along[kPaperPatchRows], across[kPaperPatchRows];
   float16 seen_sum = 0.0f, along_sum = 0.0f, across_sum = 0.0f;
   const float unit_x = axis_x * PER_SLOPE_UNIT, unit_y = axis_y * PER_SLOPE_UNIT;
 #pragma unroll
   for (int i = 0; i < kPaperPatchRows; ++i) {
-    const RowSamples row = read_row(picture, at, i);
+    const RowSamples row = read_row(picture, at, i, clamped);
     seen[i] = grey_of(&row);
     const float16 slope_x = INTERPOLATED(SLOPE_X_OF, &row);
     along[i] = slope_x * unit_x;
-    if (is_free || axis_y != 0.0f) {
+    if (tilted) {
       const float16 slope_y = INTERPOLATED(SLOPE_Y_OF, &row);
       along[i] += slope_y * unit_y;
       across[i] = slope_y * unit_x - slope_x * unit_y;
@@ -95,7 +97,13 @@ INLINED Move refine(const PaperRefinementArguments* args, const Picture picture,
   Move move = {0.0f, 0.0f, 0.0f};
   for (int step = 0; step < args->steps; ++step) {
     const Samples at = samples_beside(picture, x + move.x, y + move.y, cosine, sine, args->offset);
-    Equations sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free);
+    Equations sums;
+    if (!at.inside)
+      sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 1, 1);
+    else if (is_free || axis_y != 0.0f)
+      sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 1, 0);
+    else
+      sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 0, 0);
     float along, across = 0.0f;
     if (is_free) {
       move.mean_square = sums.squares / goal->samples;
@@ -141,8 +149,8 @@ kernel IN_VECTORS void paper_refine_stereo(const PaperRefinementArguments args, 
   int c = begin;
   while (c < end && state[c] != kCandidateAlive) ++c;
   if (c >= end) return;
-  const Picture fixed_picture = {(global const uint4*)fixed_records, args.fixed_width, args.fixed_height};
-  const Picture picture = {(global const uint4*)moving_records, args.moving_width, args.moving_height};
+  const Picture fixed_picture = {fixed_records, args.fixed_width, args.fixed_height};
+  const Picture picture = {moving_records, args.moving_width, args.moving_height};
   global const float* edge = fixed_edges + args.fixed.first + i;
   const float x = edge[0], y = edge[args.fixed.stride], direction = edge[2 * args.fixed.stride];
   const EpipolarLine line = epipolar_line(&args.geometry, x, y);
@@ -179,8 +187,8 @@ kernel IN_VECTORS void paper_refine_free(const PaperRefinementArguments args, gl
   int c = begin;
   while (c < end && state[c] != kCandidateAlive) ++c;
   if (c >= end) return;
-  const Picture fixed_picture = {(global const uint4*)fixed_records, args.fixed_width, args.fixed_height};
-  const Picture picture = {(global const uint4*)moving_records, args.moving_width, args.moving_height};
+  const Picture fixed_picture = {fixed_records, args.fixed_width, args.fixed_height};
+  const Picture picture = {moving_records, args.moving_width, args.moving_height};
   global const float* edge = fixed_edges + args.fixed.first + i;
   float cosine;
   float sine = sine_cosine(edge[2 * args.fixed.stride], &cosine);

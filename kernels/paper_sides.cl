@@ -1,43 +1,47 @@
 // paper_sides.cl: samples beside an edge in the paper's method, and similarity of side patches. Functions only.
 // Needs direction.cl.
 //
-// A picture has a record per pixel: its own word, that of the pixel to the right, that below, and that below to the
-// right, border replicated. A word holds the grey value and both slopes as integers, 8 Sobel units per grey value
-// and px. Rows of samples are float16 as in layouts.cl: dark side in the low, bright side in the high half; lanes 7 and
-// 15 repeat a sample.
+// A picture has a record per pixel, and one more per row: its own word, and that of the pixel below, border replicated.
+// A word holds the grey value and both slopes as integers, 8 Sobel units per grey value and px; images of more than 8
+// bits have two of them. Rows of samples are float16 as in layouts.cl: dark side in the low, bright side in the high
+// half; lanes 7 and 15 repeat a sample.
 // Reference: host/paper/side_patches.cpp.
 
 #define BOTH_SIDES(dark, bright) (float16)((float8)(dark), (float8)(bright))
 #define HALVES_SWAPPED(v) (v).s89abcdef01234567
 
 typedef struct {
-  global const uint4* records;
+  global const uint* records;
   int width, height;  // px
 } Picture;
 
 #if MAX_VALUE > 255
-// Two words, 12 bits of the grey value beside the slope along x, the others beside that along y.
-#define RECORD_PARTS 2
+// 12 bits of the grey value beside the slope along x, the others beside that along y.
+#define PIXEL_WORDS 2
 #define GREY_OF(w, v) convert_float16(as_int16(((w)&4095u) | ((v)&4095u) << 12u))
 #define SLOPE_X_OF(w, v) convert_float16(as_int16(w) >> 12)
 #define SLOPE_Y_OF(w, v) convert_float16(as_int16(v) >> 12)
 #else
-#define RECORD_PARTS 1
+#define PIXEL_WORDS 1
 #define GREY_OF(w, v) convert_float16(as_int16((w)&255u))
 #define SLOPE_X_OF(w, v) convert_float16(as_int16((w) << 12u) >> 20)
 #define SLOPE_Y_OF(w, v) convert_float16(as_int16(w) >> 20)
 #endif
 #define PER_SLOPE_UNIT (0.125f * GREY_PER_VALUE)
 
-// Sixteen samples' words of the four corners, from sixteen loads of a whole record.
+// Sixteen samples' words of the four corners.
 typedef struct {
   uint16 a, b, c, d;
 } Corners;
 
+// Sixteen bytes: in images of 8 bits two records, else one.
+typedef struct __attribute__((packed, aligned(8))) {
+  ulong2 words;
+} Records;
 // Pairs of words travel as ulong: compilers take words that are moved one by one apart into sixteen insertions.
-#define RECORD_AT(k) (*(global const ulong2*)((global const uchar*)records + (k)))
+#define RECORD_AT(k) (((global const Records*)((global const uchar*)records + (k)))->words)
 #define FOUR_RECORDS(i, j, k, l) \
-  as_uint16((ulong8)(RECORD_AT(bytes.s##i), RECORD_AT(bytes.s##j), RECORD_AT(bytes.s##k), RECORD_AT(bytes.s##l)))
+  as_uint16((ulong8)(RECORD_AT(OFFSET(i)), RECORD_AT(OFFSET(j)), RECORD_AT(OFFSET(k)), RECORD_AT(OFFSET(l))))
 #define LOW_WORDS(p, q) \
   as_ulong8((uint16)(p.s0, q.s0, p.s1, q.s1, p.s4, q.s4, p.s5, q.s5, p.s8, q.s8, p.s9, q.s9, p.sc, q.sc, p.sd, q.sd))
 #define HIGH_WORDS(p, q) \
@@ -45,14 +49,30 @@ typedef struct {
 #define EVEN_PAIRS(p, q) as_uint16((ulong8)(p.s0, q.s0, p.s2, q.s2, p.s4, q.s4, p.s6, q.s6))
 #define ODD_PAIRS(p, q) as_uint16((ulong8)(p.s1, q.s1, p.s3, q.s3, p.s5, q.s5, p.s7, q.s7))
 
-INLINED Corners corners_at(global const uint4* records, const uint16 bytes) {
+// The four words of sixteen samples' records, first to last.
+typedef struct {
+  uint16 s0, s1, s2, s3;
+} FourWords;
+
+// On these CPUs the way through memory is shorter than taking a vector apart.
+#ifdef __x86_64__
+#define OFFSET(lane) offsets[0x##lane]
+#else
+#define OFFSET(lane) bytes.s##lane
+#endif
+
+INLINED FourWords words_at(global const uint* records, const uint16 bytes) {
+#ifdef __x86_64__
+  volatile uint16 stored = bytes;
+  volatile const uint* offsets = (volatile const uint*)&stored;
+#endif
   const uint16 p = FOUR_RECORDS(0, 4, 8, c), q = FOUR_RECORDS(1, 5, 9, d);
   const uint16 r = FOUR_RECORDS(2, 6, a, e), s = FOUR_RECORDS(3, 7, b, f);
   const ulong8 low_pq = LOW_WORDS(p, q), low_rs = LOW_WORDS(r, s);
   const ulong8 high_pq = HIGH_WORDS(p, q), high_rs = HIGH_WORDS(r, s);
-  const Corners corners = {EVEN_PAIRS(low_pq, low_rs), ODD_PAIRS(low_pq, low_rs), EVEN_PAIRS(high_pq, high_rs),
+  const FourWords words = {EVEN_PAIRS(low_pq, low_rs), ODD_PAIRS(low_pq, low_rs), EVEN_PAIRS(high_pq, high_rs),
                            ODD_PAIRS(high_pq, high_rs)};
-  return corners;
+  return words;
 }
 
 // Where the samples of both patches of an edge lie, relative to a pixel up and left of all of them: those abreast of
@@ -84,7 +104,7 @@ INLINED Samples samples_beside(const Picture picture, const float edge_x, const 
   at.low_y = (float)-base_y;
   at.high_x = (float)(picture.width - 1 - base_x);
   at.high_y = (float)(picture.height - 1 - base_y);
-  at.origin = base_y * picture.width + base_x;
+  at.origin = base_y * (picture.width + 1) + base_x;
   at.inside = base_x >= 0 && base_y >= 0 && base_x + 2 * reach < picture.width && base_y + 2 * reach < picture.height;
   return at;
 }
@@ -95,22 +115,26 @@ typedef struct {
   float16 u, v;
 } RowSamples;
 
-INLINED RowSamples read_row(const Picture picture, const Samples* at, const int row) {
+// \param clamped whether samples may be outside the picture
+INLINED RowSamples read_row(const Picture picture, const Samples* at, const int row, const int clamped) {
   const float along = (float)(row - kPaperPatchRows / 2);
   float16 x = at->x + along * at->cosine, y = at->y + along * at->sine;
-  if (!at->inside) {
+  if (clamped) {
     x = clamp(x, at->low_x, at->high_x);
     y = clamp(y, at->low_y, at->high_y);
   }
   const int16 x0 = convert_int16(x), y0 = convert_int16(y);
-  const uint16 bytes = as_uint16((y0 * picture.width + x0 + at->origin) * (16 * RECORD_PARTS));
+  const uint16 bytes = as_uint16((y0 * (picture.width + 1) + x0 + at->origin) * (8 * PIXEL_WORDS));
+  const FourWords here = words_at(picture.records, bytes);
   RowSamples samples;
-  samples.words = corners_at(picture.records, bytes);
 #if MAX_VALUE > 255
-  samples.more = corners_at(picture.records + 1, bytes);
+  const FourWords right = words_at(picture.records + 4, bytes);
+  const Corners words = {here.s0, right.s0, here.s2, right.s2}, more = {here.s1, right.s1, here.s3, right.s3};
 #else
-  samples.more = samples.words;
+  const Corners words = {here.s0, here.s2, here.s1, here.s3}, more = words;
 #endif
+  samples.words = words;
+  samples.more = more;
   samples.u = x - convert_float16(x0);
   samples.v = y - convert_float16(y0);
   return samples;
@@ -148,7 +172,7 @@ INLINED void cut_sides(const Picture picture, const float x, const float y, cons
                        const float offset, float16* rows) {
   const Samples at = samples_beside(picture, x, y, cosine, sine, offset);
   for (int i = 0; i < kPaperPatchRows; ++i) {
-    const RowSamples row = read_row(picture, &at, i);
+    const RowSamples row = read_row(picture, &at, i, !at.inside);
     rows[i] = grey_of(&row);
   }
   const float16 middle = BOTH_SIDES(rows[kPaperPatchRows / 2].s3, rows[kPaperPatchRows / 2].sb);

@@ -5,23 +5,19 @@ namespace quadedge::stages {
 
 PaperPatches::PaperPatches(opencl::Context& context, int width, int height, const opencl::VariantChoice& variants,
                            int max_value)
-    : Stage(context, "paper_patches", variants), parts_(max_value == kMaxValue8 ? 1 : 2) {
+    : Stage(context, "paper_patches", variants), words_per_record_(2 * bytes_per_pixel(max_value)) {
   picture_.width = width;
   picture_.height = height;
   const auto program = variant_.program(context, image_defines(max_value));
-  words_kernel_ = {context, program, "paper_words"};
-  records_kernel_ = {context, program, "paper_records"};
+  prepare_ = {context, program, "paper_picture"};
   cut_ = {context, program, "paper_patches"};
 }
 
 void PaperPatches::prepare(const opencl::Buffer<cl_uchar>& image) {
   begin();
-  const auto width = static_cast<std::size_t>(picture_.width), height = static_cast<std::size_t>(picture_.height);
-  const std::size_t words = width * height * static_cast<std::size_t>(parts_);
-  words_.ensure(context_, words);
-  picture_.records.ensure(context_, 4 * words);
-  words_kernel_({width, height, local_size_, 1}, image, picture_.width, picture_.height, words_);
-  records_kernel_({width, height, local_size_, 1}, words_, picture_.width, picture_.height, picture_.records);
+  const auto columns = static_cast<std::size_t>(picture_.width) + 1, rows = static_cast<std::size_t>(picture_.height);
+  picture_.records.ensure(context_, columns * rows * words_per_record_);
+  prepare_({columns, rows, local_size_, 1}, image, picture_.width, picture_.height, picture_.records);
 }
 
 void PaperPatches::cut(const PositionsView& edges, double offset, opencl::Buffer<cl_float>& patches) {

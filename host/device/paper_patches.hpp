@@ -7,7 +7,7 @@
 
 namespace quadedge::stages {
 
-/// Grey levels and slopes of an image: records of kernels/paper_sides.cl, 16 bytes per pixel, of more than 8 bits 32.
+/// Grey levels and slopes of an image: records of kernels/paper_sides.cl, 8 bytes per pixel, of more than 8 bits 16.
 struct DevicePicture {
   opencl::Buffer<cl_uint> records;
   int width = 0, height = 0;
@@ -32,11 +32,9 @@ class PaperPatches : private Stage {
   void swap(DevicePicture& picture) noexcept { std::swap(picture_, picture); }
 
  private:
-  int parts_;  ///< of a record, 16 bytes each
+  std::size_t words_per_record_;
   DevicePicture picture_;
-  opencl::Buffer<cl_uint> words_;
-  opencl::Kernel<void(const cl_uchar* bytes, cl_int width, cl_int height, cl_uint* words)> words_kernel_;
-  opencl::Kernel<void(const cl_uint* words, cl_int width, cl_int height, cl_uint* records)> records_kernel_;
+  opencl::Kernel<void(const cl_uchar* bytes, cl_int width, cl_int height, cl_uint* records)> prepare_;
   opencl::Kernel<void(PatchArguments args, const cl_uint* records, const cl_float* positions, cl_float* patches)> cut_;
 };
 
