@@ -76,6 +76,9 @@ FLOAT_CONSTANT kGainMax = 2.0f;
 // represents the cluster. Members that the refinement led to the same position always are; rounding must not choose
 // between them (stereo_clusters.cl).
 FLOAT_CONSTANT kSimilarityTie = 1e-4f;
+// Distances of the members from the centre of a cluster of the paper's method are compared in steps of so many px
+// (paper_clusters.cl).
+FLOAT_CONSTANT kClusterDistanceStep = 1.0f / 64.0f;
 // What a represented member of a cluster falls behind: more than two similarities can differ, so that it represents a
 // cluster only where no member is alive, and no limit of similarity lets that cluster pass.
 FLOAT_CONSTANT kBehindAll = 3.0f;

@@ -50,13 +50,13 @@ typedef struct {
   float x, y;
 } Centre;
 
+// In steps of kClusterDistanceStep: both members of a pair are equally far away, and rounding must not order them.
+static inline float steps_of(const float distance) { return rint(distance / kClusterDistanceStep); }
+
 static inline float distance_from(const Members* all, const Centre centre, const int candidate) {
   const float dx = all->x[candidate] - centre.x, dy = all->y[candidate] - centre.y;
   return sqrt(dx * dx + dy * dy);
 }
-
-// Distances from a centre that differ by less are equal, px: those of two members always are, but for rounding.
-#define SAME_DISTANCE 2e-4f
 
 // Appends the cluster of that number to `members`, as candidates sorted by the distance from the centre, those of equal
 // distance in the order of the list; returns their number.
@@ -75,9 +75,9 @@ static inline int sort_members(const Members* all, const int number, global int*
   centre->y = first_y + sum_y / (float)size;
   for (int k = 1; k < size; ++k) {
     const int candidate = members[k];
-    const float distance = distance_from(all, *centre, candidate);
+    const float steps = steps_of(distance_from(all, *centre, candidate));
     int at = k;
-    for (; at > 0 && distance_from(all, *centre, members[at - 1]) > distance + SAME_DISTANCE; --at)
+    for (; at > 0 && steps_of(distance_from(all, *centre, members[at - 1])) > steps; --at)
       members[at] = members[at - 1];
     members[at] = candidate;
   }

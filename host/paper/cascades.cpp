@@ -25,8 +25,10 @@ Cluster represent(const std::vector<Hypothesis>& hypotheses, std::vector<std::si
     direction +=
         std::exp(-0.5 * std::pow(distance(m) / kClusterSigma, 2)) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
+  // Both members of a pair are equally far away: rounding must not order them.
+  const auto steps_away = [&](std::size_t m) { return std::lround(distance(m) / static_cast<double>(kClusterDistanceStep)); };
   std::stable_sort(members.begin(), members.end(),
-                   [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+                   [&](std::size_t a, std::size_t b) { return steps_away(a) < steps_away(b); });
   Cluster cluster;
   cluster.centre = {static_cast<float>(centroid.x()), static_cast<float>(centroid.y()),
                     static_cast<float>(std::atan2(direction.y(), direction.x()))};
