@@ -41,7 +41,7 @@ typedef struct __attribute__((packed, aligned(8))) {
 // Pairs of words travel as ulong: compilers take words that are moved one by one apart into sixteen insertions.
 #define RECORD_AT(k) (((global const Records*)((global const uchar*)records + (k)))->words)
 #define FOUR_RECORDS(i, j, k, l) \
-  as_uint16((ulong8)(RECORD_AT(OFFSET(i)), RECORD_AT(OFFSET(j)), RECORD_AT(OFFSET(k)), RECORD_AT(OFFSET(l))))
+  as_uint16((ulong8)(RECORD_AT(bytes.s##i), RECORD_AT(bytes.s##j), RECORD_AT(bytes.s##k), RECORD_AT(bytes.s##l)))
 #define LOW_WORDS(p, q) \
   as_ulong8((uint16)(p.s0, q.s0, p.s1, q.s1, p.s4, q.s4, p.s5, q.s5, p.s8, q.s8, p.s9, q.s9, p.sc, q.sc, p.sd, q.sd))
 #define HIGH_WORDS(p, q) \
@@ -54,18 +54,24 @@ typedef struct {
   uint16 s0, s1, s2, s3;
 } FourWords;
 
-// On these CPUs the way through memory is shorter than taking a vector apart.
+// Byte offsets of sixteen samples. On these CPUs the way through memory is shorter than taking a vector apart.
 #ifdef __x86_64__
-#define OFFSET(lane) offsets[0x##lane]
+typedef struct {
+  uint s0, s1, s2, s3, s4, s5, s6, s7, s8, s9, sa, sb, sc, sd, se, sf;
+} Offsets;
+INLINED Offsets offsets_of(const uint16 bytes) {
+  volatile uint16 stored = bytes;
+  volatile const uint* at = (volatile const uint*)&stored;
+  const Offsets offsets = {at[0], at[1], at[2],  at[3],  at[4],  at[5],  at[6],  at[7],
+                           at[8], at[9], at[10], at[11], at[12], at[13], at[14], at[15]};
+  return offsets;
+}
 #else
-#define OFFSET(lane) bytes.s##lane
+typedef uint16 Offsets;
+INLINED Offsets offsets_of(const uint16 bytes) { return bytes; }
 #endif
 
-INLINED FourWords words_at(global const uint* records, const uint16 bytes) {
-#ifdef __x86_64__
-  volatile uint16 stored = bytes;
-  volatile const uint* offsets = (volatile const uint*)&stored;
-#endif
+INLINED FourWords words_at(global const uint* records, const Offsets bytes) {
   const uint16 p = FOUR_RECORDS(0, 4, 8, c), q = FOUR_RECORDS(1, 5, 9, d);
   const uint16 r = FOUR_RECORDS(2, 6, a, e), s = FOUR_RECORDS(3, 7, b, f);
   const ulong8 low_pq = LOW_WORDS(p, q), low_rs = LOW_WORDS(r, s);
@@ -124,7 +130,7 @@ INLINED RowSamples read_row(const Picture picture, const Samples* at, const int 
     y = clamp(y, at->low_y, at->high_y);
   }
   const int16 x0 = convert_int16(x), y0 = convert_int16(y);
-  const uint16 bytes = as_uint16((y0 * (picture.width + 1) + x0 + at->origin) * (8 * PIXEL_WORDS));
+  const Offsets bytes = offsets_of(as_uint16((y0 * (picture.width + 1) + x0 + at->origin) * (8 * PIXEL_WORDS)));
   const FourWords here = words_at(picture.records, bytes);
   RowSamples samples;
 #if MAX_VALUE > 255
