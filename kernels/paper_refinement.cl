@@ -40,16 +40,18 @@ typedef struct {
   float along2, both, across2, pull_along, pull_across, squares;
 } Equations;
 
-// Tilted: the axis is not parallel to x, or the move is free. Clamped: see read_row().
+// Tilted: the axis is not parallel to x, or the move is free. Clamped: see place_rows().
 INLINED Equations equations_at(const Picture picture, const Samples* at, const Goal* goal, const float axis_x,
                                const float axis_y, const float huber, const int is_free, const int tilted,
                                const int clamped) {
   float16 seen[kPaperPatchRows], along[kPaperPatchRows], across[kPaperPatchRows];
   float16 seen_sum = 0.0f, along_sum = 0.0f, across_sum = 0.0f;
   const float unit_x = axis_x * PER_SLOPE_UNIT, unit_y = axis_y * PER_SLOPE_UNIT;
+  Places places;
+  place_rows(picture, at, clamped, &places);
 #pragma unroll
   for (int i = 0; i < kPaperPatchRows; ++i) {
-    const RowSamples row = read_row(picture, at, i, clamped);
+    const RowSamples row = read_row(picture, &places, i);
     seen[i] = grey_of(&row);
     const float16 slope_x = INTERPOLATED(SLOPE_X_OF, &row);
     along[i] = slope_x * unit_x;

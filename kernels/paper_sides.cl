@@ -41,7 +41,7 @@ typedef struct __attribute__((packed, aligned(8))) {
 // Pairs of words travel as ulong: compilers take words that are moved one by one apart into sixteen insertions.
 #define RECORD_AT(k) (((global const Records*)((global const uchar*)records + (k)))->words)
 #define FOUR_RECORDS(i, j, k, l) \
-  as_uint16((ulong8)(RECORD_AT(OFFSET(i)), RECORD_AT(OFFSET(j)), RECORD_AT(OFFSET(k)), RECORD_AT(OFFSET(l))))
+  as_uint16((ulong8)(RECORD_AT(bytes.s##i), RECORD_AT(bytes.s##j), RECORD_AT(bytes.s##k), RECORD_AT(bytes.s##l)))
 #define LOW_WORDS(p, q) \
   as_ulong8((uint16)(p.s0, q.s0, p.s1, q.s1, p.s4, q.s4, p.s5, q.s5, p.s8, q.s8, p.s9, q.s9, p.sc, q.sc, p.sd, q.sd))
 #define HIGH_WORDS(p, q) \
@@ -54,18 +54,12 @@ typedef struct {
   uint16 s0, s1, s2, s3;
 } FourWords;
 
-// On these CPUs the way through memory is shorter than taking a vector apart.
-#ifdef __x86_64__
-#define OFFSET(lane) offsets[0x##lane]
-#else
-#define OFFSET(lane) bytes.s##lane
-#endif
+// Byte offsets of sixteen samples.
+typedef struct {
+  uint s0, s1, s2, s3, s4, s5, s6, s7, s8, s9, sa, sb, sc, sd, se, sf;
+} Offsets;
 
-INLINED FourWords words_at(global const uint* records, const uint16 bytes) {
-#ifdef __x86_64__
-  volatile uint16 stored = bytes;
-  volatile const uint* offsets = (volatile const uint*)&stored;
-#endif
+INLINED FourWords words_at(global const uint* records, const Offsets bytes) {
   const uint16 p = FOUR_RECORDS(0, 4, 8, c), q = FOUR_RECORDS(1, 5, 9, d);
   const uint16 r = FOUR_RECORDS(2, 6, a, e), s = FOUR_RECORDS(3, 7, b, f);
   const ulong8 low_pq = LOW_WORDS(p, q), low_rs = LOW_WORDS(r, s);
@@ -109,22 +103,46 @@ INLINED Samples samples_beside(const Picture picture, const float edge_x, const 
   return at;
 }
 
+// x86-64 takes vectors apart faster through memory than lane by lane, which compilers would choose.
+#ifdef __x86_64__
+#define STORED volatile
+#else
+#define STORED
+#endif
+
+// Where the rows' samples lie: the byte offsets of their records, and the place to the right of and below these.
+typedef struct {
+  STORED uint16 bytes[kPaperPatchRows];
+  float16 u[kPaperPatchRows], v[kPaperPatchRows];
+} Places;
+
+// \param clamped whether samples may be outside the picture
+INLINED void place_rows(const Picture picture, const Samples* at, const int clamped, Places* places) {
+#pragma unroll
+  for (int i = 0; i < kPaperPatchRows; ++i) {
+    const float along = (float)(i - kPaperPatchRows / 2);
+    float16 x = at->x + along * at->cosine, y = at->y + along * at->sine;
+    if (clamped) {
+      x = clamp(x, at->low_x, at->high_x);
+      y = clamp(y, at->low_y, at->high_y);
+    }
+    const int16 x0 = convert_int16(x), y0 = convert_int16(y);
+    places->bytes[i] = as_uint16((y0 * (picture.width + 1) + x0 + at->origin) * (8 * PIXEL_WORDS));
+    places->u[i] = x - convert_float16(x0);
+    places->v[i] = y - convert_float16(y0);
+  }
+}
+
 // One row of samples: the words around them and where they lie between these.
 typedef struct {
   Corners words, more;
   float16 u, v;
 } RowSamples;
 
-// \param clamped whether samples may be outside the picture
-INLINED RowSamples read_row(const Picture picture, const Samples* at, const int row, const int clamped) {
-  const float along = (float)(row - kPaperPatchRows / 2);
-  float16 x = at->x + along * at->cosine, y = at->y + along * at->sine;
-  if (clamped) {
-    x = clamp(x, at->low_x, at->high_x);
-    y = clamp(y, at->low_y, at->high_y);
-  }
-  const int16 x0 = convert_int16(x), y0 = convert_int16(y);
-  const uint16 bytes = as_uint16((y0 * (picture.width + 1) + x0 + at->origin) * (8 * PIXEL_WORDS));
+INLINED RowSamples read_row(const Picture picture, const Places* places, const int row) {
+  STORED const uint* at = (STORED const uint*)&places->bytes[row];
+  const Offsets bytes = {at[0], at[1], at[2],  at[3],  at[4],  at[5],  at[6],  at[7],
+                         at[8], at[9], at[10], at[11], at[12], at[13], at[14], at[15]};
   const FourWords here = words_at(picture.records, bytes);
   RowSamples samples;
 #if MAX_VALUE > 255
@@ -135,8 +153,8 @@ INLINED RowSamples read_row(const Picture picture, const Samples* at, const int 
 #endif
   samples.words = words;
   samples.more = more;
-  samples.u = x - convert_float16(x0);
-  samples.v = y - convert_float16(y0);
+  samples.u = places->u[row];
+  samples.v = places->v[row];
   return samples;
 }
 
@@ -171,8 +189,10 @@ INLINED float16 means_of_sides(const float16 sum) {
 INLINED void cut_sides(const Picture picture, const float x, const float y, const float cosine, const float sine,
                        const float offset, float16* rows) {
   const Samples at = samples_beside(picture, x, y, cosine, sine, offset);
+  Places places;
+  place_rows(picture, &at, !at.inside, &places);
   for (int i = 0; i < kPaperPatchRows; ++i) {
-    const RowSamples row = read_row(picture, &at, i, !at.inside);
+    const RowSamples row = read_row(picture, &places, i);
     rows[i] = grey_of(&row);
   }
   const float16 middle = BOTH_SIDES(rows[kPaperPatchRows / 2].s3, rows[kPaperPatchRows / 2].sb);

@@ -38,7 +38,7 @@ MOST_LINES = {
     "host/rig": 4390,
     "host/scenes": 2980,
     "include": 2240,
-    "kernels": 5920,
+    "kernels": 5940,
     "python": 11510,
     "scripts": 3080,
     "tests": 34650,
