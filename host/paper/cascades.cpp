@@ -26,7 +26,9 @@ Cluster represent(const std::vector<Hypothesis>& hypotheses, std::vector<std::si
         std::exp(-0.5 * std::pow(distance(m) / kClusterSigma, 2)) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
   // Both members of a pair are equally far away: rounding must not order them.
-  const auto steps_away = [&](std::size_t m) { return std::lround(distance(m) / static_cast<double>(kClusterDistanceStep)); };
+  const auto steps_away = [&](std::size_t m) {
+    return std::lround(distance(m) / static_cast<double>(kClusterDistanceStep));
+  };
   std::stable_sort(members.begin(), members.end(),
                    [&](std::size_t a, std::size_t b) { return steps_away(a) < steps_away(b); });
   Cluster cluster;
@@ -260,8 +262,8 @@ Hypothesis refined(const StereoEdgesInView& before, std::size_t i, const SidePat
 
 }  // namespace
 
-reference::Candidates near_previous(const EdgePositionsView& before, const EdgePositionsView& now, int width, int height,
-                                    double radius, double orientation) {
+reference::Candidates near_previous(const EdgePositionsView& before, const EdgePositionsView& now, int width,
+                                    int height, double radius, double orientation) {
   const auto reach = static_cast<float>(radius), most = static_cast<float>(orientation);
   reference::PointIndex index;
   reference::make_point_index(now.x, now.y, width, height, index);
@@ -289,7 +291,8 @@ reference::Candidates near_previous(const EdgePositionsView& before, const EdgeP
 SideMatching match_side(const StereoEdgesInView& before, const StereoEdgesInView& now, const TemporalConfig& config,
                         const RefinementSettings& settings, bool all_scores) {
   SideMatching matching;
-  matching.candidates = near_previous(before.edges, now.edges, now.width, now.height, config.radius, kTemporalOrientation);
+  matching.candidates =
+      near_previous(before.edges, now.edges, now.width, now.height, config.radius, kTemporalOrientation);
   matching.scores =
       judge(matching.candidates, before.described, now.described, temporal_limits(config, {}), all_scores);
   matching.clusters.resize(before.edges.size());

@@ -98,8 +98,8 @@ struct SideMatching {
 
 /// Current edges within `radius` px of the previous position whose direction differs by at most `orientation`, modulo
 /// half a turn [rad]. `width` x `height`: of the current image [px].
-reference::Candidates near_previous(const EdgePositionsView& before, const EdgePositionsView& now, int width, int height,
-                                    double radius, double orientation);
+reference::Candidates near_previous(const EdgePositionsView& before, const EdgePositionsView& now, int width,
+                                    int height, double radius, double orientation);
 
 /// Filters 1 to 8. \param all_scores see judge()
 SideMatching match_side(const StereoEdgesInView& before, const StereoEdgesInView& now, const TemporalConfig& config,
