@@ -28,7 +28,7 @@ kernel IN_VECTORS void paper_ncc(const FilterArguments args, global const int* f
     rows[i] = ((global const float16*)own)[i];
     turned[i] = rows[i].s89abcdef01234567;
   }
-  const float4 inverse = vload2(0, own + kPaperInverseNorms).xyyx;
+  const float4 inverse = (*(global const float2*)(own + kPaperInverseNorms)).xyyx;
   for (int c = begin; c < end; c += 4) {
     float16 alike[4], crossed[4];
     float2 others[4];
@@ -42,7 +42,7 @@ kernel IN_VECTORS void paper_ncc(const FilterArguments args, global const int* f
         alike[k] = fma(rows[i], of_other, alike[k]);
         crossed[k] = fma(turned[i], of_other, crossed[k]);
       }
-      others[k] = vload2(0, other + kPaperInverseNorms);
+      others[k] = *(global const float2*)(other + kPaperInverseNorms);
     }
     // Per candidate: dark with dark, bright with bright, bright with dark, dark with bright.
     const float16 a = twos(fours(alike[0], crossed[0]), fours(alike[1], crossed[1]));

@@ -61,8 +61,8 @@ int main(int count, char** arguments) {
     options.profiling = true;
     Device device("auto", options);
     const Config config = config_with(number);
-    Config paper = read_preset("paper");
-    paper.variants = config.variants;
+    Config paper = config;
+    paper.method = "paper";
     for (const Config& each : {config, paper}) frontend::make_frontend(rig, device, each);
     stages::long_loop_difference(*device.context());
     for (const auto& program : device.context()->programs()) programs.insert(program);

@@ -11,7 +11,7 @@ namespace {
 
 using Rows = std::vector<std::vector<paper::Hypothesis>>;
 
-/// Whether the members are the cluster's, the nearest first. Two are equally far from their centre, but for rounding.
+/// Whether the members are the cluster's, the nearest first, to a step of the distance.
 bool sorted_alike(const std::vector<paper::Hypothesis>& row, const paper::Cluster& cluster,
                   const std::vector<std::int32_t>& members) {
   if (!std::is_permutation(members.begin(), members.end(), cluster.members.begin(), cluster.members.end()))
@@ -21,7 +21,8 @@ bool sorted_alike(const std::vector<paper::Hypothesis>& row, const paper::Cluste
     return (at - Eigen::Vector2d(cluster.centre.x, cluster.centre.y)).norm();
   };
   for (std::size_t k = 1; k < members.size(); ++k)
-    if (distance(members[k - 1]) > distance(members[k]) + 5e-4) return false;
+    if (distance(members[k - 1]) > distance(members[k]) + static_cast<double>(kClusterDistanceStep) + 5e-4)
+      return false;
   return true;
 }
 

@@ -139,7 +139,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     if (row.is_default) by_default = result.variants.size();
     try {
       const Config config = with_variant(input.config, stage, variant.name);
-      const SelfTestResult test = self_test(*candidate.device, config.variants, config.method);
+      const SelfTestResult test = self_test(*candidate.device, config);
       row.agrees = test.passed();
       if (!row.agrees) {
         row.why = "differs from the reference at " + test.stage + ": " + test.difference;

@@ -55,7 +55,7 @@ SelfTestResult verdict(Device& device, const Config& config, bool own_kernels) {
   if (device.is_reference()) return {};
   const auto kept = own_kernels ? kept_verdict(device.info(), config.variants, config.method) : std::nullopt;
   if (kept) return *kept;
-  const SelfTestResult result = self_test(device, config.variants, config.method);
+  const SelfTestResult result = self_test(device, config);
   if (own_kernels) keep_verdict(device.info(), config.variants, config.method, result);
   return result;
 }

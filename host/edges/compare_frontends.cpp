@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <future>
 #include <map>
 #include <utility>
@@ -270,12 +271,9 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
   return std::move(collector.stages);
 }
 
-std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Device& device,
-                                            const std::map<std::string, std::string>& variants) {
+std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Device& device, Config config) {
   Collector collector;
-  Config config = read_preset("paper");
   config.stereo.max_disparity = sequence.max_disparity;
-  config.variants = variants;
   const auto frontend = make_frontend(sequence.rig, device, config);
   const auto base = frontend->process({0, sequence.left[0].view(), sequence.right[0].view()});
   frontend->process({50'000'000, sequence.left[1].view(), sequence.right[1].view()});
@@ -359,22 +357,20 @@ class KernelCheck {
   opencl::Context* context_;
 };
 
-/// What the reference finds, computed once.
-template <auto observe>
-const std::vector<frontend::StageRows>& expected_rows() {
-  static const std::vector<frontend::StageRows> rows = [] {
+using Rows = std::vector<frontend::StageRows>;
+
+/// What the reference finds with the default method, computed once.
+const Rows& expected_rows() {
+  static const Rows rows = [] {
     Device reference("reference");
-    return observe(frontend::small_sequence(), reference, {});
+    return frontend::observe_stages(frontend::small_sequence(), reference, {});
   }();
   return rows;
 }
 
-}  // namespace
-
-namespace {
-
-template <auto observe>
-SelfTestResult self_test_by(Device& device, const std::map<std::string, std::string>& variants) {
+/// \param observe the stages on a device \param expect what the reference finds
+SelfTestResult compare_stages(Device& device, const std::function<Rows(Device&)>& observe,
+                              const std::function<Rows()>& expect) {
   constexpr double kAllowed = 0.02;  // fraction of the rows: different rounding changes decisions near a limit
   const auto use = device.use();
   const KernelCheck kernels(device.context());
@@ -383,9 +379,8 @@ SelfTestResult self_test_by(Device& device, const std::map<std::string, std::str
     const std::string difference = stages::long_loop_difference(*device.context());
     if (!difference.empty()) return {"long_loop", difference + kernels.text()};
   }
-  auto computed = std::async(std::launch::async, [] { return &expected_rows<observe>(); });  // while kernels are built
-  const auto found = observe(frontend::small_sequence(), device, variants);
-  const auto& expected = *computed.get();
+  auto computed = std::async(std::launch::async, expect);  // while kernels are built
+  const Rows found = observe(device), expected = computed.get();
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const std::string difference = frontend::difference(found.at(i), expected[i], kAllowed);
     if (!difference.empty()) return {expected[i].stage, difference + kernels.text()};
@@ -395,10 +390,21 @@ SelfTestResult self_test_by(Device& device, const std::map<std::string, std::str
 
 }  // namespace
 
-SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants,
-                         const std::string& method) {
-  return method == "paper" ? self_test_by<frontend::observe_paper_stages>(device, variants)
-                           : self_test_by<frontend::observe_stages>(device, variants);
+SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
+  return compare_stages(
+      device, [&](Device& on) { return frontend::observe_stages(frontend::small_sequence(), on, variants); },
+      expected_rows);
+}
+
+SelfTestResult self_test(Device& device, const Config& config) {
+  if (!config.is_paper()) return self_test(device, config.variants);
+  const auto sequence = frontend::small_sequence();
+  return compare_stages(
+      device, [&](Device& on) { return frontend::observe_paper_stages(sequence, on, config); },
+      [&] {
+        Device reference("reference");
+        return frontend::observe_paper_stages(sequence, reference, config);
+      });
 }
 
 }  // namespace quadedge

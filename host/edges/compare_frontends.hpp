@@ -41,9 +41,8 @@ struct StageRows {
 std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& device,
                                       const std::map<std::string, std::string>& variants);
 
-/// The same for the stages of the paper's method, in the order of its cascades.
-std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Device& device,
-                                            const std::map<std::string, std::string>& variants);
+/// The same for the stages of the paper's method, which `config` chooses, in the order of its cascades.
+std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Device& device, Config config);
 
 /// Describes how the results of a stage differ; empty if they agree except for a fraction `allowed` of either side's
 /// rows. The reference computes in double precision, so that decisions near a limit may differ.

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 
 namespace quadedge {
@@ -19,9 +20,10 @@ struct SelfTestResult {
 /// compares the results within a tolerance. A long loop (`long_loop`) is run first, because some drivers
 /// terminate long loops early. Kernel arguments whose types differ from those that the host passes are listed in
 /// `difference` if the results are wrong; if the results are right, the test passes. Takes tens of milliseconds once
-/// the kernels are built. \param variants  stage -> kernel variant, as in Config \param method as Config::method: whose
-/// stages \throws DeviceError if a kernel does not build or run
-SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants = {},
-                         const std::string& method = "quadedge");
+/// the kernels are built. \param variants  stage -> kernel variant, as in Config \throws DeviceError if a kernel does
+/// not build or run
+SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants = {});
+/// The same for the method and the variants of `config`; of the paper's method with all its values.
+SelfTestResult self_test(Device& device, const Config& config);
 
 }  // namespace quadedge

@@ -340,8 +340,6 @@ def observe(source, device: str, preset: str, config: dict, frames: int, toleran
 
     frames: to use from the start; 0: all. progress: called with the number of frames done and their total."""
     config = config | {"odometry.key_rig": False}  # the tables refer to consecutive frames
-    if config.get("method") == "paper":  # no stage of the paper's method runs on a device
-        device = "reference"
     result, count = MatchingResult(source.name), min(frames or source.frames, source.frames)
     with Odometry(source.tracked, device, preset, config) as odometry:
         info = odometry.device
