@@ -14,7 +14,8 @@ namespace generated {
 
 using quadedge::pose::OrientedPoint;
 
-/// Normal and uniform random numbers that are the same on every platform.
+/// Normal and uniform random numbers that are the same on every platform. None is drawn among the arguments of a call,
+/// whose order is the compiler's choice.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -26,13 +27,15 @@ class Random {
     return radius * std::cos(uniform(0.0, 6.283185307179586));
   }
   Eigen::Vector3d unit() {
-    const Eigen::Vector3d v(normal(), normal(), normal());
-    return v.normalized();
+    const double z = normal(), y = normal(), x = normal();
+    return Eigen::Vector3d(x, y, z).normalized();
   }
   Eigen::Isometry3d motion(double max_angle, double max_shift) {
     Eigen::Isometry3d m = Eigen::Isometry3d::Identity();
-    m.linear() = Eigen::AngleAxisd(uniform(0, max_angle), unit()).toRotationMatrix();
-    m.translation() = uniform(0, max_shift) * unit();
+    const Eigen::Vector3d axis = unit();
+    m.linear() = Eigen::AngleAxisd(uniform(0, max_angle), axis).toRotationMatrix();
+    const Eigen::Vector3d direction = unit();
+    m.translation() = uniform(0, max_shift) * direction;
     return m;
   }
 
@@ -150,9 +153,9 @@ struct Generated {
 
 inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random,
                                   double width_ratio = 1) {
-  const Eigen::Vector2d pixel(random.uniform(0, width_ratio * rig.left.width), random.uniform(0, rig.left.height));
+  const double y = random.uniform(0, rig.left.height), x = random.uniform(0, width_ratio * rig.left.width);
   const double depth = 1.0 / random.uniform(1.0 / far, 1.0 / near);
-  return {depth * rig.left.ray(pixel), random.unit()};
+  return {depth * rig.left.ray({x, y}), random.unit()};
 }
 
 inline Generated generate(const Problem& problem, std::uint64_t seed) {
@@ -178,7 +181,8 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
       auto after = disturb(problem.rig, there, problem.noise, false, random);
       if (!correct) {
         const auto wrong = observe(problem.rig, random_point(problem.rig, problem.near, problem.far, random));
-        after.left = before.left + Eigen::Vector2d(random.uniform(-60, 60), random.uniform(-60, 60));
+        const double down = random.uniform(-60, 60), right = random.uniform(-60, 60);
+        after.left = before.left + Eigen::Vector2d(right, down);
         after.right = after.left + (wrong.right - wrong.left);
         after.left_direction = wrong.left_direction;
         after.right_direction = wrong.right_direction;

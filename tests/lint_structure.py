@@ -27,10 +27,10 @@ MOST_LINES = {
     "host/common": 930,
     "host/data": 6140,
     "host/data/calibrations": 2150,
-    "host/device": 4400,
-    "host/edges": 2790,
+    "host/device": 4680,
+    "host/edges": 3200,
     "host/geometry": 2240,
-    "host/motion": 6190,
+    "host/motion": 6200,
     "host/output": 3120,
     "host/paper": 980,
     "host/places": 2310,
@@ -38,10 +38,10 @@ MOST_LINES = {
     "host/rig": 4390,
     "host/scenes": 2980,
     "include": 2240,
-    "kernels": 5940,
+    "kernels": 6440,
     "python": 11510,
     "scripts": 3080,
-    "tests": 34650,
+    "tests": 35770,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

@@ -78,7 +78,7 @@ RenderedScene paper_scene(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("paper quads: as the plain form, byte by byte", "[paper][device]") {
+TEST_CASE("paper quads: as the plain form, byte by byte", "[paper][device][oclgrind]") {
   for (const int rows : {1, 3, 501}) {
     const auto left = made_up_side(rows, 20, 3), right = made_up_side(rows, 20, 4);
     const TemporalMatches truth = paper::quads_of(left, right);
