@@ -2,9 +2,9 @@
 // that hold the same current one are a quad.
 //
 // In: the candidate lists of both images and their clusters (paper_clusters.cl). First paper_quad_counts(), then
-// paper_quads() with the scan of the counts. One work-item = one row, a previous stereo edge. Out per quad, in blocks of
-// `capacity`: centres x, y [px] and direction [rad] of the left and the right cluster, mean NCC of the shared edge; the
-// previous edge, the current one, and how many other quads the row has.
+// paper_quads() with the scan of the counts. One work-item = one row, a previous stereo edge. Out per quad, in blocks
+// of `capacity`: centres x, y [px] and direction [rad] of the left and the right cluster, mean NCC of the shared edge;
+// the previous edge, the current one, and how many other quads the row has.
 // Reference: close_loop() and quads_of() in host/paper/cascades.cpp.
 
 // The clusters of a row in one image; cluster k is element first + k.
@@ -34,11 +34,11 @@ static inline int shared_member(const RowClusters* left, const int k, const RowC
   return -1;
 }
 
-kernel void paper_quad_counts(const PaperQuadArguments args, global const int* left_first,
-                              global const int* left_count, global const int* left_member_first,
-                              global const int* left_members, global const int* right_first,
-                              global const int* right_count, global const int* right_member_first,
-                              global const int* right_members, global int* counts) {
+kernel void paper_quad_counts(const PaperQuadArguments args, global const int* left_first, global const int* left_count,
+                              global const int* left_member_first, global const int* left_members,
+                              global const int* right_first, global const int* right_count,
+                              global const int* right_member_first, global const int* right_members,
+                              global int* counts) {
   const int row = (int)get_global_id(0);
   if (row >= args.rows) return;
   const RowClusters left =
@@ -82,8 +82,8 @@ kernel void paper_quads(const PaperQuadArguments args, global const int* left_fi
         places[block * args.capacity + quad] = left_clusters[block * left.capacity + left.first + k];
         places[(3 + block) * args.capacity + quad] = right_clusters[block * right.capacity + right.first + q];
       }
-      places[6 * args.capacity + quad] = 0.5f * (ncc_of(left_target, left_ncc, left.first, edge) +
-                                                 ncc_of(right_target, right_ncc, right.first, edge));
+      places[6 * args.capacity + quad] =
+          0.5f * (ncc_of(left_target, left_ncc, left.first, edge) + ncc_of(right_target, right_ncc, right.first, edge));
       numbers[quad] = row;
       numbers[args.capacity + quad] = edge;
       numbers[2 * args.capacity + quad] = others;

@@ -204,7 +204,8 @@ void check_source(const StereoSource& source) {
   parse_split(source.split);
   if (one && source.split.empty()) throw UsageError("--video needs --split left-right or --split top-bottom");
   if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose images contain both views");
-  if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected a positive number of frames per second");
+  if (!(source.fps >= 0 && std::isfinite(source.fps)))
+    throw UsageError("--fps: expected frames per second, more than 0");
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
   if (source.pipe && source.fps == 0 && source.times.empty())
     throw UsageError("images in a pipe have no timestamps: give --fps N or --times FILE");

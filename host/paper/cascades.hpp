@@ -114,7 +114,8 @@ struct Quad {
 /// The quads of one row, at most one per pair of clusters.
 std::vector<Quad> close_loop(const std::vector<Cluster>& left, const std::vector<Cluster>& right);
 
-/// All quads of two frames, in the order of the previous edges, of which each may own several.
+/// Plain C++ twin of kernels/paper_quads.cl: all quads of two frames, in the order of the previous edges, of which each
+/// may own several.
 TemporalMatches quads_of(const SideMatching& left, const SideMatching& right);
 
 }  // namespace quadedge::paper
