@@ -164,7 +164,9 @@ kernel IN_VECTORS void paper_similarity(const PaperSimilarityArguments args, glo
       float cosine;
       const float sine = sine_cosine(clusters[2 * args.capacity + k], &cosine);
       cut_sides(picture, clusters[k], clusters[args.capacity + k], cosine, sine, args.offset, right);
-      const float ncc = best_pairing(left, left_norms, right, inverse_norms(right)).ncc;
+      Pairing pairing;
+      best_pairing(left, left_norms, right, inverse_norms(right), &pairing);
+      const float ncc = pairing.ncc;
       clusters[3 * args.capacity + k] = ncc;
       if (!(ncc >= highest) || (best >= 0 && ncc == highest)) continue;
       best = k - begin;

@@ -14,13 +14,6 @@ typedef struct {
   global const int* members;
 } RowClusters;
 
-static inline RowClusters row_clusters(const int row, const int capacity, global const int* first,
-                                       global const int* count, global const int* member_first,
-                                       global const int* members) {
-  RowClusters clusters = {first[row], count[row], capacity, member_first, members};
-  return clusters;
-}
-
 // The member of left cluster k nearest to its centre that right cluster q holds, too; -1 if there is none.
 static inline int shared_member(const RowClusters* left, const int k, const RowClusters* right, const int q) {
   const int of_left = left->first + k, of_right = right->first + q;
@@ -41,10 +34,9 @@ kernel void paper_quad_counts(const PaperQuadArguments args, global const int* l
                               global int* counts) {
   const int row = (int)get_global_id(0);
   if (row >= args.rows) return;
-  const RowClusters left =
-      row_clusters(row, args.left_capacity, left_first, left_count, left_member_first, left_members);
-  const RowClusters right =
-      row_clusters(row, args.right_capacity, right_first, right_count, right_member_first, right_members);
+  const RowClusters left = {left_first[row], left_count[row], args.left_capacity, left_member_first, left_members};
+  const RowClusters right = {right_first[row], right_count[row], args.right_capacity, right_member_first,
+                             right_members};
   int quads = 0;
   for (int k = 0; k < left.count; ++k)
     for (int q = 0; q < right.count; ++q) quads += shared_member(&left, k, &right, q) >= 0;
@@ -68,10 +60,9 @@ kernel void paper_quads(const PaperQuadArguments args, global const int* left_fi
                         global int* numbers) {
   const int row = (int)get_global_id(0);
   if (row >= args.rows) return;
-  const RowClusters left =
-      row_clusters(row, args.left_capacity, left_first, left_count, left_member_first, left_members);
-  const RowClusters right =
-      row_clusters(row, args.right_capacity, right_first, right_count, right_member_first, right_members);
+  const RowClusters left = {left_first[row], left_count[row], args.left_capacity, left_member_first, left_members};
+  const RowClusters right = {right_first[row], right_count[row], args.right_capacity, right_member_first,
+                             right_members};
   int quad = quad_first[row];
   const int others = quad_first[row + 1] - quad - 1;
   for (int k = 0; k < left.count; ++k) {

@@ -41,9 +41,9 @@ typedef struct {
 } Equations;
 
 // Tilted: the axis is not parallel to x, or the move is free. Clamped: see place_rows().
-INLINED Equations equations_at(const Picture picture, const Samples* at, const Goal* goal, const float axis_x,
-                               const float axis_y, const float huber, const int is_free, const int tilted,
-                               const int clamped) {
+INLINED void equations_at(const Picture picture, const Samples* at, const Goal* goal, const float axis_x,
+                          const float axis_y, const float huber, const int is_free, const int tilted, const int clamped,
+                          Equations* sums) {
   float16 seen[kPaperPatchRows], along[kPaperPatchRows], across[kPaperPatchRows];
   float16 seen_sum = 0.0f, along_sum = 0.0f, across_sum = 0.0f;
   const float unit_x = axis_x * PER_SLOPE_UNIT, unit_y = axis_y * PER_SLOPE_UNIT;
@@ -51,7 +51,8 @@ INLINED Equations equations_at(const Picture picture, const Samples* at, const G
   place_rows(picture, at, clamped, &places);
 #pragma unroll
   for (int i = 0; i < kPaperPatchRows; ++i) {
-    const RowSamples row = read_row(picture, &places, i);
+    RowSamples row;
+    read_row(picture, &places, i, &row);
     seen[i] = grey_of(&row);
     const float16 slope_x = INTERPOLATED(SLOPE_X_OF, &row);
     along[i] = slope_x * unit_x;
@@ -82,30 +83,31 @@ INLINED Equations equations_at(const Picture picture, const Samples* at, const G
       squares += weight * residual * residual;
     }
   }
-  Equations sums = {sum_of(along2), 0.0f, 0.0f, sum_of(pull_along), 0.0f, 0.0f};
+  sums->along2 = sum_of(along2);
+  sums->pull_along = sum_of(pull_along);
   if (is_free) {
-    sums.both = sum_of(both);
-    sums.across2 = sum_of(across2);
-    sums.pull_across = sum_of(pull_across);
-    sums.squares = sum_of(squares);
+    sums->both = sum_of(both);
+    sums->across2 = sum_of(across2);
+    sums->pull_across = sum_of(pull_across);
+    sums->squares = sum_of(squares);
   }
-  return sums;
 }
 
 // Moves the patches at (x, y) along the axis, or freely, until they look like the goal. No move is rejected.
-INLINED Move refine(const PaperRefinementArguments* args, const Picture picture, const Goal* goal, const float x,
+INLINED void refine(const PaperRefinementArguments* args, const Picture picture, const Goal* goal, const float x,
                     const float y, const float cosine, const float sine, const float axis_x, const float axis_y,
-                    const int is_free) {
+                    const int is_free, Move* result) {
   Move move = {0.0f, 0.0f, 0.0f};
   for (int step = 0; step < args->steps; ++step) {
-    const Samples at = samples_beside(picture, x + move.x, y + move.y, cosine, sine, args->offset);
+    Samples at;
+    samples_beside(picture, x + move.x, y + move.y, cosine, sine, args->offset, &at);
     Equations sums;
     if (!at.inside)
-      sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 1, 1);
+      equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 1, 1, &sums);
     else if (is_free || axis_y != 0.0f)
-      sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 1, 0);
+      equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 1, 0, &sums);
     else
-      sums = equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 0, 0);
+      equations_at(picture, &at, goal, axis_x, axis_y, args->huber, is_free, 0, 0, &sums);
     float along, across = 0.0f;
     if (is_free) {
       move.mean_square = sums.squares / goal->samples;
@@ -124,17 +126,16 @@ INLINED Move refine(const PaperRefinementArguments* args, const Picture picture,
     move.y += along * axis_y + across * axis_x;
     if (along * along + across * across < args->tolerance * args->tolerance) break;
   }
-  return move;
+  *result = move;
 }
 
 // The sides that take part in the refinement of candidate c of row i.
-static inline Pairing pairing_of(const PaperRefinementArguments* args, global const float* fixed_patches,
-                                 global const float* moving_patches, const int i, const int target) {
-  Pairing pairing = {0, 0, 1.0f};
-  if (args->both_sides) return pairing;
+static inline void find_pairing(const PaperRefinementArguments* args, global const float* fixed_patches,
+                                global const float* moving_patches, const int i, const int target, Pairing* pairing) {
+  if (args->both_sides) return;
   float16 a[kPaperPatchRows], b[kPaperPatchRows];
   const float2 norms_a = load_sides(fixed_patches, i, a), norms_b = load_sides(moving_patches, target, b);
-  return best_pairing(a, norms_a, b, norms_b);
+  best_pairing(a, norms_a, b, norms_b, pairing);
 }
 
 // Patches have the left edge's direction in both images; the most similar pair may be of reversed contrast, for which
@@ -168,9 +169,12 @@ kernel IN_VECTORS void paper_refine_stereo(const PaperRefinementArguments args, 
                                      args.shift_min_sine, args.shift_max);
     const float turn = !args.both_sides && angle_between(direction, candidate_direction) > 0.5f * PI_F ? -1.0f : 1.0f;
     Goal goal;
-    prepare_goal(fixed, args.both_sides, pairing_of(&args, fixed_patches, moving_patches, i, target[c]), &goal);
+    Pairing pairing = {0, 0, 1.0f};
+    find_pairing(&args, fixed_patches, moving_patches, i, target[c], &pairing);
+    prepare_goal(fixed, args.both_sides, pairing, &goal);
     const float start_x = line.x + s * line.ex, start_y = line.y + s * line.ey;
-    const Move move = refine(&args, picture, &goal, start_x, start_y, turn * cosine, turn * sine, line.ex, line.ey, 0);
+    Move move;
+    refine(&args, picture, &goal, start_x, start_y, turn * cosine, turn * sine, line.ex, line.ey, 0, &move);
     refined[c] = start_x + move.x;
     refined[args.capacity + c] = start_y + move.y;
   }
@@ -202,8 +206,11 @@ kernel IN_VECTORS void paper_refine_free(const PaperRefinementArguments args, gl
     const float x = candidate[0], y = candidate[args.moving.stride];
     sine = sine_cosine(candidate[2 * args.moving.stride], &cosine);
     Goal goal;
-    prepare_goal(fixed, args.both_sides, pairing_of(&args, fixed_patches, moving_patches, i, target[c]), &goal);
-    const Move move = refine(&args, picture, &goal, x, y, cosine, sine, -sine, cosine, 1);
+    Pairing pairing = {0, 0, 1.0f};
+    find_pairing(&args, fixed_patches, moving_patches, i, target[c], &pairing);
+    prepare_goal(fixed, args.both_sides, pairing, &goal);
+    Move move;
+    refine(&args, picture, &goal, x, y, cosine, sine, -sine, cosine, 1, &move);
     const int kept = move.mean_square <= args.largest_residual * args.largest_residual;
     refined[c] = kept ? x + move.x : x;
     refined[args.capacity + c] = kept ? y + move.y : y;

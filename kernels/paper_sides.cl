@@ -4,7 +4,8 @@
 // A picture has a record per pixel, and one more per row: its own word, and that of the pixel below, border replicated.
 // A word holds the grey value and both slopes as integers, 8 Sobel units per grey value and px; images of more than 8
 // bits have two of them. Rows of samples are float16 as in layouts.cl: dark side in the low, bright side in the high
-// half; lanes 7 and 15 repeat a sample.
+// half; lanes 7 and 15 repeat a sample. Structures are returned through pointers: oclgrind cannot run always-inlined
+// functions that return them in a loop.
 // Reference: host/paper/side_patches.cpp.
 
 #define BOTH_SIDES(dark, bright) (float16)((float8)(dark), (float8)(bright))
@@ -59,14 +60,15 @@ typedef struct {
   uint s0, s1, s2, s3, s4, s5, s6, s7, s8, s9, sa, sb, sc, sd, se, sf;
 } Offsets;
 
-INLINED FourWords words_at(global const uint* records, const Offsets bytes) {
+INLINED void words_at(global const uint* records, const Offsets bytes, FourWords* words) {
   const uint16 p = FOUR_RECORDS(0, 4, 8, c), q = FOUR_RECORDS(1, 5, 9, d);
   const uint16 r = FOUR_RECORDS(2, 6, a, e), s = FOUR_RECORDS(3, 7, b, f);
   const ulong8 low_pq = LOW_WORDS(p, q), low_rs = LOW_WORDS(r, s);
   const ulong8 high_pq = HIGH_WORDS(p, q), high_rs = HIGH_WORDS(r, s);
-  const FourWords words = {EVEN_PAIRS(low_pq, low_rs), ODD_PAIRS(low_pq, low_rs), EVEN_PAIRS(high_pq, high_rs),
-                           ODD_PAIRS(high_pq, high_rs)};
-  return words;
+  words->s0 = EVEN_PAIRS(low_pq, low_rs);
+  words->s1 = ODD_PAIRS(low_pq, low_rs);
+  words->s2 = EVEN_PAIRS(high_pq, high_rs);
+  words->s3 = ODD_PAIRS(high_pq, high_rs);
 }
 
 // Where the samples of both patches of an edge lie, relative to a pixel up and left of all of them: those abreast of
@@ -79,8 +81,8 @@ typedef struct {
   int inside;                          // no sample can be outside the picture
 } Samples;
 
-INLINED Samples samples_beside(const Picture picture, const float edge_x, const float edge_y, const float cosine,
-                               const float sine, const float offset) {
+INLINED void samples_beside(const Picture picture, const float edge_x, const float edge_y, const float cosine,
+                            const float sine, const float offset, Samples* samples) {
   const float16 across =
       (float16)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f, -3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f) +
       BOTH_SIDES(-offset, offset);
@@ -100,7 +102,7 @@ INLINED Samples samples_beside(const Picture picture, const float edge_x, const 
   at.high_y = (float)(picture.height - 1 - base_y);
   at.origin = base_y * (picture.width + 1) + base_x;
   at.inside = base_x >= 0 && base_y >= 0 && base_x + 2 * reach < picture.width && base_y + 2 * reach < picture.height;
-  return at;
+  *samples = at;
 }
 
 // x86-64 takes vectors apart faster through memory than lane by lane, which compilers would choose.
@@ -139,23 +141,23 @@ typedef struct {
   float16 u, v;
 } RowSamples;
 
-INLINED RowSamples read_row(const Picture picture, const Places* places, const int row) {
+INLINED void read_row(const Picture picture, const Places* places, const int row, RowSamples* samples) {
   STORED const uint* at = (STORED const uint*)&places->bytes[row];
   const Offsets bytes = {at[0], at[1], at[2],  at[3],  at[4],  at[5],  at[6],  at[7],
                          at[8], at[9], at[10], at[11], at[12], at[13], at[14], at[15]};
-  const FourWords here = words_at(picture.records, bytes);
-  RowSamples samples;
+  FourWords here;
+  words_at(picture.records, bytes, &here);
 #if MAX_VALUE > 255
-  const FourWords right = words_at(picture.records + 4, bytes);
+  FourWords right;
+  words_at(picture.records + 4, bytes, &right);
   const Corners words = {here.s0, right.s0, here.s2, right.s2}, more = {here.s1, right.s1, here.s3, right.s3};
 #else
   const Corners words = {here.s0, here.s2, here.s1, here.s3}, more = words;
 #endif
-  samples.words = words;
-  samples.more = more;
-  samples.u = places->u[row];
-  samples.v = places->v[row];
-  return samples;
+  samples->words = words;
+  samples->more = more;
+  samples->u = places->u[row];
+  samples->v = places->v[row];
 }
 
 INLINED float16 between(const RowSamples* row, const float16 a, const float16 b, const float16 c, const float16 d) {
@@ -188,11 +190,13 @@ INLINED float16 means_of_sides(const float16 sum) {
 // Both patches of an edge: mean-free rows. Subtracting a sample first makes those of a flat picture exactly zero.
 INLINED void cut_sides(const Picture picture, const float x, const float y, const float cosine, const float sine,
                        const float offset, float16* rows) {
-  const Samples at = samples_beside(picture, x, y, cosine, sine, offset);
+  Samples at;
+  samples_beside(picture, x, y, cosine, sine, offset, &at);
   Places places;
   place_rows(picture, &at, !at.inside, &places);
   for (int i = 0; i < kPaperPatchRows; ++i) {
-    const RowSamples row = read_row(picture, &places, i);
+    RowSamples row;
+    read_row(picture, &places, i, &row);
     rows[i] = grey_of(&row);
   }
   const float16 middle = BOTH_SIDES(rows[kPaperPatchRows / 2].s3, rows[kPaperPatchRows / 2].sb);
@@ -232,19 +236,20 @@ static inline void try_pairing(const float product, const float norms, const int
 }
 
 // \param norms the inverse ones
-static inline Pairing best_pairing(const float16* a, const float2 norms_a, const float16* b, const float2 norms_b) {
+static inline void best_pairing(const float16* a, const float2 norms_a, const float16* b, const float2 norms_b,
+                                Pairing* best) {
   float16 same = 0.0f, crossed = 0.0f;
   for (int i = 0; i < kPaperPatchRows; ++i) {
     same += a[i] * b[i];
     crossed += a[i] * HALVES_SWAPPED(b[i]);
   }
   const float2 same_sums = sums_of_sides(same), crossed_sums = sums_of_sides(crossed);
-  Pairing best = {0, 0, -1.0f};
-  try_pairing(same_sums.x, norms_a.x * norms_b.x, 0, 0, &best);
-  try_pairing(same_sums.y, norms_a.y * norms_b.y, 1, 1, &best);
-  try_pairing(crossed_sums.x, norms_a.x * norms_b.y, 0, 1, &best);
-  try_pairing(crossed_sums.y, norms_a.y * norms_b.x, 1, 0, &best);
-  return best;
+  best->first = best->second = 0;
+  best->ncc = -1.0f;
+  try_pairing(same_sums.x, norms_a.x * norms_b.x, 0, 0, best);
+  try_pairing(same_sums.y, norms_a.y * norms_b.y, 1, 1, best);
+  try_pairing(crossed_sums.x, norms_a.x * norms_b.y, 0, 1, best);
+  try_pairing(crossed_sums.y, norms_a.y * norms_b.x, 1, 0, best);
 }
 
 // The patches of edge i as paper_patches.cl stores them; returns their inverse norms.
