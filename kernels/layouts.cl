@@ -273,12 +273,13 @@ typedef struct {
   EpipolarGeometry geometry;        // for a move along a line
 } PaperRefinementArguments;
 
-// paper_clusters.cl. Blocks of `capacity`: refined positions x, y; of clusters x, y, direction, similarity as floats,
-// the first member and the number of members as ints.
+// paper_clusters.cl. Refined positions are packed in blocks of `candidates` floats: x, y; clusters in blocks of
+// `capacity`: x, y, direction of the centre, similarity; the first member and the number of members likewise, in ints.
 typedef struct {
   PackedPositions moving;  // the candidates
   int rows;
-  int capacity;       // of the candidate lists
+  int candidates;     // capacity of the candidate lists
+  int capacity;       // of the clusters: alive candidates
   float gap;          // px
   float orientation;  // rad
   int size_max;
@@ -292,8 +293,8 @@ typedef struct {
 
 // paper_clusters.cl: paper_similarity().
 typedef struct {
-  int rows, capacity;  // of the candidate lists
-  int width, height;   // of the image of the clusters
+  int rows, capacity;  // of the clusters
+  int width, height;   // of their image
   float offset;        // px from an edge to the middle of its patches
   float ncc_min;       // of the chosen cluster
 } PaperSimilarityArguments;

@@ -1,8 +1,8 @@
 // paper_clusters.cl: clusters the refined candidates of every row, and compares the clusters in stereo with the left
 // edge.
 //
-// Needs direction.cl and paper_sides.cl. In: candidate lists, refined positions (paper_refinement.cl). Out, for cluster
-// k of row i at first[i] + k: centre and direction; similarity in stereo; its first member, as an offset in `members`,
+// Needs direction.cl and paper_sides.cl. In: candidate lists, refined positions (paper_refinement.cl), the scan of
+// paper_alive_counts(). Out, for cluster k of row i at alive_first[i] + k: centre and direction; similarity in stereo; its first member, as an offset in `members`,
 // and their number. `members` are the targets, those of a cluster one after the other, the nearest to the centre first.
 // One work-item = one row.
 // Reference: host/paper/cascades.cpp.
@@ -101,18 +101,18 @@ static inline float mean_direction(const Members* all, global const int* members
 // its nearest one is either the same or was too large to join. So the search goes on where it is. `scratch`: two blocks
 // of `capacity`.
 kernel void paper_clusters(const PaperClusterArguments args, global const int* first, global const int* target,
-                           global const uchar* state, global const float* moving_edges, global const float* refined,
-                           global int* scratch, global int* count, global float* clusters, global int* member_first,
-                           global int* members) {
+                           global const uchar* state, global const int* alive_first, global const float* moving_edges,
+                           global const float* refined, global int* scratch, global int* count, global float* clusters,
+                           global int* member_first, global int* members) {
   const int i = (int)get_global_id(0);
   if (i >= args.rows) return;
-  const int begin = first[i], end = min(first[i + 1], args.capacity);
-  global int* order = scratch + begin;
+  const int begin = first[i], end = min(first[i + 1], args.candidates), home = alive_first[i];
+  global int* order = scratch + home;
   Members all = {0,
                  order,
-                 scratch + args.capacity + begin,
+                 scratch + args.capacity + home,
                  refined,
-                 refined + args.capacity,
+                 refined + args.candidates,
                  target,
                  moving_edges + args.moving.first + 2 * args.moving.stride};
   for (int c = begin; c < end; ++c) {
@@ -131,11 +131,11 @@ kernel void paper_clusters(const PaperClusterArguments args, global const int* f
     for (int j = 0; j < all.count; ++j)
       if (all.cluster[j] == gone) all.cluster[j] = number;
   }
-  int found = 0, at = begin;
+  int found = 0, at = home;
   for (int number = 0; number < all.count; ++number) {
     if (all.cluster[number] != number) continue;  // the member that gives a cluster its number stays in it
     Centre centre;
-    const int size = sort_members(&all, number, members + at, &centre), k = begin + found++;
+    const int size = sort_members(&all, number, members + at, &centre), k = home + found++;
     clusters[k] = centre.x;
     clusters[args.capacity + k] = centre.y;
     clusters[2 * args.capacity + k] = mean_direction(&all, members + at, size, centre, args.sigma);
@@ -147,13 +147,23 @@ kernel void paper_clusters(const PaperClusterArguments args, global const int* f
   count[i] = found;
 }
 
+// Candidates of a row that are alive: at least as many as its clusters.
+kernel void paper_alive_counts(const int rows, const int candidates, global const int* first, global const uchar* state,
+                               global int* counts) {
+  const int i = (int)get_global_id(0);
+  if (i >= rows) return;
+  int alive = 0;
+  for (int c = first[i]; c < min(first[i + 1], candidates); ++c) alive += state[c] == kCandidateAlive;
+  counts[i] = alive;
+}
+
 // NCC of the clusters of a row with its left edge, and the most similar one, the first of equals; -1: none has ncc_min.
-kernel IN_VECTORS void paper_similarity(const PaperSimilarityArguments args, global const int* first,
+kernel IN_VECTORS void paper_similarity(const PaperSimilarityArguments args, global const int* alive_first,
                                         global const int* count, global const uint* records,
                                         global const float* patches, global float* clusters, global int* chosen) {
   const int i = (int)get_global_id(0);
   if (i >= args.rows) return;
-  const int begin = first[i], end = begin + count[i];
+  const int begin = alive_first[i], end = begin + count[i];
   int best = -1;
   if (begin < end) {
     const Picture picture = {records, args.width, args.height};

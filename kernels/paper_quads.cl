@@ -52,12 +52,12 @@ static inline float ncc_of(global const int* target, global const float* ncc, co
 
 kernel void paper_quads(const PaperQuadArguments args, global const int* left_first, global const int* left_count,
                         global const int* left_member_first, global const int* left_members,
-                        global const float* left_clusters, global const int* left_target, global const float* left_ncc,
-                        global const int* right_first, global const int* right_count,
+                        global const float* left_clusters, global const int* left_rows, global const int* left_target,
+                        global const float* left_ncc, global const int* right_first, global const int* right_count,
                         global const int* right_member_first, global const int* right_members,
-                        global const float* right_clusters, global const int* right_target,
-                        global const float* right_ncc, global const int* quad_first, global float* places,
-                        global int* numbers) {
+                        global const float* right_clusters, global const int* right_rows,
+                        global const int* right_target, global const float* right_ncc, global const int* quad_first,
+                        global float* places, global int* numbers) {
   const int row = (int)get_global_id(0);
   if (row >= args.rows) return;
   const RowClusters left = {left_first[row], left_count[row], args.left_capacity, left_member_first, left_members};
@@ -73,8 +73,8 @@ kernel void paper_quads(const PaperQuadArguments args, global const int* left_fi
         places[block * args.capacity + quad] = left_clusters[block * left.capacity + left.first + k];
         places[(3 + block) * args.capacity + quad] = right_clusters[block * right.capacity + right.first + q];
       }
-      places[6 * args.capacity + quad] =
-          0.5f * (ncc_of(left_target, left_ncc, left.first, edge) + ncc_of(right_target, right_ncc, right.first, edge));
+      places[6 * args.capacity + quad] = 0.5f * (ncc_of(left_target, left_ncc, left_rows[row], edge) +
+                                                 ncc_of(right_target, right_ncc, right_rows[row], edge));
       numbers[quad] = row;
       numbers[args.capacity + quad] = edge;
       numbers[2 * args.capacity + quad] = others;

@@ -54,7 +54,7 @@ void compare_clusters(const Rows& rows) {
     CHECK(context.kernel_faults().empty());
     stages::DevicePaperClusters clusters;
     stage.cluster(moving.positions(), candidates, refined, clusters);
-    const auto found = clusters.read(candidates, false);
+    const auto found = clusters.read(false);
     std::size_t different = 0;
     constexpr float kRounded = 2e-4F;  // px, of coordinates up to 1,220
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -137,8 +137,8 @@ void compare_cascade(const StereoRig& rig, int step, std::size_t expected) {
     opencl::Buffer<cl_float> refined;
     refinement.in_stereo(a.view(), b.view(), geometry, candidates, refined);
     clustering.cluster(b.edges.positions(), candidates, refined, clusters);
-    clustering.compare(b.stage.picture(), a.patches, offset, config.refined_ncc_min, candidates, clusters);
-    const auto found = clusters.read(candidates, true);
+    clustering.compare(b.stage.picture(), a.patches, offset, config.refined_ncc_min, clusters);
+    const auto found = clusters.read(true);
     std::size_t different = 0, chosen = 0;
     for (std::size_t i = 0; i < in_left.edges.size(); ++i) {
       const std::int32_t p = truth.chosen[i], q = found.chosen[i];

@@ -64,6 +64,7 @@ struct SideOnDevice {
     candidates.ncc.write(context, ncc);
     clusters.packed.write(context, packed);
     clusters.count.write(context, counts);
+    clusters.first.write(context, side.candidates.first);
     clusters.member_first.write(context, starts);
     clusters.members.write(context, members);
   }

@@ -20,8 +20,8 @@ void PaperQuads::run(const Image& left, const Image& right, TemporalMatches& mat
   if (rows == 0) return;
   PaperQuadArguments arguments{left.candidates.rows, left.clusters.stride, right.clusters.stride, 0};
   counts_.ensure(context_, rows);
-  count_(over(rows), arguments, left.candidates.first, left.clusters.count, left.clusters.member_first,
-         left.clusters.members, right.candidates.first, right.clusters.count, right.clusters.member_first,
+  count_(over(rows), arguments, left.clusters.first, left.clusters.count, left.clusters.member_first,
+         left.clusters.members, right.clusters.first, right.clusters.count, right.clusters.member_first,
          right.clusters.members, counts_);
   scan_.run(counts_, arguments.rows, std::numeric_limits<cl_int>::max(), first_, total_);
   cl_int total[2];
@@ -37,10 +37,11 @@ void PaperQuads::run(const Image& left, const Image& right, TemporalMatches& mat
   arguments.capacity = total[0];
   places_.ensure(context_, 7 * quads);
   numbers_.ensure(context_, 3 * quads);
-  fill_(over(rows), arguments, left.candidates.first, left.clusters.count, left.clusters.member_first,
-        left.clusters.members, left.clusters.packed, left.candidates.target, left.candidates.ncc,
-        right.candidates.first, right.clusters.count, right.clusters.member_first, right.clusters.members,
-        right.clusters.packed, right.candidates.target, right.candidates.ncc, first_, places_, numbers_);
+  fill_(over(rows), arguments, left.clusters.first, left.clusters.count, left.clusters.member_first,
+        left.clusters.members, left.clusters.packed, left.candidates.first, left.candidates.target, left.candidates.ncc,
+        right.clusters.first, right.clusters.count, right.clusters.member_first, right.clusters.members,
+        right.clusters.packed, right.candidates.first, right.candidates.target, right.candidates.ncc, first_, places_,
+        numbers_);
   const opencl::CopyGuard guard(context_);
   std::size_t block = 0;
   for (auto* values : {&matches.left_x, &matches.left_y, &matches.left_direction, &matches.right_x, &matches.right_y,

@@ -27,9 +27,9 @@ class PaperQuads : private Stage {
                                     const cl_int* right_member_first, const cl_int* right_members, cl_int* counts)>;
   using Fill = opencl::Kernel<void(
       PaperQuadArguments args, const cl_int* left_first, const cl_int* left_count, const cl_int* left_member_first,
-      const cl_int* left_members, const cl_float* left_clusters, const cl_int* left_target, const cl_float* left_ncc,
-      const cl_int* right_first, const cl_int* right_count, const cl_int* right_member_first,
-      const cl_int* right_members, const cl_float* right_clusters, const cl_int* right_target,
+      const cl_int* left_members, const cl_float* left_clusters, const cl_int* left_rows, const cl_int* left_target,
+      const cl_float* left_ncc, const cl_int* right_first, const cl_int* right_count, const cl_int* right_member_first,
+      const cl_int* right_members, const cl_float* right_clusters, const cl_int* right_rows, const cl_int* right_target,
       const cl_float* right_ncc, const cl_int* quad_first, cl_float* places, cl_int* numbers)>;
 
   Scan scan_;

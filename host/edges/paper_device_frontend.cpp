@@ -142,8 +142,8 @@ void PaperDeviceFrontend::find_stereo_edges(FrameEdges& current, paper::StereoMa
                         candidates_, refined_);
   clustering_.cluster(right_.edges.positions(), candidates_, refined_, clusters_);
   clustering_.compare(right_.patches.picture(), left_.patches_of_edges, offset, config_.stereo.refined_ncc_min,
-                      candidates_, clusters_);
-  const auto clusters = clusters_.read(candidates_, true);
+                      clusters_);
+  const auto clusters = clusters_.read(true);
   collect_stereo_edges(clusters, now.edges);
   if (all != nullptr)
     *all = {lists_of(candidates_), scores_of(candidates_), on_lines(clusters, edges(Side::left), geometry_),
@@ -214,8 +214,7 @@ void PaperDeviceFrontend::find_quads(const FrameEdges& base, const FrameEdges& c
   if (all == nullptr) return;
   for (std::size_t side = 0; side < all->size(); ++side) {
     const TimeSide& found = in_time_[side];
-    (*all)[side] = {lists_of(found.candidates), scores_of(found.candidates),
-                    rows_of(found.clusters.read(found.candidates, false))};
+    (*all)[side] = {lists_of(found.candidates), scores_of(found.candidates), rows_of(found.clusters.read(false))};
   }
 }
 
