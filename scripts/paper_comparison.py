@@ -14,8 +14,7 @@ MATCHED = {
     "Motorcycle": ("middlebury_2014/Motorcycle-perfect-quarter",),
     "rendered room": ("room", "--frames", 2),
 }
-# Title -> source, frames, seeds: the paper's method takes about 4 s of processor time for a frame. KITTI 06 starts with
-# frames whose ground truth jumps.
+# Title -> source, frames, seeds. KITTI 06 starts with frames whose ground truth jumps.
 TRACKED = {
     "KITTI 06, from frame 10": ("kitti_odometry/sequences/06", "10:36", 5),
     "KITTI 05": ("kitti_odometry/sequences/05", "0:25", 5),
