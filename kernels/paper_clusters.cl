@@ -3,8 +3,8 @@
 //
 // Needs direction.cl and paper_sides.cl. In: candidate lists, refined positions (paper_refinement.cl), the scan of
 // paper_alive_counts(). Out, for cluster k of row i at alive_first[i] + k: centre and direction; similarity in stereo;
-// its first member, as an offset in `members`, and their number. `members` are the targets, those of a cluster one after
-// the other, the nearest to the centre first.
+// its first member, as an offset in `members`, and their number. `members` are the targets, those of a cluster one
+// after the other, the nearest to the centre first.
 // One work-item = one row.
 // Reference: host/paper/cascades.cpp.
 
