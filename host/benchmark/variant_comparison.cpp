@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "benchmark/bench_record.hpp"
 #include "data/atomic_file.hpp"
@@ -60,9 +61,9 @@ constexpr double kPaperSiftMax = 500;
 /// The configuration with a variant, modified so that it runs the stage.
 Config with_variant(Config config, const std::string& stage, const std::string& name) {
   if (stage == "grid_edges" || stage.rfind("paper_", 0) == 0) {
-    Config paper = read_preset("paper");
-    paper.variants = config.variants;
-    config = paper;
+    auto variants = std::move(config.variants);
+    config = read_preset("paper");
+    config.variants = std::move(variants);
   }
   if (stage == "sift" && config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;
   if (stage == "coarse_disparity") config.stereo.coarse_ties = 0;

@@ -117,7 +117,8 @@ class Robot:
         return first_stamp + len(frames) * step_ns
 
     def diagnostics(self) -> dict[str, str]:
-        """The newest values, with the level and the message."""
+        """The newest values, with the level and the message; waits for the first."""
+        self.until(lambda: len(self.heard["/diagnostics"]) > 0, "diagnostics")
         status = self.heard["/diagnostics"][-1].status[0]
         return {pair.key: pair.value for pair in status.values} | {"level": status.level, "message": status.message}
 
