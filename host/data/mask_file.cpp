@@ -9,6 +9,7 @@
 #include "data/text.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge {
 namespace {
