@@ -22,30 +22,39 @@ StereoConfig paper_config(bool both_sides) {
 
 paper::Place place_of(const EdgeSet& edges, std::size_t i) { return {edges.x[i], edges.y[i], edges.direction[i]}; }
 
-/// Plain refinements of all alive candidates: refine(i, j) of row i and target j.
-std::vector<Eigen::Vector2d> plain(const PaperLists& lists,
-                                   const std::function<Eigen::Vector2d(std::size_t, std::size_t)>& refine) {
+using Refine = std::function<Eigen::Vector2d(std::size_t, std::size_t, double)>;
+
+/// Plain refinements of all candidates: refine(i, j, nudge) of row i and target j, from a start `nudge` px aside. NaN
+/// where a start as far away as single precision rounds leads elsewhere: not converged, or between two minima.
+std::vector<Eigen::Vector2d> plain(const PaperLists& lists, const Refine& refine) {
+  constexpr double kRounding = 5e-5, kElsewhere = 1e-3;  // px
   std::vector<Eigen::Vector2d> refined(lists.candidates.target.size());
   for (std::size_t i = 0; i + 1 < lists.candidates.first.size(); ++i)
     for (auto c = static_cast<std::size_t>(lists.candidates.first[i]);
-         c < static_cast<std::size_t>(lists.candidates.first[i + 1]); ++c)
-      refined[c] = refine(i, static_cast<std::size_t>(lists.candidates.target[c]));
+         c < static_cast<std::size_t>(lists.candidates.first[i + 1]); ++c) {
+      const auto j = static_cast<std::size_t>(lists.candidates.target[c]);
+      refined[c] = refine(i, j, 0);
+      for (const double nudge : {-kRounding, kRounding})
+        if (!((refine(i, j, nudge) - refined[c]).norm() < kElsewhere)) refined[c].setConstant(std::nan(""));
+    }
   return refined;
 }
 
-/// Single precision may end a refinement a step earlier or later, which moves it by less than the tolerance. The few
-/// that have not converged after the last step may be anywhere.
+/// Single precision may end a refinement a step earlier or later, which moves it by less than the tolerance.
 void compare(const PaperLists& lists, const std::vector<Eigen::Vector2d>& truth, const std::vector<float>& found) {
-  std::size_t alive = 0, different = 0;
+  std::size_t alive = 0, steady = 0, different = 0;
   const std::size_t stride = found.size() / 2;
   for (std::size_t c = 0; c < truth.size(); ++c) {
     if (lists.scores.state[c] != kCandidateAlive) continue;
     ++alive;
+    if (!truth[c].allFinite()) continue;
+    ++steady;
     const Eigen::Vector2d at(static_cast<double>(found[c]), static_cast<double>(found[stride + c]));
     different += (at - truth[c]).norm() < 2e-3 ? 0 : 1;
   }
   CHECK(alive > truth.size() / 2);
-  CHECK(different <= 1 + alive / 400);
+  CHECK(steady > alive / 2);
+  CHECK(different == 0);
 }
 
 using Run = std::function<void(stages::PaperRefinement&, const stages::PaperEdges&, const stages::PaperEdges&,
@@ -86,10 +95,10 @@ void compare_stereo(const StereoRig& rig, bool both_sides, int max_value) {
     return std::array<double, 2>{line.x + 1.3 * line.ex, line.y + 1.3 * line.ey};
   });
   const paper::Picture in_left(left.view()), in_right(right.view());
-  const auto truth = plain(lists, [&](std::size_t i, std::size_t j) {
+  const auto truth = plain(lists, [&](std::size_t i, std::size_t j, double nudge) {
     const EpipolarLine line = epipolar_line(geometry, lists.fixed.x[i], lists.fixed.y[i]);
     const auto at = place_of(lists.moving, j);
-    const double s = reference::epipolar_shift(line, at.x, at.y, at.direction, kShiftMinAngle, kShiftMax);
+    const double s = nudge + reference::epipolar_shift(line, at.x, at.y, at.direction, kShiftMinAngle, kShiftMax);
     paper::Place start{static_cast<float>(line.x + s * line.ex), static_cast<float>(line.y + s * line.ey),
                        lists.fixed.direction[i]};
     std::vector<paper::Pairing> pairings = paper::kBothSides;
@@ -120,15 +129,17 @@ void compare_time(bool both_sides, int max_value, int rows = 403) {
   });
   const paper::Picture in_before(before.view()), in_now(now.view());
   std::size_t stayed = 0;
-  const auto truth = plain(lists, [&](std::size_t i, std::size_t j) {
-    const auto from = place_of(lists.fixed, i), start = place_of(lists.moving, j);
+  const auto truth = plain(lists, [&](std::size_t i, std::size_t j, double nudge) {
+    const auto from = place_of(lists.fixed, i);
+    auto start = place_of(lists.moving, j);
+    start.x += static_cast<float>(nudge);
     const auto pairings = both_sides ? paper::kBothSides
                                      : std::vector{paper::best_pairing(paper::cut_sides(in_before, from, kPatchOffset),
                                                                        paper::cut_sides(in_now, start, kPatchOffset))};
     const auto found = paper::refine(paper::cut_sides(in_before, from, kPaperRefinementOffset), pairings, in_now, start,
                                      Eigen::Matrix2d::Identity(), paper::refinement_settings(config));
     if (found.rms <= kPaperLargestResidual) return found.position;
-    ++stayed;
+    stayed += nudge == 0 ? 1 : 0;
     return Eigen::Vector2d(start.x, start.y);
   });
   CHECK((stayed > 0 || rows < 100));

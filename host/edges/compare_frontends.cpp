@@ -52,15 +52,12 @@ class Collector : public Tap {
     auto& rows = of(stage);  // also where there are none
     for (std::size_t i = 0; i < edges.size(); ++i) rows.push_back(edge_row(edges, i));
   }
-  void add_quads(const std::string& stage, const TemporalMatches& quads, const StereoEdges& base,
-                 double per_px = kPositions) {
+  void add_quads(const std::string& stage, const TemporalMatches& quads, const StereoEdges& base) {
     auto& rows = of(stage);
     for (std::size_t i = 0; i < quads.size(); ++i) {
       const auto before = static_cast<std::size_t>(quads.previous[i]);
-      rows.push_back({place(base.left_x[before]), place(base.left_y[before]),
-                      units(static_cast<double>(quads.left_x[i]), per_px),
-                      units(static_cast<double>(quads.left_y[i]), per_px),
-                      units(static_cast<double>(quads.ncc[i]), kSimilarities)});
+      rows.push_back({place(base.left_x[before]), place(base.left_y[before]), place(quads.left_x[i]),
+                      place(quads.left_y[i]), units(static_cast<double>(quads.ncc[i]), kSimilarities)});
     }
   }
 
@@ -279,8 +276,7 @@ std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Devic
   frontend->process({50'000'000, sequence.left[1].view(), sequence.right[1].view()});
   collector.add_edges("grid_edges", frontend->edges(Side::left));
   collector.add_stereo("paper_patches, paper_filters, paper_refinement, paper_clusters", base->edges);
-  // The refinement in time leaves the position along an edge open: where it ends depends on rounding.
-  collector.add_quads("paper_quads", frontend->match(*base, {}), base->edges, kPositions / 10);
+  collector.add_quads("paper_quads", frontend->match(*base, {}), base->edges);
   return std::move(collector.stages);
 }
 
