@@ -41,7 +41,7 @@ MOST_LINES = {
     "kernels": 6450,
     "python": 11510,
     "scripts": 3080,
-    "tests": 35770,
+    "tests": 35830,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
