@@ -137,28 +137,22 @@ TEST_CASE("A quad behind the camera does not count and keeps its depth and error
 
 namespace {
 
-using Lanes = Contributions<kOffsetValues, kLanes>;
-using EvaluateLanes = void (*)(const ReprojectionTerms&, const Evaluation&, Lanes&);
-
-template <std::size_t... Column>
-[[gnu::always_inline]] inline ReprojectionTerm term_at(const double* const* columns, std::size_t row,
-                                                       std::index_sequence<Column...>) {
-  return {columns[Column][row]...};
-}
+using LaneValues = Contributions<kOffsetValues, kLanes>;
+using EvaluateLanes = void (*)(const ReprojectionTerms&, const Evaluation&, LaneValues&);
 
 /// The first eight quads, in vectors of the width that the caller is compiled for.
-[[gnu::always_inline]] inline void evaluate_lanes(const ReprojectionTerms& terms, const Evaluation& at, Lanes& result) {
+[[gnu::always_inline]] inline void evaluate_lanes(const ReprojectionTerms& terms, const Evaluation& at,
+                                                  LaneValues& result) {
   const double* columns[ReprojectionTerms::kColumns];
   for (std::size_t k = 0; k < ReprojectionTerms::kColumns; ++k) columns[k] = terms.column(k);
   const double* depth = terms.depth.data();
-  Lanes lanes;
+  LaneValues lanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    contribute(term_at(columns, lane, std::make_index_sequence<ReprojectionTerms::kColumns>()), depth[lane], at, lane,
-               lanes);
+    contribute(row_of<ReprojectionTerm>(columns, lane), depth[lane], at, lane, lanes);
   result = lanes;
 }
 
-void at_x86_64(const ReprojectionTerms& terms, const Evaluation& at, Lanes& result) {
+void at_x86_64(const ReprojectionTerms& terms, const Evaluation& at, LaneValues& result) {
   evaluate_lanes(terms, at, result);
 }
 
@@ -167,11 +161,11 @@ std::vector<EvaluateLanes> widths_of_this_machine();
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
 [[gnu::target("arch=x86-64-v3")]] void at_x86_64_v3(const ReprojectionTerms& terms, const Evaluation& at,
-                                                    Lanes& result) {
+                                                    LaneValues& result) {
   evaluate_lanes(terms, at, result);
 }
 [[gnu::target("arch=x86-64-v4")]] void at_x86_64_v4(const ReprojectionTerms& terms, const Evaluation& at,
-                                                    Lanes& result) {
+                                                    LaneValues& result) {
   evaluate_lanes(terms, at, result);
 }
 std::vector<EvaluateLanes> widths_of_this_machine() {
@@ -201,7 +195,7 @@ TEST_CASE("One quad alone and eight at once, at every vector width, give the sam
     LaneContributions production;
     contributions_by_pose(scene.terms, at, 0, production);
     for (const EvaluateLanes evaluate : widths_of_this_machine()) {
-      Lanes lanes;
+      LaneValues lanes;
       evaluate(scene.terms, at, lanes);
       int behind = 0;
       for (std::size_t k = 0; k < kLanes; ++k) {

@@ -7,19 +7,28 @@
 
 namespace quadedge::pose {
 
-std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObservation& observation,
-                                         double min_epipolar_angle) {
-  const ObservedNumbers edge = {observation.left.x(),
-                                observation.left.y(),
-                                observation.right.x(),
-                                observation.right.y(),
-                                std::cos(observation.left_direction),
-                                std::sin(observation.left_direction),
-                                std::cos(observation.right_direction),
-                                std::sin(observation.right_direction),
-                                observation.left_scale_shift};
-  const MeasuredNumbers measured = measure_numbers(RigNumbers(rig, min_epipolar_angle), edge);
-  if (!measured.is_valid) return std::nullopt;
+StereoObservation observation_of(const StereoEdges& edges, std::size_t i) {
+  return {{edges.left_x[i], edges.left_y[i]},
+          {edges.right_x[i], edges.right_y[i]},
+          edges.left_direction[i],
+          edges.right_direction[i],
+          edges.left_scale_shift.empty() ? 0.0 : static_cast<double>(edges.left_scale_shift[i])};
+}
+
+ObservedNumbers numbers_of(const StereoObservation& observation) {
+  return {observation.left.x(),
+          observation.left.y(),
+          observation.right.x(),
+          observation.right.y(),
+          std::cos(observation.left_direction),
+          std::sin(observation.left_direction),
+          std::cos(observation.right_direction),
+          std::sin(observation.right_direction),
+          observation.left_scale_shift};
+}
+
+std::optional<StereoMeasurement> measurement_of(const ObservedNumbers& edge, const MeasuredNumbers& measured) {
+  if (measured.is_valid == 0) return std::nullopt;
   const auto vector = [](const Vector3& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
   StereoMeasurement result;
   result.ray = vector(measured.ray);
@@ -35,6 +44,12 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   result.left_normal = vector(measured.left_normal);
   result.right_normal = vector(measured.right_normal);
   return result;
+}
+
+std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObservation& observation,
+                                         double min_epipolar_angle) {
+  const ObservedNumbers edge = numbers_of(observation);
+  return measurement_of(edge, measure_numbers(RigNumbers(rig, min_epipolar_angle), edge));
 }
 
 std::optional<ImageEdge> project(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_points,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "quadedge/camera.hpp"
+#include "quadedge/edges.hpp"
 
 namespace quadedge::pose {
 
@@ -23,6 +24,9 @@ struct StereoObservation {
   double left_direction = 0, right_direction = 0;
   double left_scale_shift = 0;  ///< of the left edge, see EdgeSet::scale_shift
 };
+
+/// What is observed of edge `i`.
+StereoObservation observation_of(const StereoEdges& edges, std::size_t i);
 
 /// A stereo edge in terms of quantities with Gaussian noise. The left pixel is exact by definition (it selects the
 /// scene point). Measured are the inverse depth along its ray and the depth slope of the curve:

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "common/parallel.hpp"
+#include "geometry/lanes.hpp"
 #include "geometry/stereo_numbers.hpp"
 #include "quadedge/camera.hpp"
 
@@ -13,11 +15,14 @@ namespace quadedge::pose {
 
 namespace {
 
-constexpr std::size_t kLanes = 8;
+/// What a prediction needs of a measured edge. NaN without a measurement.
+struct KnownEdge {
+  double ray_x, ray_y, inverse_depth, direction_x, direction_y, slope;
 
-/// Columns of what a prediction needs of kLanes measured edges. NaN without a measurement.
-struct PointLanes {
-  double ray_x[kLanes], ray_y[kLanes], inverse_depth[kLanes], direction_x[kLanes], direction_y[kLanes], slope[kLanes];
+  template <class Self>
+  [[gnu::always_inline]] static auto members(Self& self) {
+    return std::tie(self.ray_x, self.ray_y, self.inverse_depth, self.direction_x, self.direction_y, self.slope);
+  }
 };
 
 struct EdgeLanes {
@@ -74,13 +79,14 @@ struct MovedCamera {
 }
 
 QUADEDGE_VECTOR_CLONES
-void predict_lanes(const PointLanes& points, const MovedCamera& left, const MovedCamera& right, EdgeLanes& in_left,
+void predict_lanes(const Lanes<KnownEdge>& known, const MovedCamera& left, const MovedCamera& right, EdgeLanes& in_left,
                    EdgeLanes& in_right) {
   EdgeLanes lefts, rights;  // on the stack, so that they cannot alias the inputs
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const Vector3 ray = {points.ray_x[k], points.ray_y[k], 1.0};
-    const Vector3 point = over(ray, points.inverse_depth[k]);
-    const Vector3 tangent = plus({points.direction_x[k], points.direction_y[k], 0.0}, points.slope[k] * ray);
+    const KnownEdge edge = row_of<KnownEdge>(known, k);
+    const Vector3 ray = {edge.ray_x, edge.ray_y, 1.0};
+    const Vector3 point = over(ray, edge.inverse_depth);
+    const Vector3 tangent = plus({edge.direction_x, edge.direction_y, 0.0}, edge.slope * ray);
     const Vector3 unit = over(tangent, norm(tangent));
     project_lane(left, point, unit, k, lefts);
     project_lane(right, point, unit, k, rights);
@@ -89,15 +95,10 @@ void predict_lanes(const PointLanes& points, const MovedCamera& left, const Move
   in_right = rights;
 }
 
-void set_lane(const std::optional<StereoMeasurement>& measured, std::size_t k, PointLanes& lanes) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  lanes.inverse_depth[k] = measured ? measured->inverse_depth : kUnknown;
-  if (!measured) return;
-  lanes.ray_x[k] = measured->ray.x();
-  lanes.ray_y[k] = measured->ray.y();
-  lanes.direction_x[k] = measured->direction.x();
-  lanes.direction_y[k] = measured->direction.y();
-  lanes.slope[k] = measured->slope;
+KnownEdge known(const std::optional<StereoMeasurement>& measured) {
+  if (!measured) return {0, 0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0};
+  return {measured->ray.x(),       measured->ray.y(),       measured->inverse_depth,
+          measured->direction.x(), measured->direction.y(), measured->slope};
 }
 
 void take_lane(const EdgeLanes& lanes, std::size_t k, std::size_t i, EdgePositions& edges) {
@@ -116,11 +117,11 @@ void predict_edges(const StereoRig& rig, const MeasuredEdges& measured, const Ei
     for (auto* column : {&edges->x, &edges->y, &edges->direction}) column->resize(measured.size());
   for_row_blocks((measured.size() + step - 1) / step,
                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                   PointLanes points = {};
+                   Lanes<KnownEdge> points = {};
                    EdgeLanes lefts, rights;
                    for (std::size_t first = begin; first < end; first += kLanes) {
                      const std::size_t count = std::min(kLanes, end - first);
-                     for (std::size_t k = 0; k < count; ++k) set_lane(measured[(first + k) * step], k, points);
+                     for (std::size_t k = 0; k < count; ++k) set_row(points, k, known(measured[(first + k) * step]));
                      predict_lanes(points, left_camera, right_camera, lefts, rights);
                      for (std::size_t k = 0; k < count; ++k) {
                        take_lane(lefts, k, (first + k) * step, left);

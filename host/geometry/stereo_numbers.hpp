@@ -5,7 +5,10 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <tuple>
 
+#include "geometry/oriented_point.hpp"
 #include "quadedge/camera.hpp"
 
 namespace quadedge::pose {
@@ -16,6 +19,12 @@ namespace quadedge::pose {
 struct Vector3 {
   double x, y, z;
 };
+
+/// References to the three, for row_of() and set_row().
+template <class Vector>
+[[gnu::always_inline]] inline auto members_of(Vector& vector) {
+  return std::tie(vector.x, vector.y, vector.z);
+}
 
 [[gnu::always_inline]] inline double dot(const Vector3& a, const Vector3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -102,17 +111,37 @@ struct RigNumbers {
 /// A stereo edge: positions [px], unit directions in the images, scale-space shift of the left edge.
 struct ObservedNumbers {
   double left_x, left_y, right_x, right_y, left_cos, left_sin, right_cos, right_sin, scale_shift;
+
+  template <class Self>
+  [[gnu::always_inline]] static auto members(Self& self) {
+    return std::tie(self.left_x, self.left_y, self.right_x, self.right_y, self.left_cos, self.left_sin, self.right_cos,
+                    self.right_sin, self.scale_shift);
+  }
 };
+
+ObservedNumbers numbers_of(const StereoObservation& observation);
 
 /// The members of a StereoMeasurement that measure() computes.
 struct MeasuredNumbers {
-  bool is_valid;  ///< if not, the edge has no measurement and the other members are arbitrary
+  double is_valid;  ///< 1; if 0, the edge has no measurement and the other members are arbitrary
   Vector3 ray;
   double inverse_depth, inverse_depth_per_pixel, epipolar_sine;
   Vector3 direction, scale_shift;  ///< z is 0
   double slope, slope_per_radian;
   Vector3 left_normal, right_normal;
+
+  template <class Self>
+  [[gnu::always_inline]] static auto members(Self& self) {
+    return std::tuple_cat(std::tie(self.is_valid), members_of(self.ray),
+                          std::tie(self.inverse_depth, self.inverse_depth_per_pixel, self.epipolar_sine),
+                          members_of(self.direction), members_of(self.scale_shift),
+                          std::tie(self.slope, self.slope_per_radian), members_of(self.left_normal),
+                          members_of(self.right_normal));
+  }
 };
+
+/// The measurement of an edge; nothing if it has none.
+std::optional<StereoMeasurement> measurement_of(const ObservedNumbers& edge, const MeasuredNumbers& measured);
 
 /// See measure().
 [[gnu::always_inline]] inline MeasuredNumbers measure_numbers(const RigNumbers& rig, const ObservedNumbers& edge) {
@@ -156,10 +185,12 @@ struct MeasuredNumbers {
   const double by_right = dot(normal_turn, plus(result.direction, result.slope * result.ray)) / along_ray;
   const double by_left = dot(normal, rig.left.step(-edge.left_sin, edge.left_cos)) * left_scale / along_ray;
   result.slope_per_radian = std::sqrt(by_right * by_right + by_left * by_left);
-  result.is_valid = (line_norm > 0) & (result.inverse_depth > 0) & is_finite(result.inverse_depth) & (in_right.z > 0) &
-                    is_finite(result.inverse_depth_per_pixel) & !(left_crossing < rig.min_sine * norm(left_line)) &
-                    (result.epipolar_sine > 0) & !(result.epipolar_sine < rig.min_sine) & is_finite(result.slope) &
-                    is_finite(result.slope_per_radian);
+  const bool is_valid = (line_norm > 0) & (result.inverse_depth > 0) & is_finite(result.inverse_depth) &
+                        (in_right.z > 0) & is_finite(result.inverse_depth_per_pixel) &
+                        !(left_crossing < rig.min_sine * norm(left_line)) & (result.epipolar_sine > 0) &
+                        !(result.epipolar_sine < rig.min_sine) & is_finite(result.slope) &
+                        is_finite(result.slope_per_radian);
+  result.is_valid = is_valid ? 1 : 0;
   return result;
 }
 

@@ -5,14 +5,6 @@
 
 namespace quadedge::pose {
 
-StereoObservation observation_of(const StereoEdges& edges, std::size_t i) {
-  return {{edges.left_x[i], edges.left_y[i]},
-          {edges.right_x[i], edges.right_y[i]},
-          edges.left_direction[i],
-          edges.right_direction[i],
-          edges.left_scale_shift.empty() ? 0.0 : static_cast<double>(edges.left_scale_shift[i])};
-}
-
 void ScoringArrays::assign_rows(const ScoringArrays& other, const std::vector<std::int32_t>& rows) {
   for (auto column : kScoringColumns) {
     auto& to = this->*column;

@@ -13,9 +13,6 @@
 
 namespace quadedge::pose {
 
-/// What is observed of an edge of a frame.
-StereoObservation observation_of(const StereoEdges& edges, std::size_t i);
-
 /// Limits that decide whether a quad is used, and the noise of its tangent.
 struct QuadLimits {
   double min_epipolar_angle = kMinEpipolarAngle;  ///< see measure() [rad]

@@ -19,7 +19,7 @@ template <std::size_t Values>
 [[gnu::always_inline]] inline void evaluate_lanes(const Columns& columns, const double* depth, std::size_t first,
                                                   const Evaluation& at, Contributions<Values, kLanes>& lanes) {
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    contribute(term_at(columns.values, first + lane), depth[lane], at, lane, lanes);
+    contribute(row_of<ReprojectionTerm>(columns.values, first + lane), depth[lane], at, lane, lanes);
 }
 
 template <std::size_t Values>
@@ -97,9 +97,8 @@ void ReprojectionTerms::assign(const QuadObservations& quads, const std::vector<
         for (auto& column : columns_) column[k] = 0;
         continue;
       }
-      const ReprojectionTerm term =
-          per_ray_unit(make_reprojection_term(quads, static_cast<std::size_t>(rows[k]), noise, scale), left);
-      for (std::size_t which = 0; which < kColumns; ++which) columns_[which][k] = term.*kTermMembers[which];
+      const auto quad = static_cast<std::size_t>(rows[k]);
+      set_row(columns_, k, per_ray_unit(make_reprojection_term(quads, quad, noise, scale), left));
     }
   });
 }

@@ -13,13 +13,11 @@
 
 namespace quadedge::pose {
 
-/// Number of quads computed at once; columns are padded with zero rows, which contribute nothing.
-constexpr std::size_t kLanes = 8;
-
-/// Many ReprojectionTerms as a structure of arrays, one row per quad, with the depth unknown of each quad.
+/// Many ReprojectionTerms as a structure of arrays, one row per quad, with the depth unknown of each quad. Columns are
+/// padded with zero rows to a multiple of kLanes, which contribute nothing.
 class ReprojectionTerms {
  public:
-  static constexpr std::size_t kColumns = std::size(kTermMembers);
+  static constexpr std::size_t kColumns = sizeof(ReprojectionTerm) / sizeof(double);
 
   /// Sets the terms of the quads `rows`, per_ray_unit(), and resets their depth unknowns to zero.
   /// \param scale see NoiseModel::along_in_time()

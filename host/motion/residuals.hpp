@@ -5,8 +5,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <iterator>
+#include <tuple>
 
+#include "geometry/lanes.hpp"
 #include "geometry/stereo_numbers.hpp"
 #include "motion/quads.hpp"
 #include "quadedge/camera.hpp"
@@ -47,34 +48,15 @@ struct ReprojectionTerm {
   double along_x, along_y;       ///< unit tangent, divided by its sigma [1/px]
   double current_inverse_depth;  ///< as measured [1/m]
   double current_inverse_depth_weight;  ///< 1 / its standard deviation [m]
+
+  template <class Self>
+  [[gnu::always_inline]] static auto members(Self& self) {
+    return std::tie(self.ray_x, self.ray_y, self.inverse_depth, self.inverse_depth_sigma, self.inverse_depth_per_pixel,
+                    self.current_inverse_depth_per_pixel, self.current_x, self.current_y, self.scale_shift_x,
+                    self.scale_shift_y, self.across_x, self.across_y, self.along_x, self.along_y,
+                    self.current_inverse_depth, self.current_inverse_depth_weight);
+  }
 };
-
-/// All members of a term, for columns of terms.
-inline constexpr double ReprojectionTerm::*kTermMembers[] = {&ReprojectionTerm::ray_x,
-                                                             &ReprojectionTerm::ray_y,
-                                                             &ReprojectionTerm::inverse_depth,
-                                                             &ReprojectionTerm::inverse_depth_sigma,
-                                                             &ReprojectionTerm::inverse_depth_per_pixel,
-                                                             &ReprojectionTerm::current_inverse_depth_per_pixel,
-                                                             &ReprojectionTerm::current_x,
-                                                             &ReprojectionTerm::current_y,
-                                                             &ReprojectionTerm::scale_shift_x,
-                                                             &ReprojectionTerm::scale_shift_y,
-                                                             &ReprojectionTerm::across_x,
-                                                             &ReprojectionTerm::across_y,
-                                                             &ReprojectionTerm::along_x,
-                                                             &ReprojectionTerm::along_y,
-                                                             &ReprojectionTerm::current_inverse_depth,
-                                                             &ReprojectionTerm::current_inverse_depth_weight};
-static_assert(sizeof(ReprojectionTerm) == std::size(kTermMembers) * sizeof(double));
-
-/// The term whose members are row `row` of `columns`, one column per member.
-template <class Columns>
-[[gnu::always_inline]] inline ReprojectionTerm term_at(const Columns& columns, std::size_t row) {
-  ReprojectionTerm term;
-  for (std::size_t k = 0; k < std::size(kTermMembers); ++k) term.*kTermMembers[k] = columns[k][row];
-  return term;
-}
 
 /// \param quad its row in `quads` \param scale see NoiseModel::along_in_time()
 ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
@@ -162,6 +144,12 @@ struct DirectionTerm {
   double slope_sigma;  ///< standard deviation of `slope`
   /// Unit normals of the tangent's current viewing planes, divided by the sigma of the direction; current left frame.
   Vector3 left_normal, right_normal;
+
+  template <class Self>
+  [[gnu::always_inline]] static auto members(Self& self) {
+    return std::tuple_cat(members_of(self.tangent), std::tie(self.slope_sigma), members_of(self.left_normal),
+                          members_of(self.right_normal));
+  }
 };
 
 /// \param quad its row in `quads`

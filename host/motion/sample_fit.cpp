@@ -33,12 +33,8 @@ struct Estimates {
 /// \returns the squared error; -1 if the quad is behind the camera, as its reprojection tells
 [[gnu::always_inline]] inline double add_direction(const SampleBlock& block, const SampleEvaluation& at,
                                                    std::size_t lane, LaneContributions& lanes) {
-  const auto vector = [&](const double(&columns)[3][kLanes]) -> Vector3 {
-    return {columns[0][lane], columns[1][lane], columns[2][lane]};
-  };
   const auto& rotation = at.reprojection.rotation;
-  const DirectionTerm term = {vector(block.tangent), block.slope_sigma[lane], vector(block.left_normal),
-                              vector(block.right_normal)};
+  const auto term = row_of<DirectionTerm>(block.direction, lane);
   const Vector3 ray = rotate(rotation, block.reprojection[0][lane], block.reprojection[1][lane], 1.0);
   const Vector3 tangent = rotate(rotation, term.tangent.x, term.tangent.y, term.tangent.z);
   const DirectionResidual e = direction_residual(term, ray, tangent);
@@ -83,7 +79,7 @@ void sum_blocks(const SampleBlock* blocks, std::size_t count, const SampleEvalua
     LaneContributions lanes;
     double errors[kLanes];
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      contribute(term_at(block.reprojection, lane), depth[lane], at.reprojection, lane, lanes);
+      contribute(row_of<ReprojectionTerm>(block.reprojection, lane), depth[lane], at.reprojection, lane, lanes);
       errors[lane] = add_direction(block, at, lane, lanes);
     }
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -100,20 +96,6 @@ void sum_blocks(const SampleBlock* blocks, std::size_t count, const SampleEvalua
   }
 }
 
-void set_lane(const SampleTerm& term, SampleBlock& block, std::size_t lane) {
-  for (std::size_t k = 0; k < std::size(kTermMembers); ++k)
-    block.reprojection[k][lane] = term.reprojection.*kTermMembers[k];
-  const auto set = [&](const Vector3& vector, double(&columns)[3][kLanes]) {
-    columns[0][lane] = vector.x;
-    columns[1][lane] = vector.y;
-    columns[2][lane] = vector.z;
-  };
-  set(term.direction.tangent, block.tangent);
-  set(term.direction.left_normal, block.left_normal);
-  set(term.direction.right_normal, block.right_normal);
-  block.slope_sigma[lane] = term.direction.slope_sigma;
-}
-
 }  // namespace
 
 SampleTerm make_sample_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
@@ -127,8 +109,11 @@ bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int
   const std::size_t blocks = (rows.size() + kLanes - 1) / kLanes;
   workspace.blocks.resize(blocks);
   workspace.blocks.back() = {};
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    set_lane(terms[static_cast<std::size_t>(rows[k])], workspace.blocks[k / kLanes], k % kLanes);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const SampleTerm& term = terms[static_cast<std::size_t>(rows[k])];
+    set_row(workspace.blocks[k / kLanes].reprojection, k % kLanes, term.reprojection);
+    set_row(workspace.blocks[k / kLanes].direction, k % kLanes, term.direction);
+  }
   for (auto* values : {&workspace.depth, &workspace.reprojection_error, &workspace.direction_error})
     values->assign(blocks * kLanes, 0.0);
 

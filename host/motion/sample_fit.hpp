@@ -23,8 +23,8 @@ SampleTerm make_sample_term(const QuadObservations& quads, std::size_t quad, con
 
 /// kLanes terms side by side, so that loops over them vectorise. Lanes without a term are zero and contribute nothing.
 struct SampleBlock {
-  double reprojection[ReprojectionTerms::kColumns][kLanes];
-  double tangent[3][kLanes], slope_sigma[kLanes], left_normal[3][kLanes], right_normal[3][kLanes];
+  Lanes<ReprojectionTerm> reprojection;
+  Lanes<DirectionTerm> direction;
 };
 
 /// Buffers of the fit, kept between calls so that steps allocate nothing.
