@@ -14,6 +14,7 @@
 #include "motion/motion_search.hpp"
 #include "motion/odometry_constants.hpp"
 #include "motion/view_change.hpp"
+#include "places/closures.hpp"
 #include "places/place_store.hpp"
 #include "places/pose_graph.hpp"
 #include "quadedge/camera.hpp"
@@ -25,10 +26,6 @@ namespace {
 using places::GraphEdge;
 
 constexpr double kBytesPerMegabyte = 1e6;
-
-/// Largest squared deviation of a closure that the map expects: 99.9 % of chi^2 with six degrees of freedom. With a
-/// second closure that agrees, ten times the deviation in standard deviations is possible.
-constexpr double kExpected = 22.5, kPossible = 100 * kExpected;
 
 /// Standard deviations of the map's prediction that a search near it has to cover; otherwise all edges are matched.
 constexpr double kCovered = 3;
@@ -42,9 +39,6 @@ constexpr double kWorthwhile = 12;
 
 /// A node is not kept as a place if its view differs by less than this from that of one of the latest places [rad].
 constexpr double kNewView = 0.15;
-
-/// Number of closures that wait for another that agrees. One is found in the frames that follow, or not at all.
-constexpr std::size_t kMostPending = 20;
 
 /// A frame takes one step of a search for a place, and one more for every kNodesPerStep nodes that wait. Beyond
 /// kMostWaiting, the oldest is finished at once, since each holds all edges of its frame.
@@ -62,12 +56,6 @@ struct LocatedFrame {
   int node = -1;  ///< -1: lost
   Eigen::Isometry3d node_from_left = Eigen::Isometry3d::Identity();
   GraphEdge motion;  ///< from its node to itself, in case it becomes a reference
-};
-
-/// A closure that may be kept.
-struct ListedClosure {
-  std::size_t number;  ///< in the list of closures
-  GraphEdge edge;
 };
 
 /// A node with its edges.
@@ -96,9 +84,9 @@ struct WaitingNode {
   std::vector<Candidate> candidates;  ///< best first
   std::size_t next = 0;               ///< the next candidate
   std::optional<Comparison> comparison;
-  bool is_own_compared = false;        ///< a place of the same segment
-  std::optional<ListedClosure> own;    ///< with that place
-  std::vector<ListedClosure> joining;  ///< with places of other segments
+  bool is_own_compared = false;                ///< a place of the same segment
+  std::optional<places::ListedClosure> own;    ///< with that place
+  std::vector<places::ListedClosure> joining;  ///< with places of other segments
 };
 
 /// \throws UsageError for the paper's method, which keeps no frames.
@@ -110,16 +98,6 @@ StereoOdometry& with_kept_rigs(StereoOdometry& odometry) {
 
 }  // namespace
 
-const char* to_string(ClosureVerdict verdict) {
-  switch (verdict) {
-    case ClosureVerdict::kept: return "kept";
-    case ClosureVerdict::not_found: return "not_found";
-    case ClosureVerdict::ambiguous: return "ambiguous";
-    case ClosureVerdict::unconfirmed: return "unconfirmed";
-  }
-  return "unknown";
-}
-
 class Map::Implementation {
  public:
   explicit Implementation(StereoOdometry& odometry)
@@ -127,7 +105,8 @@ class Map::Implementation {
         config_(odometry.config()),
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
-        search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend, odometry.rig()) {
+        search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend, odometry.rig()),
+        closures_(graph_) {
     places::check_map_config(config_);
     if (const auto& latest = odometry::LatestFrame::of(odometry).frame_edges)
       throw UsageError("a map has to see every frame, and the odometry has tracked " +
@@ -142,7 +121,7 @@ class Map::Implementation {
   int segments() const;
   const Device& device() const { return odometry::LatestFrame::of(odometry_).device; }
   const Eigen::Isometry3d& map_from_odometry() const { return map_from_odometry_; }
-  const std::vector<Closure>& closures() const { return closures_; }
+  const std::vector<Closure>& closures() const { return closures_.all(); }
   const places::PlaceStore& store() const { return store_; }
 
  private:
@@ -153,7 +132,6 @@ class Map::Implementation {
   bool advance();
   std::optional<Comparison> begin_next(WaitingNode& waiting);
   bool decide_all(const WaitingNode& waiting);
-  bool is_joined(int one, int other) const { return graph_.component(one) == graph_.component(other); }
   const places::Place* nearest(int node, int max_gap, int min_gap, double most_change, double inverse_depth) const;
   double mean_inverse_depth() const;
   double spread(const GraphEdge& motion, double inverse_depth) const;
@@ -161,17 +139,9 @@ class Map::Implementation {
   bool is_predictable(const GraphEdge& motion, double inverse_depth) const;
   bool is_worthwhile(const GraphEdge& motion, const NodeView& view) const;
   Comparison begin(const NodeView& view, const places::Place& place, float similarity, bool near_prediction);
-  std::optional<ListedClosure> complete(const Comparison& comparison, const NodeView& view);
-  Closure& listed(const ListedClosure& closure) { return closures_[closure.number]; }
-  /// Whether its support, which a wrong motion does not reach by chance, suffices to join two segments.
-  bool is_certain(const ListedClosure& closure) const {
-    return closures_[closure.number].support > odometry::kChanceSupport;
+  std::optional<places::ListedClosure> list(const Comparison& comparison, const NodeView& view) {
+    return closures_.list(comparison.closure, comparison.place, view.node, *comparison.search.found);
   }
-  bool is_rival(const places::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
-  void reject_contradictions(const std::vector<ListedClosure>& joining);
-  bool decide(const ListedClosure& closure);
-  bool agree(GraphEdge confirming, const GraphEdge& edge) const;
-  void keep(const ListedClosure& closure);
   LocatedFrame& frame(int number) { return frames_[static_cast<std::size_t>(number)]; }
   std::map<int, int> frames_of_segments() const;
   int largest_segment() const;
@@ -184,9 +154,8 @@ class Map::Implementation {
   std::vector<LocatedFrame> frames_;
   std::vector<int> frame_of_node_;
   GraphEdge last_motion_;  ///< of the frame located last
-  std::vector<Closure> closures_;
-  std::deque<ListedClosure> pending_;  ///< the latest kMostPending that no other has confirmed
-  std::deque<WaitingNode> waiting_;    ///< oldest first
+  places::Closures closures_;
+  std::deque<WaitingNode> waiting_;  ///< oldest first
   Eigen::Isometry3d map_from_odometry_ = Eigen::Isometry3d::Identity();
 };
 
@@ -270,7 +239,7 @@ const places::Place* Map::Implementation::nearest(int node, int max_gap, int min
   double smallest = most_change;
   for (const places::Place& place : store_.places()) {
     const int gap = node - place.node;
-    if (!is_joined(place.node, node) || gap < min_gap || gap > max_gap) continue;
+    if (!graph_.is_joined(place.node, node) || gap < min_gap || gap > max_gap) continue;
     const Eigen::Isometry3d motion = graph_.pose(node).inverse() * graph_.pose(place.node);
     const double angle = odometry::view_change(motion, inverse_depth);
     if (angle >= smallest) continue;
@@ -317,8 +286,8 @@ bool Map::Implementation::recognise(int node) {
       Comparison comparison = begin(view, *seen, 0, true);
       while (!search_.advance(comparison.search)) {
       }
-      const auto closure = complete(comparison, view);
-      return closure && decide(*closure);
+      const auto closure = list(comparison, view);
+      return closure && closures_.decide(*closure);
     }
   } else if (nearest(node, min_gap, 1, kNewView, view.inverse_depth) != nullptr) {
     return false;
@@ -326,7 +295,7 @@ bool Map::Implementation::recognise(int node) {
   places::Place place{now.frontend.keep(), {}, node};
   place.signature = places::place_signature(place.kept);
   const auto may_be = [&](const places::Place& other) {
-    return !is_joined(other.node, node) || node - other.node > min_gap;
+    return !graph_.is_joined(other.node, node) || node - other.node > min_gap;
   };
   WaitingNode waiting;
   waiting.view = view;
@@ -350,7 +319,7 @@ bool Map::Implementation::advance() {
     return decide_all(done);
   }
   if (!search_.advance(waiting.comparison->search)) return false;
-  auto closure = complete(*waiting.comparison, waiting.view);
+  auto closure = list(*waiting.comparison, waiting.view);
   if (closure && waiting.comparison->is_own) {
     waiting.own = std::move(closure);
   } else if (closure) {
@@ -368,8 +337,8 @@ std::optional<Comparison> Map::Implementation::begin_next(WaitingNode& waiting) 
     const WaitingNode::Candidate& candidate = waiting.candidates[waiting.next++];
     const places::Place* const place = store_.find(candidate.place);
     if (place == nullptr) continue;
-    if (!is_joined(place->node, view.node)) {
-      if (is_candidate || is_rival(*place, waiting.joining, view.inverse_depth))
+    if (!graph_.is_joined(place->node, view.node)) {
+      if (is_candidate || closures_.is_rival(place->node, waiting.joining, view.inverse_depth))
         return begin(view, *place, candidate.similarity, false);
     } else if (is_candidate && !waiting.is_own_compared) {
       const GraphEdge motion = graph_.motion(place->node, view.node);
@@ -382,9 +351,9 @@ std::optional<Comparison> Map::Implementation::begin_next(WaitingNode& waiting) 
 }
 
 bool Map::Implementation::decide_all(const WaitingNode& waiting) {
-  reject_contradictions(waiting.joining);
-  bool changed = waiting.own && decide(*waiting.own);
-  for (const ListedClosure& closure : waiting.joining) changed = decide(closure) || changed;
+  closures_.reject_contradictions(waiting.joining);
+  bool changed = waiting.own && closures_.decide(*waiting.own);
+  for (const places::ListedClosure& closure : waiting.joining) changed = closures_.decide(closure) || changed;
   return changed;
 }
 
@@ -407,95 +376,11 @@ Comparison Map::Implementation::begin(const NodeView& view, const places::Place&
     query.prediction = graph_.pose(view.node).inverse() * graph_.pose(place.node);
     query.only_near_prediction = true;
   }
-  Comparison comparison{{}, place.node, is_joined(place.node, view.node), odometry::MotionSearch::State(query)};
+  Comparison comparison{{}, place.node, graph_.is_joined(place.node, view.node), odometry::MotionSearch::State(query)};
   comparison.closure.frame = view.frame;
   comparison.closure.other = place.kept.frame;
   comparison.closure.similarity = static_cast<double>(similarity);
   return comparison;
-}
-
-/// Lists the outcome of a comparison. \returns the closure, if a motion was found
-std::optional<ListedClosure> Map::Implementation::complete(const Comparison& comparison, const NodeView& view) {
-  const odometry::MotionStep& step = *comparison.search.found;
-  Closure& closure = closures_.emplace_back(comparison.closure);
-  if (!step.ok()) return std::nullopt;
-  const pose::MotionEstimate& motion = step.motion;
-  const pose::RelativePose frame_from_other = motion.adopted();
-  closure.frame_from_other = frame_from_other.transform;
-  closure.inliers = motion.inliers;
-  closure.support = step.verdict.support;
-  closure.verdict = step.verdict.ambiguity.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
-  const Eigen::Isometry3d other_from_frame = frame_from_other.transform.inverse();
-  RigSensitivity by_rig = pose::rig_sensitivity(other_from_frame, step.mean_inverse_depth());
-  by_rig.rightCols<1>() = pose::offset_sensitivity(other_from_frame, motion.learned.by_offset);
-  GraphEdge edge = GraphEdge::of(comparison.place, view.node, frame_from_other, by_rig, true);
-  if (is_joined(edge.from, edge.to)) {
-    const Eigen::Isometry3d before = graph_.pose(edge.to).inverse() * graph_.pose(edge.from);
-    const Eigen::Isometry3d error = frame_from_other.transform * before.inverse();
-    closure.deviation = std::sqrt(graph_.deviation(graph_.motion(edge.from, edge.to), edge));
-    closure.distance_m = error.translation().norm();
-    closure.angle_deg = Eigen::AngleAxisd(error.linear()).angle() / kDegree;
-  }
-  return ListedClosure{closures_.size() - 1, std::move(edge)};
-}
-
-/// Whether the loop of both closures and the map's motions between their ends closes.
-bool Map::Implementation::agree(GraphEdge confirming, const GraphEdge& edge) const {
-  if (!is_joined(confirming.from, edge.from)) confirming = confirming.reversed();
-  if (!is_joined(confirming.from, edge.from) || !is_joined(confirming.to, edge.to)) return false;
-  const GraphEdge around =
-      graph_.motion(confirming.to, edge.to).after(confirming).after(graph_.motion(edge.from, confirming.from));
-  return graph_.deviation(around, edge) < kExpected;
-}
-
-/// Whether a place lies in a segment that a closure would join, but where it does not see what the current frame sees.
-bool Map::Implementation::is_rival(const places::Place& place, const std::vector<ListedClosure>& joining,
-                                   double inverse_depth) const {
-  return std::any_of(joining.begin(), joining.end(), [&](const ListedClosure& closure) {
-    const GraphEdge& edge = closure.edge;
-    if (!is_certain(closure) || !is_joined(place.node, edge.from)) return false;
-    const Eigen::Isometry3d map_from_now = graph_.pose(edge.from) * edge.measured.transform.inverse();
-    return odometry::view_change(map_from_now.inverse() * graph_.pose(place.node), inverse_depth) > odometry::kSameView;
-  });
-}
-
-/// Marks closures of the current frame with one other segment as ambiguous if they place it in different parts of that
-/// segment.
-void Map::Implementation::reject_contradictions(const std::vector<ListedClosure>& joining) {
-  for (const ListedClosure& one : joining) {
-    for (const ListedClosure& other : joining) {
-      if (!is_certain(one) || !is_certain(other) || !is_joined(one.edge.from, other.edge.from)) continue;
-      if (!agree(one.edge, other.edge)) listed(one).verdict = listed(other).verdict = ClosureVerdict::ambiguous;
-    }
-  }
-}
-
-void Map::Implementation::keep(const ListedClosure& closure) {
-  graph_.add_edge(closure.edge);
-  listed(closure).verdict = ClosureVerdict::kept;
-}
-
-/// Keeps a closure if the map expects it, or if it agrees with a pending closure. \returns whether the map has changed
-bool Map::Implementation::decide(const ListedClosure& closure) {
-  if (listed(closure).verdict == ClosureVerdict::ambiguous) return false;
-  const GraphEdge& edge = closure.edge;
-  const bool has_prior = is_joined(edge.from, edge.to);
-  const double deviation = has_prior ? graph_.deviation(graph_.motion(edge.from, edge.to), edge) : 0;
-  if (deviation > kPossible) return false;
-  if (has_prior ? deviation >= kExpected : !is_certain(closure)) {
-    const auto confirming = std::find_if(pending_.begin(), pending_.end(),
-                                         [&](const ListedClosure& other) { return agree(other.edge, edge); });
-    if (confirming == pending_.end()) {
-      pending_.push_back(closure);
-      if (pending_.size() > kMostPending) pending_.pop_front();
-      return false;
-    }
-    keep(*confirming);
-    pending_.erase(confirming);
-  }
-  keep(closure);
-  graph_.optimise();
-  return true;
 }
 
 std::map<int, int> Map::Implementation::frames_of_segments() const {

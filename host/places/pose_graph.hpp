@@ -49,6 +49,7 @@ class PoseGraph {
   const Eigen::Isometry3d& pose(int node) const { return poses_[static_cast<std::size_t>(node)]; }
   /// First node of a node's component.
   int component(int node) const { return components_[static_cast<std::size_t>(node)]; }
+  bool is_joined(int one, int other) const { return component(one) == component(other); }
 
   /// The motion between two nodes of one component at their poses, with the covariance along the most certain chain of
   /// edges between them: that of the graph if it is the only chain, and larger otherwise.
