@@ -33,12 +33,15 @@ TEST_CASE("learned rig: what is learned of the offset adds up, and becomes less 
   LearnedRig rig(config);
   CHECK(rig.estimate().disparity_offset_sigma == Approx(0.3));
   rig.adopt(LearnedRig::refined(rig.estimate(), {}, learned(0.25, 0.0004, -0.01)), 1);
-  rig.adopt(LearnedRig::refined(rig.estimate(), {}, learned(-0.05, 0.0003, -0.02)), 5);
+  rig.adopt(LearnedRig::refined(rig.estimate(), {}, learned(-0.05, 0.0003, -0.02)), 6);
   const RigEstimate estimate = rig.estimate();
   CHECK(estimate.disparity_offset == Approx(0.3));
   CHECK(estimate.disparity_offset_sigma == Approx(std::sqrt(0.0003 + 5 * 0.000009)));
   CHECK(estimate.disparity_offset_shared == Approx(-0.02));
   CHECK(estimate.displacement == 0);
+  // Drift counts from the keyframe adopted last, whichever is the keyframe since.
+  rig.adopt(LearnedRig::refined(estimate, {}, learned(0, 0.0002, 0)), 8);
+  CHECK(rig.estimate().disparity_offset_sigma == Approx(std::sqrt(0.0002 + 2 * 0.000009)));
 }
 
 TEST_CASE("learned rig: switched off, it keeps the configured value", "[rig]") {

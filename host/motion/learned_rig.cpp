@@ -2,6 +2,7 @@
 #include "motion/learned_rig.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "rig/rig_constants.hpp"
 
@@ -56,8 +57,9 @@ RigEstimate LearnedRig::anchored(RigEstimate frame) {
   return frame;
 }
 
-void LearnedRig::adopt(const RigEstimate& frame, int frames) {
+void LearnedRig::adopt(const RigEstimate& frame, int number) {
   if (!(prior_.variance > 0)) return;
+  const int frames = number - std::exchange(adopted_, number);
   value_ = frame.disparity_offset;
   prior_ = {frame.disparity_offset_sigma * frame.disparity_offset_sigma +
                 frames * kDisparityOffsetDrift * kDisparityOffsetDrift,

@@ -29,8 +29,8 @@ class LearnedRig {
   static RigEstimate refined(RigEstimate frame, const RigEstimate& base, const pose::PoseAndOffset& learned);
   /// Draws the displacement of a frame towards 0, where those of a recording scatter about, and takes note of it.
   RigEstimate anchored(RigEstimate frame);
-  /// Takes over the offset of a keyframe, which is `frames` after the last one.
-  void adopt(const RigEstimate& frame, int frames);
+  /// Takes over the offset of keyframe `number`, which drifts from there on as since the one adopted before.
+  void adopt(const RigEstimate& frame, int number);
   /// The images of the next recording may not be displaced.
   void forget_displacements();
 
@@ -39,6 +39,7 @@ class LearnedRig {
 
   double value_;
   pose::OffsetPrior prior_;
+  int adopted_ = 0;                  ///< number of the keyframe adopted last
   int displaced_ = 0;                ///< frames
   double frames_ = 0, squares_ = 0;  ///< since the first displaced one, and sum of squares [px^2], older ones less
 };

@@ -465,7 +465,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   if (result.new_key_rig) {
     // All frames located against one keyframe share its disparities, so that together they carry no more information
     // than the last, most distant one.
-    learned_.adopt(current_->rig(), fitness.frames);
+    learned_.adopt(current_->rig(), current_->frame);
     if (keeps_key_) earlier_.remember(state_.key, step.mean_inverse_depth());
     keeps_key_ = !step.verdict.ambiguity.exists();
     state_.set_key(current_, world_from_current);
