@@ -12,6 +12,7 @@
 #include "quadedge/synthetic.hpp"
 #include "rig/corner_flow.hpp"
 #include "rig/pair_adjustment.hpp"
+#include "rig/pair_collection.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -173,6 +174,27 @@ TEST_CASE("corner flow: a shifted image is found to a few hundredths of a pixel"
     CHECK((match->at - corner - Eigen::Vector2d(shift_x, shift_y)).norm() < 0.06);
   }
   CHECK(found > 4);
+}
+
+TEST_CASE("drive calibration: points of the whole left image, where the lens shows no near point, too", "[rig]") {
+  StereoCalibration given = room_calibration();
+  for (Lens* lens : {&given.left, &given.right}) lens->parameters = {-0.015, 0, 0, 0};
+  constexpr double kDisparity = 1200;
+  const auto ray = LensMapping(given.left).ray({60, 104});
+  REQUIRE(ray);
+  REQUIRE_FALSE(LensMapping(given.right).project(*ray - Eigen::Vector3d(1024 / given.left.camera.fx, 0, 0)));
+  const rig::RigUnknowns unknowns(given);
+  rig::PairCollector collector(unknowns, kDisparity, {});
+  int points = 0, at_left = 0;
+  for (std::size_t i = 0; i < room_frames().size(); ++i) {
+    const auto pair = collector.see(room_frames()[i].view(), static_cast<int>(i));
+    if (!pair) continue;
+    points += static_cast<int>(pair->points.size());
+    for (const rig::SeenPoint& point : pair->points)
+      at_left += point.at[rig::kLeftFirst].x() < given.left.camera.width / 3.0 ? 1 : 0;
+  }
+  REQUIRE(points > 200);
+  CHECK(at_left > points / 5);
 }
 
 TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a sound one stays", "[rig]") {

@@ -9,6 +9,7 @@
 
 #include "common/printed.hpp"
 #include "geometry/calibration.hpp"
+#include "geometry/disparity_range.hpp"
 #include "geometry/frame_mask.hpp"
 #include "geometry/lens_mapping.hpp"
 #include "quadedge/error.hpp"
@@ -49,7 +50,7 @@ class DriveCalibrator::Implementation {
         cameras_{rig.left, rig.right},
         masks_{rig.left_mask, rig.right_mask},
         most_pairs_(static_cast<std::size_t>(most_pairs)),
-        collector_(unknowns_, rig.disparity_range(), [this](Side side, const Eigen::Vector2d& at) {
+        collector_(unknowns_, std::min(rig.disparity_range(), disparity_limit(rig)), [this](Side side, const Eigen::Vector2d& at) {
           const int s = index_of(side);
           return is_masked(lenses_[s], cameras_[s], masks_[s], at);
         }) {}
