@@ -372,15 +372,15 @@ def whole_row(row, lengths):
             *cells, ate, *times, spread_of(used, 2) if used else "-")
 
 
-def commits_of(rows):
-    """The commit of most rows, and the rows of others."""
+def commits_of(rows, date=""):
+    """The commit of most rows with its date, and the rows of others."""
     commits = [row["commit"] for row in rows]
     most = max(commits, key=commits.count)
     others = {}
     for row in rows:
         if row["commit"] != most:
             others.setdefault((row["system"], row["commit"], len(row["runs"])), []).append(WHOLE[row["recording"]])
-    return f"Commit {most}" + "".join(
+    return f"Commit {most}{date}" + "".join(
         f"; {PEERS.get(system, system)} ({', '.join(titles)}): commit {commit}, {counted(seeds, 'seed')}"
         for (system, commit, seeds), titles in others.items())
 
@@ -405,7 +405,7 @@ def whole_recordings(results):
     head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
     seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
     rows = [row if index == 0 or row[0] != rows[index - 1][0] else ("", *row[1:]) for index, row in enumerate(rows)]
-    return table(head, rows, f"{seeds} {commits_of(part['rows'])}; {part['date']}.\n")
+    return table(head, rows, f"{seeds} {commits_of(part['rows'], ', ' + part['date'])}.\n")
 
 
 def evidence(results):
