@@ -43,7 +43,7 @@ RECORDINGS = {
     "mh_01": ("EuRoC MH_01", "EuRoC MAV, MH_01_easy", (0.5, 1, 2, 5),
               "https://projects.asl.ethz.ch/datasets/euroc-mav/"),
 }
-# The order of the rows; with their arguments, those of QuadEdge. Tracking takes as long with a learned calibration.
+# The order of the rows; with their arguments, those of QuadEdge. Times with --calibrate would be those of two programs.
 QUADEDGE = {"QuadEdge": [], "QuadEdge, --calibrate": ["--calibrate"], "QuadEdge, fast": ["--preset", "fast"]}
 SYSTEMS = (*QUADEDGE, "viso2", "orb_slam3", "toy_vo", "OpenCV SIFT + PnP")
 PEER_SECONDS = 600  # a peer that takes longer for a recording is left out
@@ -213,10 +213,9 @@ def measure(options, recording, work):
             folder = work / f"{system.replace(', ', '_')}_{seed}"
             command, trajectory, report, used = run_quadedge(options, recording, folder, seed, arguments)
             shown = shown or command
-            latency = None if "--calibrate" in arguments else report["latency_ms"]
-            runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": latency,
-                         "processor_s": used, "consistency": report.get("accuracy", {}).get("consistency"),
-                         "warnings": report["warnings"]})
+            times = {} if "--calibrate" in arguments else {"latency_ms": report["latency_ms"], "processor_s": used}
+            runs.append({**judge(options, recording, trajectory), "seed": seed, **times,
+                         "consistency": report.get("accuracy", {}).get("consistency"), "warnings": report["warnings"]})
         add(system, None, runs, shown)
     if options.only:
         return rows

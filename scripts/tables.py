@@ -380,9 +380,10 @@ def commits_of(rows, date=""):
     for row in rows:
         if row["commit"] != most:
             others.setdefault((row["system"], row["commit"], len(row["runs"])), []).append(WHOLE[row["recording"]])
+    recordings = {row["recording"] for row in rows}
     return f"Commit {most}{date}" + "".join(
-        f"; {PEERS.get(system, system)} ({', '.join(titles)}): commit {commit}, {counted(seeds, 'seed')}"
-        for (system, commit, seeds), titles in others.items())
+        f"; {PEERS.get(system, system)}{'' if len(titles) == len(recordings) else ' (' + '; '.join(titles) + ')'}: "
+        f"commit {commit}, {counted(seeds, 'seed')}" for (system, commit, seeds), titles in others.items())
 
 
 def whole_recordings(results):
