@@ -2,7 +2,7 @@
 """Errors of QuadEdge and of other systems on whole recordings, for README.md and doc/accuracy.md.
 
     scripts/evidence.py [--street DIR] [--karlsruhe DIR] [--mh_01 DIR] [--quadedge FILE] [--opencv-baseline FILE]
-                        [--viso2 FILE] [--peers PYTHON] [--seeds N] [--work DIR] [--out FILE]
+                        [--viso2 FILE] [--peers PYTHON] [--seeds N] [--only SYSTEM] [--work DIR] [--out FILE]
 
 The folders are the recordings of RECORDINGS, which says where they come from; a recording that is not given keeps the
 rows of --out with their commit. Peers run on the same machine in the same call:
@@ -11,6 +11,7 @@ rows of --out with their commit. Peers run on the same machine in the same call:
                      to POSES and prints "median X ms, p99 Y ms"
   --peers            a Python with pyorbslam3, toy-vo, opencv-python-headless and NumPy (evidence_peers.py)
   --opencv-baseline  build/bench/opencv_baseline
+--only measures one of QUADEDGE and leaves the other rows, with their commit.
 A peer that is not given is left out, one that fails is named with the reason. They get pairs that OpenCV has rectified
 (alpha 0); their poses are turned back to the recorded left camera. QuadEdge gets the recording as it is.
 Writes doc/results/evidence.json; then scripts/result_tables.py writes the tables.
@@ -42,6 +43,9 @@ RECORDINGS = {
     "mh_01": ("EuRoC MH_01", "EuRoC MAV, MH_01_easy", (0.5, 1, 2, 5),
               "https://projects.asl.ethz.ch/datasets/euroc-mav/"),
 }
+# The order of the rows; with their arguments, those of QuadEdge. Times with --calibrate would be those of two programs.
+QUADEDGE = {"QuadEdge": [], "QuadEdge, --calibrate": ["--calibrate"], "QuadEdge, fast": ["--preset", "fast"]}
+SYSTEMS = (*QUADEDGE, "viso2", "orb_slam3", "toy_vo", "OpenCV SIFT + PnP")
 PEER_SECONDS = 600  # a peer that takes longer for a recording is left out
 
 
@@ -201,16 +205,20 @@ def measure(options, recording, work):
                      "true_length_m": recording.true_length, "left_out": left_out})
         print(f"{recording.name}, {system}: {left_out or len(runs)}", file=sys.stderr)
 
-    for system, arguments in (("QuadEdge", []), ("QuadEdge, fast", ["--preset", "fast"])):
+    for system, arguments in QUADEDGE.items():
+        if options.only not in (None, system):
+            continue
         runs, shown = [], None
         for seed in range(1, options.seeds + 1):
             folder = work / f"{system.replace(', ', '_')}_{seed}"
             command, trajectory, report, used = run_quadedge(options, recording, folder, seed, arguments)
             shown = shown or command
-            runs.append({**judge(options, recording, trajectory), "seed": seed, "latency_ms": report["latency_ms"],
-                         "processor_s": used, "consistency": report.get("accuracy", {}).get("consistency"),
-                         "warnings": report["warnings"]})
+            times = {} if "--calibrate" in arguments else {"latency_ms": report["latency_ms"], "processor_s": used}
+            runs.append({**judge(options, recording, trajectory), "seed": seed, **times,
+                         "consistency": report.get("accuracy", {}).get("consistency"), "warnings": report["warnings"]})
         add(system, None, runs, shown)
+    if options.only:
+        return rows
     commands = {"viso2": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
                 **{peer: f"PYTHON scripts/evidence_peers.py {peer} PAIRS POSES" for peer in ("orb_slam3", "toy_vo")}}
     for system, is_given, repetitions in (("viso2", options.viso2, 1), ("orb_slam3", options.peers, options.seeds),
@@ -246,6 +254,7 @@ def parse():
     parser.add_argument("--viso2", type=Path, metavar="FILE")
     parser.add_argument("--peers", type=Path, metavar="PYTHON")
     parser.add_argument("--seeds", type=int, default=5, metavar="N")
+    parser.add_argument("--only", choices=QUADEDGE, metavar="SYSTEM")
     parser.add_argument("--work", type=Path, default=Path("evidence"), metavar="DIR")
     parser.add_argument("--out", type=Path, default=REPOSITORY / "doc/results/evidence.json", metavar="FILE")
     options = parser.parse_args()
@@ -257,17 +266,20 @@ def parse():
 def main():
     options = parse()
     measured = commit()
-    before = json.loads(options.out.read_text(encoding="utf-8"))["rows"] if options.out.exists() else []
-    rows = {name: [row for row in before if row["recording"] == name] for name in RECORDINGS}
+    before = json.loads(options.out.read_text(encoding="utf-8")) if options.out.exists() else {"rows": []}
+    rows = {name: [row for row in before["rows"] if row["recording"] == name] for name in RECORDINGS}
     try:
         for name in RECORDINGS:
             folder = getattr(options, name)
             if folder is None:
                 continue
             recording = Recording(name, folder, options.work / name)
-            rows[name] = [{"commit": measured, **row} for row in measure(options, recording, options.work / name)]
-            whole = {"seeds": options.seeds, "rows": [row for part in rows.values() for row in part]}
-            write(stamped(whole, measured), options.out)  # after each: nothing measured is lost
+            made = [{"commit": measured, **row} for row in measure(options, recording, options.work / name)]
+            kept = [row for row in rows[name] if options.only and row["system"] != options.only]
+            rows[name] = sorted(kept + made, key=lambda row: SYSTEMS.index(row["system"]))
+            whole = [row for part in rows.values() for row in part]
+            write({**before, "rows": whole} if options.only else
+                  stamped({"seeds": options.seeds, "rows": whole}, measured), options.out)  # nothing measured is lost
     except (RuntimeError, OSError) as error:
         print(f"evidence: {error}", file=sys.stderr)
         return 1

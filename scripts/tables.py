@@ -372,11 +372,25 @@ def whole_row(row, lengths):
             *cells, ate, *times, spread_of(used, 2) if used else "-")
 
 
+def commits_of(rows, date=""):
+    """The commit of most rows with its date, and the rows of others."""
+    commits = [row["commit"] for row in rows]
+    most = max(commits, key=commits.count)
+    others = {}
+    for row in rows:
+        if row["commit"] != most:
+            others.setdefault((row["system"], row["commit"], len(row["runs"])), []).append(WHOLE[row["recording"]])
+    recordings = {row["recording"] for row in rows}
+    return f"Commit {most}{date}" + "".join(
+        f"; {PEERS.get(system, system)}{'' if len(titles) == len(recordings) else ' (' + '; '.join(titles) + ')'}: "
+        f"commit {commit}, {counted(seeds, 'seed')}" for (system, commit, seeds), titles in others.items())
+
+
 def whole_recordings(results):
-    """The headline: errors of four systems over two lengths of sub-paths."""
+    """The headline: errors of five rows over two lengths of sub-paths."""
     part, rows = results["evidence"], []
     for row in part["rows"]:
-        if row["system"] not in ("QuadEdge", "viso2", "orb_slam3", "OpenCV SIFT + PnP") or not row["runs"]:
+        if row["system"] in ("QuadEdge, fast", "toy_vo") or not row["runs"]:
             continue
         if row["recording"] not in HEADLINE:
             if not row["true_length_m"]:
@@ -392,10 +406,7 @@ def whole_recordings(results):
     head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
     seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
     rows = [row if index == 0 or row[0] != rows[index - 1][0] else ("", *row[1:]) for index, row in enumerate(rows)]
-    commits = {WHOLE[row["recording"]]: row["commit"] for row in part["rows"]}
-    each = "; ".join(f"{title}: commit {commit}" for title, commit in commits.items())
-    measured = f"Commit {part['commit']}" if set(commits.values()) == {part["commit"]} else each
-    return table(head, rows, f"{seeds} {measured}, {part['date']}.\n")
+    return table(head, rows, f"{seeds} {commits_of(part['rows'], ', ' + part['date'])}.\n")
 
 
 def evidence(results):
@@ -414,8 +425,8 @@ def evidence(results):
                 "processor time per frame [ms]")
         first = rows[0]
         text.append(f"## {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
-                    f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. Commit "
-                    f"{first['commit']}.\n\n" + table(head, [whole_row(row, lengths) for row in rows]))
+                    f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. "
+                    f"{commits_of(rows)}.\n\n" + table(head, [whole_row(row, lengths) for row in rows]))
         text += [f"{PEERS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
         text.append("Commands: " + ", ".join(f"`{row['command']}`" for row in rows if row["command"]) + ".\n")
         if not lengths:

@@ -12,6 +12,7 @@
 #include "quadedge/synthetic.hpp"
 #include "rig/corner_flow.hpp"
 #include "rig/pair_adjustment.hpp"
+#include "rig/pair_collection.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -175,6 +176,27 @@ TEST_CASE("corner flow: a shifted image is found to a few hundredths of a pixel"
   CHECK(found > 4);
 }
 
+TEST_CASE("drive calibration: points of the whole left image, where the lens shows no near point, too", "[rig]") {
+  StereoCalibration given = room_calibration();
+  for (Lens* lens : {&given.left, &given.right}) lens->parameters = {-0.015, 0, 0, 0};
+  constexpr double kDisparity = 1200;
+  const auto ray = LensMapping(given.left).ray({60, 104});
+  REQUIRE(ray);
+  REQUIRE_FALSE(LensMapping(given.right).project(*ray - Eigen::Vector3d(1024 / given.left.camera.fx, 0, 0)));
+  const rig::RigUnknowns unknowns(given);
+  rig::PairCollector collector(unknowns, kDisparity, {});
+  int points = 0, at_left = 0;
+  for (std::size_t i = 0; i < room_frames().size(); ++i) {
+    const auto pair = collector.see(room_frames()[i].view(), static_cast<int>(i));
+    if (!pair) continue;
+    points += static_cast<int>(pair->points.size());
+    for (const rig::SeenPoint& point : pair->points)
+      at_left += point.at[rig::kLeftFirst].x() < given.left.camera.width / 3.0 ? 1 : 0;
+  }
+  REQUIRE(points > 200);
+  CHECK(at_left > points / 5);
+}
+
 TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a sound one stays", "[rig]") {
   const StereoCalibration truth = room_calibration();
   const DriveCalibration sound = learned_in_room(truth);
@@ -193,6 +215,22 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(mended.unseen_learned[0] < 0.7 * mended.unseen_given[0]);
   CHECK(mended.unseen_learned[1] < 0.7 * mended.unseen_given[1]);
   CHECK(rounded_rotation(mended.calibration.right_from_left).cwiseAbs().maxCoeff() < 0.06 * kDegree + 0.5 / 230);
+  // Nearly everywhere in the images, and at every distance, points fit the learned calibration better.
+  int compared = 0, fallen = 0;
+  const auto compare = [&](const auto& given, const auto& learned) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (!std::isfinite(given[i]) || !std::isfinite(learned[i])) continue;
+      ++compared;
+      fallen += learned[i] < given[i] ? 1 : 0;
+    }
+  };
+  const UnseenDistances &before = mended.unseen_parts_given, &after = mended.unseen_parts_learned;
+  compare(before.by_distance, after.by_distance);
+  CHECK(compared >= 1);
+  CHECK(fallen == compared);
+  for (std::size_t side = 0; side < 2; ++side) compare(before.by_place[side], after.by_place[side]);
+  CHECK(compared > 20);
+  CHECK(10 * fallen > 9 * compared);
   REQUIRE(mended.change.depths.size() == 5);
   CHECK(mended.change.depths[4].error > 0.1);  // 0.2 degrees of yaw are 0.8 px: half the disparity at 50 m and more
   CHECK(mended.change.sampson_learned < 0.6 * mended.change.sampson_given);

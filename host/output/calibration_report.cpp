@@ -16,6 +16,19 @@ Json both_sides(const std::array<double, 2>& values) {
   return {{"left", to_json(values[0])}, {"right", to_json(values[1])}};
 }
 
+Json parts_json(const UnseenDistances& parts) {
+  Json json = {{"columns", UnseenDistances::kColumns}, {"rows", UnseenDistances::kRows}};
+  const auto array = [](const auto& values) {
+    Json list = Json::array();
+    for (const double value : values) list.push_back(to_json(value));
+    return list;
+  };
+  json["left"] = array(parts.by_place[0]);
+  json["right"] = array(parts.by_place[1]);
+  json["by_distance"] = array(parts.by_distance);
+  return json;
+}
+
 template <class... Values>
 std::string line(const char* format, Values... values) {
   return printed(format, values...) + "\n";
@@ -32,6 +45,9 @@ Json to_json(const DriveCalibration& result) {
   json["points"] = result.points;
   json["contradiction"] = to_json(result.contradiction);
   json["unseen_px"] = {{"given", both_sides(result.unseen_given)}, {"learned", both_sides(result.unseen_learned)}};
+  json["unseen_parts_px"] = {{"farthest_m", UnseenDistances::kFarthest},
+                             {"given", parts_json(result.unseen_parts_given)},
+                             {"learned", parts_json(result.unseen_parts_learned)}};
   json["numbers"] = Json::array();
   for (const LearnedNumber& number : result.numbers) {
     json["numbers"].push_back({{"name", number.name},
@@ -80,17 +96,52 @@ std::string calibration_table(const DriveCalibration& result) {
                 result.change.largest_displacement[0], result.change.largest_displacement[1]);
   table += line("  epipolar (Sampson)    %.3f px, learned %.3f px", result.change.sampson_given,
                 result.change.sampson_learned);
+  table += "\npoints in frames that were not learned from, by distance (given, learned):\n";
+  for (std::size_t i = 0; i < UnseenDistances::kFarthest.size(); ++i) {
+    const double given = result.unseen_parts_given.by_distance[i], learned = result.unseen_parts_learned.by_distance[i];
+    if (!std::isfinite(given) || !std::isfinite(learned)) continue;
+    const bool is_last = i + 1 == UnseenDistances::kFarthest.size();
+    table += line("  %-6s %4.0f m         %.3f px, %.3f px", is_last ? "beyond" : "up to",
+                  UnseenDistances::kFarthest[is_last ? i - 1 : i], given, learned);
+  }
   return table;
 }
 
+namespace {
+
+constexpr int kPanel = 720, kGap = 12;  // px of the pictures
+
+/// A row of panels: the cells of both images, grey by their median distance, white at `most` px.
+void draw_places(cv::Mat& picture, int top, int height, const UnseenDistances& parts, double most) {
+  for (const Side side : kSides) {
+    const int left = index_of(side) * (kPanel + kGap);
+    for (int i = 0; i < UnseenDistances::kRows * UnseenDistances::kColumns; ++i) {
+      const int column = i % UnseenDistances::kColumns, row = i / UnseenDistances::kColumns;
+      const int x = column * kPanel / UnseenDistances::kColumns, y = row * height / UnseenDistances::kRows;
+      const cv::Rect cell(left + x, top + y, (column + 1) * kPanel / UnseenDistances::kColumns - x,
+                          (row + 1) * height / UnseenDistances::kRows - y);
+      const double value = parts.by_place[static_cast<std::size_t>(index_of(side))][static_cast<std::size_t>(i)];
+      if (std::isfinite(value))
+        cv::rectangle(picture, cell, cv::Scalar::all(40 + 215 * std::min(1.0, value / most)), cv::FILLED);
+      cv::rectangle(picture, cell, {60, 60, 60});
+      if (std::isfinite(value))
+        put_text(picture, printed("%.2f", value), cell.x + 4, cell.y + cell.height - 5,
+                 value > most / 2 ? cv::Scalar(0, 0, 0) : cv::Scalar(230, 230, 230), 0.4);
+    }
+  }
+}
+
+}  // namespace
+
 void draw_displacements(const std::string& path, const DriveCalibration& result) {
-  constexpr int kPanel = 720, kStep = 36, kGap = 12, kDepth = 4;  // px of the picture; fractional bits
+  constexpr int kStep = 36, kDepth = 4;  // px of the picture; fractional bits
   const PinholeCamera cameras[] = {result.given.left.camera, result.given.right.camera};
   const double largest = std::max({result.change.largest_displacement[0], result.change.largest_displacement[1], 0.01});
   const double enlarged = std::max(1.0, std::floor(1.5 * kStep / largest));  // in units of the picture
   int height = 0;
   for (const PinholeCamera& camera : cameras) height = std::max(height, camera.height * kPanel / camera.width);
-  cv::Mat picture = cv::Mat::zeros(height + kLegendLine + 8, 2 * kPanel + kGap, CV_8UC3);
+  const int part = height + kLegendLine + 8;
+  cv::Mat picture = cv::Mat::zeros(3 * part, 2 * kPanel + kGap, CV_8UC3);
   for (const Side side : kSides) {
     const PinholeCamera& camera = cameras[index_of(side)];
     const double scale = static_cast<double>(kPanel) / camera.width;
@@ -116,6 +167,20 @@ void draw_displacements(const std::string& path, const DriveCalibration& result)
       "%.2f px (left), %.2f px (right)",
       enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);
   put_text(picture, legend, 6, height + kLegendLine - 4, {230, 230, 230});
+  double most = 0.01;
+  for (const auto& places : result.unseen_parts_given.by_place)
+    for (const double value : places)
+      if (value > most) most = value;
+  const auto unseen = [&](int row, const UnseenDistances& parts, const char* which) {
+    draw_places(picture, row * part, height, parts, most);
+    put_text(
+        picture,
+        std::string("points in frames that were not learned from, median distance from their predictions with the ") +
+            which + " calibration [px]",
+        6, row * part + height + kLegendLine - 4, {230, 230, 230});
+  };
+  unseen(1, result.unseen_parts_given, "given");
+  unseen(2, result.unseen_parts_learned, "learned");
   write_png(path, picture);
 }
 

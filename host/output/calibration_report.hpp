@@ -18,8 +18,9 @@ std::string calibration_json(const DriveCalibration& result, const std::string& 
 /// lines.
 std::string calibration_table(const DriveCalibration& result);
 
-/// displacement() as arrows over both images side by side, enlarged by a factor that the legend states. \throws
-/// DataError when the file cannot be written
+/// displacement() as arrows over both images side by side, enlarged by a factor that the legend states; below it, the
+/// distances of unseen points by place, with the given and the learned calibration. \throws DataError when the file
+/// cannot be written
 void draw_displacements(const std::string& path, const DriveCalibration& result);
 
 }  // namespace quadedge::report

@@ -7,8 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "common/numeric.hpp"
 #include "common/printed.hpp"
 #include "geometry/calibration.hpp"
+#include "geometry/disparity_range.hpp"
 #include "geometry/frame_mask.hpp"
 #include "geometry/lens_mapping.hpp"
 #include "quadedge/error.hpp"
@@ -38,6 +40,37 @@ bool is_masked(const LensMapping& lens, const PinholeCamera& camera, const Pixel
   return hides(mask, pinhole.x(), pinhole.y());
 }
 
+double median_of_many(std::vector<double>& values) {
+  constexpr std::size_t kFewest = 20;
+  return values.size() < kFewest ? kNan : upper_median(values);
+}
+
+/// Medians by place in the images, whose sizes are those of the calibration, and by distance.
+UnseenDistances in_parts(const std::vector<rig::PairAdjustment::Residual>& residuals, const StereoCalibration& of) {
+  constexpr int kColumns = UnseenDistances::kColumns, kRows = UnseenDistances::kRows;
+  std::array<std::array<std::vector<double>, kRows * kColumns>, 2> places;
+  std::array<std::vector<double>, UnseenDistances::kFarthest.size()> distances;
+  for (const auto& residual : residuals) {
+    const std::size_t side = residual.view % 2;  // views of the left and the right camera take turns
+    const PinholeCamera& camera = side == 0 ? of.left.camera : of.right.camera;
+    const int column = static_cast<int>(residual.at.x() * kColumns / camera.width),
+              row = static_cast<int>(residual.at.y() * kRows / camera.height);
+    const double error = residual.error.norm();
+    if (column >= 0 && row >= 0 && column < kColumns && row < kRows)
+      places[side][static_cast<std::size_t>(row * kColumns + column)].push_back(error);
+    const auto nearer = [&](double farthest) { return residual.inverse_depth > 1 / farthest; };
+    const auto* const end = std::find_if(UnseenDistances::kFarthest.begin(), UnseenDistances::kFarthest.end(), nearer);
+    distances[std::min<std::size_t>(static_cast<std::size_t>(end - UnseenDistances::kFarthest.begin()),
+                                    distances.size() - 1)]
+        .push_back(error);
+  }
+  UnseenDistances parts;
+  for (std::size_t side = 0; side < 2; ++side)
+    std::transform(places[side].begin(), places[side].end(), parts.by_place[side].begin(), median_of_many);
+  std::transform(distances.begin(), distances.end(), parts.by_distance.begin(), median_of_many);
+  return parts;
+}
+
 }  // namespace
 
 class DriveCalibrator::Implementation {
@@ -49,10 +82,11 @@ class DriveCalibrator::Implementation {
         cameras_{rig.left, rig.right},
         masks_{rig.left_mask, rig.right_mask},
         most_pairs_(static_cast<std::size_t>(most_pairs)),
-        collector_(unknowns_, rig.disparity_range(), [this](Side side, const Eigen::Vector2d& at) {
-          const int s = index_of(side);
-          return is_masked(lenses_[s], cameras_[s], masks_[s], at);
-        }) {}
+        collector_(unknowns_, std::min(rig.disparity_range(), disparity_limit(rig)),
+                   [this](Side side, const Eigen::Vector2d& at) {
+                     const int s = index_of(side);
+                     return is_masked(lenses_[s], cameras_[s], masks_[s], at);
+                   }) {}
 
   void see(const StereoFrame& frame) {
     check(frame.left, given_.left.camera, "left");
@@ -78,15 +112,16 @@ class DriveCalibrator::Implementation {
                     std::to_string(image.height) + " pixels, expected " + std::to_string(camera.width) + " x " +
                     std::to_string(camera.height) + " as the calibration says");
   }
-  /// Medians of the distances, and how many points they are of.
+  /// Medians of the distances, how many points they are of, and the distances.
   struct Unseen {
     std::array<double, 2> distances;
     int points;
+    std::vector<rig::PairAdjustment::Residual> all;
   };
   Unseen unseen(const Pairs& pairs, const Eigen::VectorXd& values) const {
     rig::PairAdjustment adjustment(unknowns_, pairs);
     adjustment.fit(values);
-    return {adjustment.residuals(), adjustment.points()};
+    return {adjustment.residuals(), adjustment.points(), adjustment.all_residuals()};
   }
 
   StereoCalibration given_;
@@ -104,6 +139,7 @@ class DriveCalibrator::Implementation {
 /// Learns from the first and the third of four stretches and judges by the others, then the other way round.
 void DriveCalibrator::Implementation::judge_unseen(DriveCalibration& result) const {
   Pairs halves[2];
+  std::vector<rig::PairAdjustment::Residual> of_given, of_learned;
   for (std::size_t i = 0; i < pairs_.size(); ++i) halves[4 * i / pairs_.size() % 2].push_back(&pairs_[i]);
   for (int half = 0; half < 2; ++half) {
     const Eigen::VectorXd values = rig::PairAdjustment(unknowns_, halves[half]).learn();
@@ -111,12 +147,16 @@ void DriveCalibrator::Implementation::judge_unseen(DriveCalibration& result) con
                  learned = unseen(halves[1 - half], values);
     // A calibration that is far off leaves few points below the limit of outliers, whose median says nothing: those
     // above it are the most.
+    of_given.insert(of_given.end(), given.all.begin(), given.all.end());
+    of_learned.insert(of_learned.end(), learned.all.begin(), learned.all.end());
     const double least = 2 * given.points < learned.points ? rig::PairAdjustment::kFitLimit : 0;
     for (std::size_t side = 0; side < 2; ++side) {
       result.unseen_given[side] += std::max(least, given.distances[side]) / 2;
       result.unseen_learned[side] += learned.distances[side] / 2;
     }
   }
+  result.unseen_parts_given = in_parts(of_given, given_);
+  result.unseen_parts_learned = in_parts(of_learned, given_);
 }
 
 void DriveCalibrator::Implementation::learn(DriveCalibration& result) const {

@@ -63,6 +63,8 @@ std::optional<Eigen::Vector2d> PairCollector::find_right(const FlowImage& left, 
   const LensMapping lens(given.left);
   const auto ray = lens.ray(at);
   if (!ray) return std::nullopt;
+  const auto far = in_right(given, *ray, 0);
+  if (!far) return std::nullopt;
   const double focal = given.left.camera.fx, length = given.right_from_left.translation().norm();
   std::optional<FlowMatch> best;
   for (const double disparity : disparities_) {
@@ -72,9 +74,7 @@ std::optional<Eigen::Vector2d> PairCollector::find_right(const FlowImage& left, 
     if (!match || (best && match->correlation <= best->correlation)) continue;
     if (hides_ && hides_(Side::right, match->at)) continue;
     // Beside the line by more than calibrations are off, or behind the camera, it is another corner.
-    const auto far = in_right(given, *ray, 0), near = in_right(given, *ray, disparities_.back() / (focal * length));
-    if (!far || !near) continue;
-    const Eigen::Vector2d line = (*near - *far).normalized(), from_far = match->at - *far;
+    const Eigen::Vector2d line = (*start - *far).normalized(), from_far = match->at - *far;
     const double beside = std::abs(line.x() * from_far.y() - line.y() * from_far.x());
     if (beside > kAcross * focal || from_far.dot(line) < -kAcross * focal) continue;
     best = match;

@@ -45,6 +45,17 @@ struct CalibrationChange {
   double sampson_given = 0, sampson_learned = 0;  ///< median distance of points from their epipolar lines [px]
 };
 
+/// Where frames that were not learned from contradict a calibration: median distances of points from where they are
+/// seen [px], NaN below 20 of them.
+struct UnseenDistances {
+  static constexpr int kColumns = 12, kRows = 8;
+  static constexpr std::array<double, 6> kFarthest = {2, 5, 10, 20, 50, 1e9};  ///< [m]
+  /// In each cell of the left and of the right image, kRows x kColumns.
+  std::array<std::array<double, kRows * kColumns>, 2> by_place{};
+  /// In both images, of points nearer than kFarthest and not nearer than the one before it.
+  std::array<double, kFarthest.size()> by_distance{};
+};
+
 /// A learned calibration, and what speaks for it.
 struct DriveCalibration {
   CalibrationVerdict verdict = CalibrationVerdict::cannot_show;
@@ -61,6 +72,7 @@ struct DriveCalibration {
   /// Median distance of points from where the left and the right camera see them, in frames that were not learned from
   /// [px].
   std::array<double, 2> unseen_given{}, unseen_learned{};
+  UnseenDistances unseen_parts_given, unseen_parts_learned;
   CalibrationChange change;
 
   /// The judgement for the user, in a few sentences.
