@@ -40,7 +40,7 @@ MOST_LINES = {
     "include": 2240,
     "kernels": 6450,
     "python": 11510,
-    "scripts": 3080,
+    "scripts": 3110,
     "tests": 35830,
 }
 STALE_PHRASES = re.compile(
