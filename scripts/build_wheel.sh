@@ -42,7 +42,8 @@ for python in ${PYTHON:-python3}; do
     -C cmake.define.quadedge_DIR="$built"
 done
 if [ -n "${ARM64_ROOT:-}" ]; then
-  compiler=aarch64-linux-gnu-gcc platform=(--plat auto --ldpaths "$ARM64_ROOT/usr/lib/aarch64-linux-gnu")
+  compiler=aarch64-linux-gnu-gcc
+  platform=(--plat auto --ldpaths "$work/without_x11:$ARM64_ROOT/usr/lib/aarch64-linux-gnu")
   mkdir -p "$work/tools"
   ln -sf "$(command -v aarch64-linux-gnu-strip)" "$work/tools/strip"  # for auditwheel
 fi
