@@ -34,6 +34,7 @@ make_root() {
   debootstrap "${options[@]}" --components="$components" --include="$packages" "$suite" "$root" "$mirror" || return 1
   [ -n "$emulate" ] || return 0
   container=lxc "$here/emulate_arm64.sh" chroot "$root" /debootstrap/debootstrap --second-stage || return 1
+  rm -r "$root/usr/share/doc"  # its links lead nowhere; lint_links.py reads all pages of a folder
   mv "$root/etc/OpenCL/vendors" "$root/etc/OpenCL/later"  # see wheel_user.sh
 }
 may_make_roots() { [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null && unshare --mount true 2>/dev/null; }

@@ -6,7 +6,7 @@ wheels="$1"
 cd "$2"
 python3 -m venv environment
 . environment/bin/activate
-install() { pip install --quiet --disable-pip-version-check --no-index --find-links "$wheels" "$@"; }
+install() { pip install --quiet --no-compile --disable-pip-version-check --no-index --find-links "$wheels" "$@"; }
 expect() { grep -qF -- "$1" "$2" || { echo "expected '$1' in:" >&2; cat "$2" >&2; exit 1; }; }
 
 install quadedge
