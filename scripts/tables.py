@@ -364,7 +364,7 @@ def whole_row(row, lengths):
     errors = [run["errors"]["accuracy"] for run in runs if "errors" in run]
     ate = spread_of([of["ate_rmse_m"] for of in errors]) if errors else "-"
     times = []
-    for name in ("median", "p99", "first"):
+    for name in ("median", "p99", "max", "first"):
         values = [run["latency_ms"][name] for run in runs if name in (run.get("latency_ms") or {})]
         times.append(spread_of(values, 2) if values else "-")
     used = [1000 * run["processor_s"] / row["frames"] for run in runs if "processor_s" in run]
@@ -421,8 +421,8 @@ def evidence(results):
                           run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", [])})
         kinds = ("t_rel [%]", "r_rel [deg/100 m]")
         head = ("system", "frames with a pose", *(f"{kind}, {length:g} m" for length in lengths for kind in kinds),
-                "ATE RMSE [m]", "time of a frame: median [ms]", "p99 [ms]", "first frame [ms]",
-                "processor time per frame [ms]")
+                "ATE RMSE [m]", "time of a frame: median [ms]", "p99 [ms]", "longest [ms]",
+                "first frame [ms]", "processor time per frame [ms]")
         first = rows[0]
         text.append(f"## {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
                     f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. "

@@ -1,20 +1,22 @@
 #!/usr/bin/env bash
 # Builds QuadEdge for ARM64 on an x86-64 machine with Debian 12 and runs it under emulation (QEMU), on PoCL for ARM64:
 # the tests of all kernels and of the poses, then the same frames as on x86-64, and compares their poses
-# (compare_poses.py). Needs the rights of root, but neither containers nor mounts nor a change of the kernel's settings.
+# (compare_poses.py). Makes the wheel and uses it in a bare root. Needs the rights of root and, for the wheel, Linux 6.7
+# (emulate_arm64.sh), but neither containers nor a change of the machine's settings.
 #   run_arm64.sh BUILD
 # BUILD: what scripts/run.sh has built of the same commit. Root, build and built kernels stay in BUILD/arm64* for the
-# next call.
+# next call; the wheel is in BUILD/arm64-wheel.
 set -euo pipefail
 build="$(realpath "$1")"
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 root="$build/arm64-root" arm="$build/arm64" kept="$build/arm64-run"
 . "$here/../scripts/packages.sh"
-install_missing mmdebstrap qemu-user-static g++-aarch64-linux-gnu
+install_missing mmdebstrap debootstrap qemu-user-static g++-aarch64-linux-gnu
 
 # Packages are unpacked, not configured: what configures them are ARM64 programs, which this machine starts only if QEMU
 # is registered with its kernel.
-packages="${build_packages/build-essential cmake ninja-build/} catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev"
+packages="${build_packages/build-essential cmake ninja-build/} catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev
+  libpython3-dev"
 if [ "$(cat "$root/packages" 2>/dev/null)" != "$packages" ]; then
   rm -rf "$root"
   mmdebstrap --quiet --variant=extract --architectures=arm64 --include="$(echo $packages)" bookworm "$root"
@@ -28,11 +30,9 @@ if [ "$(cat "$root/packages" 2>/dev/null)" != "$packages" ]; then
 fi
 
 start=$SECONDS
+export ARM64_ROOT="$root" CMAKE_TOOLCHAIN_FILE="$here/arm64.cmake"
 cmake -S "$here/.." -B "$arm" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON -DQUADEDGE_UNITY=ON \
-  -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
-  -DCMAKE_SYSROOT="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY \
-  -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY >"$build/arm64.log" ||
-  { cat "$build/arm64.log" >&2; exit 1; }
+  >"$build/arm64.log" || { cat "$build/arm64.log" >&2; exit 1; }
 cmake --build "$arm" --target quadedge_program quadedge_tests
 echo "Built in $((SECONDS - start)) s"
 
@@ -70,3 +70,11 @@ both() {
 }
 both room demo --size 320x166 --frames 6 --device portable
 both reference demo --size 320x166 --frames 3 --device reference
+
+# The wheel. Its stub is that of a wheel for this machine.
+start=$SECONDS
+env -u ARM64_ROOT -u CMAKE_TOOLCHAIN_FILE "$here/../scripts/build_wheel.sh" "$build/wheel/built" "$build/wheel" "$build"
+QUADEDGE_STUB="$(ls "$build"/wheel/cp3*-linux_x86_64/_quadedge.pyi | head -n 1)" \
+  "$here/../scripts/build_wheel.sh" "$build/arm64-wheel" "$arm/wheel" "$arm"
+EMULATE=arm64 "$here/run_wheel.sh" "$build/arm64-wheel" "$build/wheel_test"
+echo "Wheel: $((SECONDS - start)) s"

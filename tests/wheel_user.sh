@@ -6,7 +6,7 @@ wheels="$1"
 cd "$2"
 python3 -m venv environment
 . environment/bin/activate
-install() { pip install --quiet --disable-pip-version-check --no-index --find-links "$wheels" "$@"; }
+install() { pip install --quiet --no-compile --disable-pip-version-check --no-index --find-links "$wheels" "$@"; }
 expect() { grep -qF -- "$1" "$2" || { echo "expected '$1' in:" >&2; cat "$2" >&2; exit 1; }; }
 
 install quadedge
@@ -32,8 +32,8 @@ quadedge demo --frames 2 --size 160x100 -o none >demo.txt 2>&1 || code=$?
 [ $code -eq 4 ] || { echo "expected exit code 4, got $code" >&2; exit 1; }
 expect 'no OpenCL device was found' demo.txt
 
-# No ffmpeg: the message names what reads videos.
-if ! command -v ffprobe >/dev/null; then
+# No ffmpeg: the message names what reads videos. QEMU does not tell posix_spawn() that a program is missing.
+if ! command -v ffprobe >/dev/null && [ ! -d /etc/OpenCL/later ]; then
   touch video.mkv
   code=0
   quadedge run --video video.mkv --split left-right --calibration none.yaml -o none >video.txt 2>&1 || code=$?
@@ -41,7 +41,8 @@ if ! command -v ffprobe >/dev/null; then
   expect 'needs the program ffprobe' video.txt
 fi
 
-install "quadedge[cpu]"
+install "quadedge[cpu]"  # where it has nothing to install, run_wheel.sh has put a driver aside
+[ ! -d /etc/OpenCL/later ] || export OCL_ICD_VENDORS=/etc/OpenCL/later
 python "$wheels/wheel_user.py" auto >device.txt
 expect "tracked" device.txt
 quadedge devices

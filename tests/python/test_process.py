@@ -1,4 +1,4 @@
-"""The package in processes that set a locale with a decimal comma, and that end while a thread tracks."""
+"""The package in processes that set a locale with a decimal comma, limit threads, and end while a thread tracks."""
 
 import csv
 import os
@@ -43,6 +43,15 @@ threading.Thread(target=track, daemon=True).start()
 tracked.wait()
 time.sleep(0.005 * {number})
 """
+_COUNTS_THREADS = """
+import os, sys
+import quadedge
+quadedge.limit_threads(int(sys.argv[1]))
+room = quadedge.synthetic(frames=3, width=320, height=200)
+with quadedge.Odometry(room, preset="fast") as odometry:
+    poses = [odometry.track(frame.stamp_ns, frame.left, frame.right).world_from_left.tolist() for frame in room]
+    print(len(os.listdir("/proc/self/task")), poses)
+"""
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +88,13 @@ def test_a_decimal_comma_changes_no_file(german, tmp_path):
     report = "from quadedge.report.__main__ import main; import sys; sys.exit(main())"
     done = run(report, tmp_path / "german")
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.skipif(os.cpu_count() == 1, reason="one processor: there are no threads to leave out")
+def test_threads_are_limited_and_change_no_pose():
+    (one, poses_of_one), (two, poses_of_two) = (run(_COUNTS_THREADS, n).stdout.split(" ", 1) for n in (1, 2))
+    assert int(one) < int(two) and poses_of_one == poses_of_two
+    assert "found 0, expected 1 or more" in run(_COUNTS_THREADS, 0).stderr
 
 
 def test_python_ends_while_a_thread_tracks():
