@@ -188,6 +188,7 @@ void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Cand
     if (known == nullptr && candidate.is_confirmed() && !is_close_to_another(candidate.hypothesis))
       known = candidate.confirmed.get();
   }
+  if (hypothesis == Hypothesis::still_camera && known != nullptr && !may_stand_still(query)) return;
   Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
   if (!candidate.proposed) return;
   if (candidate.proposed->ok()) {
@@ -249,6 +250,21 @@ bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_k
   if (!evidence_.is_same_motion(*by_base, current_from_base)) return false;
   step.verdict.support = by_base->verdict.support;
   return true;
+}
+
+/// Whether some of the base's edges, evenly chosen, support a motion near standstill at all.
+bool MotionSearch::may_stand_still(const MotionQuery& query) {
+  PoseConfig limits = config_.pose;
+  limits.min_hypotheses = 0;
+  limits.inlier_distance *= kCloseAgreement;
+  const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+  frontend::predict_positions(fits_.calibration(query), query.base->edges, fits_.measured(*query.base, query), still,
+                              config_.temporal.radius, kStillStep, search_);
+  const StepHandle step = fits_.new_step(query, query.base);
+  frontend_.match(*query.base, *query.current, search_, step->matches);
+  fits_.fit(query, limits, still, pose::RefinementGoal::pose, *step);
+  evidence_.judge(search_.left, kStillSupport * config_.temporal.min_support, *step);
+  return step->ok();
 }
 
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
