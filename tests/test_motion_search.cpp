@@ -133,6 +133,10 @@ TEST_CASE("motion search: at the start few global matches suffice, unless they l
   sparse.check(std::nullopt);  // the matches of 40 edges lie in too few cells
   CHECK(sparse.frontend->global == 2);
   CHECK(sparse.frontend->global_edges == 120);
+  sparse.query.at_start = false;
+  sparse.check(std::nullopt);
+  CHECK(sparse.frontend->global == 2);
+  CHECK(sparse.frontend->global_edges == 120);
 }
 
 TEST_CASE("motion search: verdict, inliers and covariance are those of the motion returned", "[odometry]") {

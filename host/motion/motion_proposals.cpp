@@ -125,7 +125,8 @@ StepHandle MotionProposals::few_global_matches(const MotionQuery& query) {
 }
 
 StepHandle MotionProposals::global_matches(const MotionQuery& query) {
-  return matched_globally(query, config_.temporal.global_edges);
+  StepHandle few = query.at_start ? nullptr : few_global_matches(query);  // at the start they have left a doubt
+  return few ? std::move(few) : matched_globally(query, config_.temporal.global_edges);
 }
 
 StepHandle MotionProposals::matched_globally(const MotionQuery& query, int edges) {
