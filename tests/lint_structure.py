@@ -30,7 +30,7 @@ MOST_LINES = {
     "host/device": 4700,
     "host/edges": 3200,
     "host/geometry": 2240,
-    "host/motion": 6200,
+    "host/motion": 6240,
     "host/output": 3160,
     "host/paper": 980,
     "host/places": 2310,

@@ -20,7 +20,7 @@ class CountingFrontend : public frontend::Frontend {
   frontend::FrameEdgesHandle latest() const override { return reference_->latest(); }
   void match(const frontend::FrameEdges& base, const frontend::FrameEdges& current, const TemporalSearch& search,
              TemporalMatches& matches) override {
-    ++(search.coarse ? coarse : guided);
+    ++(search.coarse ? coarse : search.step > 1 ? thinned : guided);
     largest_radius = std::max(largest_radius, search.radius);
     reference_->match(base, current, search, matches);
   }
@@ -42,7 +42,7 @@ class CountingFrontend : public frontend::Frontend {
   EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }
 
-  int coarse = 0, guided = 0, global = 0, beside = 0, global_edges = 0;
+  int coarse = 0, guided = 0, thinned = 0, global = 0, beside = 0, global_edges = 0;
   float largest_radius = 0;
 
  private:
@@ -70,7 +70,7 @@ struct TwoFrames {
   /// Finds the motion and compares it with the true one.
   void check(const std::optional<Eigen::Isometry3d>& prediction) {
     query.prediction = prediction;
-    frontend->coarse = frontend->guided = frontend->global = frontend->beside = 0;
+    frontend->coarse = frontend->guided = frontend->thinned = frontend->global = frontend->beside = 0;
     frontend->largest_radius = 0;
     const auto step = search->find(query);
     REQUIRE(step->ok());
@@ -123,10 +123,18 @@ TEST_CASE("motion search: at the start few global matches suffice, unless they l
   frames.check(std::nullopt);
   CHECK(frames.frontend->global == 2);
   CHECK(frames.frontend->global_edges == 3000);
+  frames.query.at_start = false;
+  frames.search->remember(ambiguous);
+  frames.check(frames.truth());
+  CHECK(frames.frontend->thinned == 1);  // shows that the camera does not stand still
 
   TwoFrames sparse(120);
   sparse.query.at_start = true;
   sparse.check(std::nullopt);  // the matches of 40 edges lie in too few cells
+  CHECK(sparse.frontend->global == 2);
+  CHECK(sparse.frontend->global_edges == 120);
+  sparse.query.at_start = false;
+  sparse.check(std::nullopt);
   CHECK(sparse.frontend->global == 2);
   CHECK(sparse.frontend->global_edges == 120);
 }

@@ -80,6 +80,9 @@ TEST_CASE("The search terminates with zero, one and two quads, and when no pair 
   problem.quads = 50;
   auto g = generated::generate(problem, 42);
   for (StereoMeasurement& after : g.quads.current) after.inverse_depth *= 0.5;
+  CHECK(search(problem, g, config).draws == kMaxHypotheses);  // a consensus of 12 of 50 would have been found
+  config.min_inliers = 2;
+  config.min_inlier_ratio = 0.03;
   const Consensus found = search(problem, g, config);
   CHECK_FALSE(found.found);
   CHECK(found.draws == static_cast<int>(kDrawsPerPair * 50 * 49 / 2));

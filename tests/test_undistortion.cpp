@@ -67,3 +67,29 @@ TEST_CASE("undistortion: every device and variant equals the reference exactly",
     }
   }
 }
+
+TEST_CASE("undistortion: a reduced pixel is the mean of four positions half a pixel apart, also at the border",
+          "[undistortion]") {
+  const Image image = pattern(40, 40);
+  const UndistortionTable table = shift_table(40, 40, 1.3f, -0.6f), none;
+  const PinholeCamera camera{40, 40, 20, 20, 40, 40};
+  constexpr int kBlock = PinholeView::kBlock;
+  Eigen::Matrix2d steps;
+  steps << 2, 0.3, -0.2, 2.2;
+  for (const bool at_border : {false, true}) {
+    const PinholeView view(image.view(), at_border ? none : table, camera);
+    const Eigen::Vector2d middle = at_border ? Eigen::Vector2d(3, 36) : Eigen::Vector2d(19.4, 20.7);
+    float values[kBlock * kBlock];
+    view.reduced(middle, steps, values);
+    for (const auto& [column, row] : {std::pair{0, 0}, {7, 0}, {3, 5}, {7, 7}}) {
+      float sum = 0;
+      for (const double u : {-0.25, 0.25}) {
+        for (const double v : {-0.25, 0.25}) {
+          const Eigen::Vector2d at = middle + steps * Eigen::Vector2d(column - 3.5 + u, row - 3.5 + v);
+          sum += view.at(at.x(), at.y());
+        }
+      }
+      CHECK(values[row * kBlock + column] == Approx(sum / 4).margin(0.05));
+    }
+  }
+}

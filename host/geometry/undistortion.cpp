@@ -128,15 +128,27 @@ PinholeView::Patch PinholeView::patch(const Eigen::Vector2d& position, const Eig
   return {recorded_, recorded_position(position), slope * steps};
 }
 
-void PinholeView::Patch::sample(int half, float* values) const {
-  const int side = 2 * half + 1;
-  const Eigen::Vector2d reach = half * steps_.cwiseAbs().rowwise().sum();
+void PinholeView::reduced(const Eigen::Vector2d& middle, const Eigen::Matrix2d& steps, float* values) const {
+  constexpr int kSide = 2 * kBlock;
+  float samples[kSide * kSide];
+  patch(middle + steps * Eigen::Vector2d::Constant(0.25), 0.5 * steps).sample(-kBlock, kBlock - 1, samples);
+  for (int row = 0; row < kBlock; ++row) {
+    for (int column = 0; column < kBlock; ++column) {
+      const float *const above = samples + 2 * (row * kSide + column), *const below = above + kSide;
+      values[row * kBlock + column] = 0.25F * (above[0] + above[1] + below[0] + below[1]);
+    }
+  }
+}
+
+void PinholeView::Patch::sample(int first_step, int last_step, float* values) const {
+  const int side = last_step - first_step + 1;
+  const Eigen::Vector2d reach = std::max(-first_step, last_step) * steps_.cwiseAbs().rowwise().sum();
   const Eigen::Vector2d first = middle_ - reach, last = middle_ + reach;
   const bool is_inside = first.minCoeff() >= 0 && last.x() < recorded_.width - 1 && last.y() < recorded_.height - 1;
-  for (int row = -half; row <= half; ++row, values += side) {
+  for (int row = first_step; row <= last_step; ++row, values += side) {
     if (!is_inside || recorded_.max_value != kMaxValue8) {
       for (int column = 0; column < side; ++column) {
-        const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(column - half, row);
+        const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(first_step + column, row);
         values[column] = grey_at(recorded_, position.x(), position.y());
       }
       continue;
@@ -144,7 +156,7 @@ void PinholeView::Patch::sample(int half, float* values) const {
     const Eigen::Vector2d of_row = row * steps_.col(1);
     const SampleRow samples{middle_.x(), middle_.y(), steps_(0, 0), steps_(1, 0), of_row.x(), of_row.y()};
     for (int column = 0; column < side; column += kColumns)
-      sample_row(recorded_, samples, column - half, std::min(kColumns, side - column), values + column);
+      sample_row(recorded_, samples, first_step + column, std::min(kColumns, side - column), values + column);
   }
 }
 

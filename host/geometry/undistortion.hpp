@@ -59,6 +59,10 @@ class PinholeView {
   /// cameras.
   class Patch;
   Patch patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const;
+  static constexpr int kBlock = 8;  ///< side of a block of reduced pixels
+  /// Grey levels of kBlock x kBlock reduced pixels, row-major: each the mean of four positions half a pixel apart.
+  /// \param middle of the block \param steps from a reduced pixel to the next column and row
+  void reduced(const Eigen::Vector2d& middle, const Eigen::Matrix2d& steps, float* values) const;
 
  private:
   Eigen::Vector2d recorded_position(const Eigen::Vector2d& position) const;
@@ -70,8 +74,8 @@ class PinholeView {
 
 class PinholeView::Patch {
  public:
-  /// Samples columns and rows -half to half, row-major.
-  void sample(int half, float* values) const;
+  /// Samples columns and rows `first` to `last`, row-major.
+  void sample(int first, int last, float* values) const;
 
  private:
   friend class PinholeView;

@@ -21,8 +21,8 @@ PoseConfig limits_of_global_matches(const Config& config) {
   return limits;
 }
 
-/// Collects the indices of the positions that lie in free cells; if there are at least twice `wanted`, only every n-th,
-/// so that at least `wanted` and fewer than twice `wanted` remain.
+/// Collects the indices of the positions that lie in free cells; if there are more than `wanted`, only every n-th, so
+/// that at most `wanted` and more than half of that remain.
 void collect_free(const ExplainedCells& cells, const std::vector<float>& x, const std::vector<float>& y, int wanted,
                   std::vector<std::int32_t>& numbers) {
   numbers.clear();
@@ -30,7 +30,8 @@ void collect_free(const ExplainedCells& cells, const std::vector<float>& x, cons
     const ExplainedCell* cell = cells.at(x[i], y[i]);
     if (cell != nullptr && cell->is_free()) numbers.push_back(static_cast<std::int32_t>(i));
   }
-  const auto step = static_cast<std::size_t>(global_step(numbers.size(), wanted));
+  const auto most = static_cast<std::size_t>(wanted);
+  const std::size_t step = std::max<std::size_t>(1, (numbers.size() + most - 1) / most);
   std::size_t kept = 0;
   for (std::size_t k = 0; k < numbers.size(); k += step) numbers[kept++] = numbers[k];
   numbers.resize(kept);
@@ -124,7 +125,8 @@ StepHandle MotionProposals::few_global_matches(const MotionQuery& query) {
 }
 
 StepHandle MotionProposals::global_matches(const MotionQuery& query) {
-  return matched_globally(query, config_.temporal.global_edges);
+  StepHandle few = query.at_start ? nullptr : few_global_matches(query);  // at the start they have left a doubt
+  return few ? std::move(few) : matched_globally(query, config_.temporal.global_edges);
 }
 
 StepHandle MotionProposals::matched_globally(const MotionQuery& query, int edges) {
@@ -139,7 +141,9 @@ StepHandle MotionProposals::rest_of_global_matches(const MotionQuery& query, con
   is_rest_.assign(global_matches.matches.size(), 1);
   for (std::size_t q = 0; q < global_matches.quads.size(); ++q)
     if (global_matches.motion.inlier[q] != 0) is_rest_[static_cast<std::size_t>(global_matches.quads.match[q])] = 0;
-  return with_rest_of(query, global_matches, global_limits_);
+  PoseConfig limits = global_limits_;
+  limits.min_inliers = std::max(limits.min_inliers, static_cast<int>(kRestRatio * global_matches.motion.inliers));
+  return with_rest_of(query, global_matches, limits);
 }
 
 StepHandle MotionProposals::rest_of_confirmed(const MotionQuery& query, const MotionStep& confirmed) {

@@ -64,7 +64,8 @@ class MotionProposals {
   StepHandle still_camera(const MotionQuery& query);
   /// The motion of a part of the global matches; null unless most of them agree, in many parts of the image.
   StepHandle few_global_matches(const MotionQuery& query);
-  /// The camera may have moved arbitrarily: a subset of the edges is matched over the whole image.
+  /// The camera may have moved arbitrarily: a subset of the edges is matched over the whole image, first a small one,
+  /// which suffices where most of its matches agree.
   StepHandle global_matches(const MotionQuery& query);
   /// The motion of the global matches is that of an object: those that it does not explain have another one.
   StepHandle rest_of_global_matches(const MotionQuery& query, const MotionStep& global_matches);

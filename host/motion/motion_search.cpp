@@ -188,6 +188,7 @@ void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Cand
     if (known == nullptr && candidate.is_confirmed() && !is_close_to_another(candidate.hypothesis))
       known = candidate.confirmed.get();
   }
+  if (hypothesis == Hypothesis::still_camera && known != nullptr && !may_stand_still(query)) return;
   Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
   if (!candidate.proposed) return;
   if (candidate.proposed->ok()) {
@@ -251,8 +252,23 @@ bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_k
   return true;
 }
 
+/// Whether some of the base's edges, evenly chosen, support a motion near standstill at all.
+bool MotionSearch::may_stand_still(const MotionQuery& query) {
+  PoseConfig limits = config_.pose;
+  limits.min_hypotheses = 0;
+  limits.inlier_distance *= kCloseAgreement;
+  const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+  frontend::predict_positions(fits_.calibration(query), query.base->edges, fits_.measured(*query.base, query), still,
+                              config_.temporal.radius, kStillStep, search_);
+  const StepHandle step = fits_.new_step(query, query.base);
+  frontend_.match(*query.base, *query.current, search_, step->matches);
+  fits_.fit(query, limits, still, pose::RefinementGoal::pose, *step);
+  evidence_.judge(search_.left, kStillSupport * config_.temporal.min_support, *step);
+  return step->ok();
+}
+
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
-/// motion found until the predicted positions no longer change.
+/// motion found until the predicted positions no longer change or the motion explains less than before.
 StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query,
                                       const PoseConfig& limits, Eigen::Isometry3d current_from_base,
                                       const Others& others) {
@@ -281,19 +297,21 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
       if (step->ok() && shift_from_known() < kSettled) return nullptr;
     }
   }
-  predict_all();
+  StepHandle before;
   for (int round = 1;; ++round) {
+    predict_all();
     frontend_.match(*base, *query.current, search_, step->matches);
     fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
     evidence_.judge(search_.left, others.explained != nullptr ? 0 : config_.temporal.min_support, *step);
     if (!step->ok()) break;
+    if (before && step->verdict.area < before->verdict.area) return before;
     current_from_base = step->motion.current_from_previous;
     predict(current_from_base, kSettledStep, next_search_);
     if (known != nullptr && shift_from_known() < kSettled) return nullptr;
     if (round == kGuidedRounds || step->verdict.area < others.least_area ||
         frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
       break;
-    predict_all();
+    before = std::exchange(step, fits_.new_step(query, base));
   }
   return step;
 }

@@ -72,6 +72,7 @@ class MotionSearch : public MotionFinder {
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                      const Others& others);
+  bool may_stand_still(const MotionQuery& query);
   bool use_support_of_base(const MotionQuery& query, Candidate& by_key);
   StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
                           Eigen::Isometry3d current_from_base, const Others& others);

@@ -57,6 +57,9 @@ constexpr double kOtherPartArea = 0.08, kOtherPartRatio = 0.12;
 /// An object that passes is no doubt: a rival explains this part of what the chosen motion explains, or of that this
 /// part after an ambiguous motion.
 constexpr double kRivalShare = 0.15, kRepeatedShare = 0.075;
+/// Inliers of a motion of the rest of the global matches, in units of those of the motion that left them, below which
+/// it is no rival: mismatches.
+constexpr double kRestRatio = 0.05;
 /// What near edges leave of a motion between distant views looks like another one, in few of the cells searched: either
 /// more of these follow a rival, or it has kPromisingBalance of the matches.
 constexpr double kCoherentRatio = 0.3;
@@ -106,6 +109,11 @@ constexpr int kRareMotion = 4;
 
 /// Two motions that share more than this fraction of the inliers are the same motion.
 constexpr double kSharedInlierRatio = 0.7;
+
+/// Beside another motion, standstill is tried with all edges if every kStillStep-th gives it this fraction of the
+/// support that a motion needs.
+constexpr int kStillStep = 4;
+constexpr double kStillSupport = 0.5;
 
 /// Support that a wrong motion may reach by chance in fine texture.
 constexpr double kChanceSupport = 0.2;

@@ -45,6 +45,10 @@ constexpr double kMinPairDistance = 0.05;
 /// Draws per pair of quads after which hardly any pair has not been drawn; the same pair gives the same hypothesis.
 constexpr double kDrawsPerPair = 10;
 
+/// Draws times the square of the least inlier ratio after which no consensus of that size is left to be found: with
+/// kConfidence, a pair of its inliers was drawn that passes the tests of pairs, as one in ten does.
+constexpr double kDrawsForConsensus = 70;
+
 /// Approximate number of quads that determine the inlier selection, and of errors over which a scale is computed as the
 /// median: the median of 4000 is known to 2 %.
 constexpr std::size_t kSelectionQuads = 4000, kScaleErrors = 4000;

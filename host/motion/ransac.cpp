@@ -71,7 +71,10 @@ class Search {
     const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
     const double growth = (static_cast<double>(order.size()) - first_pool) / kMaxHypotheses;
     const double pairs = 0.5 * static_cast<double>(order.size()) * static_cast<double>(order.size() - 1);
-    const double useful = std::max<double>(kMaxHypotheses, kDrawsPerPair * pairs);
+    const double fewest = std::max(config_.min_inlier_ratio,
+                                   config_.min_inliers / static_cast<double>(std::max<std::size_t>(1, order.size())));
+    const double useful =
+        std::max<double>(kMaxHypotheses, std::min(kDrawsPerPair * pairs, kDrawsForConsensus / (fewest * fewest)));
     const int max_draws = useful < config_.max_draws ? static_cast<int>(useful) : config_.max_draws;
     const auto draw = [&](int number) -> PairSample {
       const double pool_size = std::min(first_pool + growth * number, static_cast<double>(order.size()));

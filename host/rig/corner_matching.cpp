@@ -22,7 +22,7 @@ using Samples = Eigen::Array<float, kWithBorder, kWithBorder, Eigen::RowMajor>;
 
 Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen::Matrix2d& steps) {
   Samples samples;
-  view.patch(centre, steps).sample(kAlignedHalf + 1, samples.data());
+  view.patch(centre, steps).sample(-kAlignedHalf - 1, kAlignedHalf + 1, samples.data());
   return samples;
 }
 
@@ -190,27 +190,21 @@ struct CornerMatcher::CoarseViews {
   GreyPlane left, right;
 
   /// Position in the left image [px] of a position in a coarse image.
-  static Eigen::Vector2d in_left(double x, double y, double scale) {
-    return {(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5};
+  static Eigen::Vector2d in_left(const Eigen::Vector2d& at, double scale) {
+    return scale * at + Eigen::Vector2d::Constant(0.5 * (scale - 1));
   }
-  Eigen::Vector2d in_left(const Eigen::Vector2d& at) const { return in_left(at.x(), at.y(), scale); }
+  Eigen::Vector2d in_left(const Eigen::Vector2d& at) const { return in_left(at, scale); }
 };
 
 CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, const PinholeView& right,
                                                        ImageTurn turn) const {
   const double scale = std::max(1.0, std::round(rig_.left.width / kCoarseWidth));
   const int width = static_cast<int>(rig_.left.width / scale), height = static_cast<int>(rig_.left.height / scale);
-  return {scale,
-          sample_plane(width, height,
-                       [&](double x, double y) {
-                         const Eigen::Vector2d position = CoarseViews::in_left(x, y, scale);
-                         return left.at(position.x(), position.y());
-                       }),
-          sample_plane(width, height, [&](double x, double y) {
-            const auto position = at_infinity(CoarseViews::in_left(x, y, scale));
-            if (!position) return 0.0F;
-            const Eigen::Vector2d given = turned(*position, turn, rig_.right);
-            return right.at(given.x(), given.y());
+  const auto in_left = [&](const Eigen::Vector2d& at) { return std::optional(CoarseViews::in_left(at, scale)); };
+  return {scale, sample_plane(left, width, height, in_left),
+          sample_plane(right, width, height, [&](const Eigen::Vector2d& at) {
+            const auto position = at_infinity(*in_left(at));
+            return position ? std::optional(turned(*position, turn, rig_.right)) : std::nullopt;
           })};
 }
 

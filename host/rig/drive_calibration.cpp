@@ -26,7 +26,7 @@ using Pairs = std::vector<const rig::FramePair*>;
 
 // A learned calibration is better if the recording contradicts the given one by more than this (sound rigs: up to 7;
 // KITTI's: 200 to 7,000), and distances in frames that were not learned from fall below this part in both cameras.
-constexpr double kMinContradiction = 15, kMaxUnseenRatio = 0.98;
+constexpr double kMinContradiction = 15, kMaxUnseenRatio = 0.75;
 constexpr std::size_t kFewestPairs = 10;
 constexpr int kFewestPoints = 500;
 

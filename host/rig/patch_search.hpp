@@ -3,9 +3,12 @@
 /// does not link OpenCV.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <tbb/parallel_for.h>
 #include <vector>
+
+#include "geometry/undistortion.hpp"
 
 namespace quadedge::rig {
 
@@ -26,15 +29,26 @@ struct GreyPlane {
 /// Computes `mean` and `norm` from `grey`.
 void measure_patches(GreyPlane& plane);
 
-/// Creates an image whose pixels are the mean of value(x, y) at four positions half a pixel apart.
-template <class Value>
-GreyPlane sample_plane(int width, int height, const Value& value) {
+/// A reduced image of what a view shows. \param place position in the view of a position in the reduced image, as
+/// std::optional; pixels without one are black
+template <class Place>
+GreyPlane sample_plane(const PinholeView& view, int width, int height, const Place& place) {
+  constexpr int kBlock = PinholeView::kBlock;
   GreyPlane plane{width, height, {}, {}, {}};
   plane.grey.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + kAtOnce);
-  tbb::parallel_for(0, height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      plane.grey[plane.index(x, y)] = 0.25F * (value(x - 0.25, y - 0.25) + value(x + 0.25, y - 0.25) +
-                                               value(x - 0.25, y + 0.25) + value(x + 0.25, y + 0.25));
+  tbb::parallel_for(0, (height + kBlock - 1) / kBlock, [&](int row_of_blocks) {
+    const int top = row_of_blocks * kBlock, rows = std::min(kBlock, height - top);
+    for (int left = 0; left < width; left += kBlock) {
+      const Eigen::Vector2d middle(left + 0.5 * (kBlock - 1), top + 0.5 * (kBlock - 1));
+      const auto at = place(middle), beside = place(middle + Eigen::Vector2d(0.5 * kBlock, 0)),
+                 below = place(middle + Eigen::Vector2d(0, 0.5 * kBlock));
+      if (!at || !beside || !below) continue;
+      Eigen::Matrix2d steps;
+      steps << *beside - *at, *below - *at;
+      float values[kBlock * kBlock];
+      view.reduced(*at, steps / (0.5 * kBlock), values);
+      for (int row = 0; row < rows; ++row)
+        std::copy_n(values + row * kBlock, std::min(kBlock, width - left), &plane.grey[plane.index(left, top + row)]);
     }
   });
   measure_patches(plane);

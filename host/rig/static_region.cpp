@@ -2,8 +2,8 @@
 #include "rig/static_region.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "common/numeric.hpp"
 #include "rig/rig_constants.hpp"
@@ -11,28 +11,16 @@
 namespace quadedge::rig {
 namespace {
 
-constexpr int kReduction = 4;  ///< image pixels per reduced pixel and axis
-constexpr int kReducedCell = kStaticCell / kReduction;
+constexpr int kReducedCell = PinholeView::kBlock;
+constexpr double kReduction = kStaticCell / kReducedCell;  ///< image pixels per reduced pixel and axis
 
 /// Reduced grey levels of a cell, zero-mean and of unit length; empty if the cell is flat.
 std::vector<float> texture_of(const PinholeView& view, int column, int row) {
-  // Samples in the middle between pixels, two rows and two columns of them per reduced pixel, and one more.
-  constexpr int kSide = 2 * kReducedCell + 1;
-  constexpr double kStep = kReduction / 2, kMiddle = kStep * kReducedCell + 0.5;
-  std::array<float, std::size_t{kSide * kSide}> samples{};
-  const Eigen::Vector2d middle(column * kStaticCell + kMiddle, row * kStaticCell + kMiddle);
-  view.patch(middle, kStep * Eigen::Matrix2d::Identity()).sample(kReducedCell, samples.data());
+  constexpr double kMiddle = 0.5 * (kStaticCell - 1);
   std::vector<float> texture(kReducedCell * kReducedCell);
-  float sum = 0;
-  for (int y = 0; y < kReducedCell; ++y) {
-    for (int x = 0; x < kReducedCell; ++x) {
-      const float* const above = samples.data() + 2 * (y * kSide + x);
-      const float* const below = above + kSide;
-      float& level = texture[static_cast<std::size_t>(y * kReducedCell + x)];
-      level = 0.25F * (above[0] + above[1] + below[0] + below[1]);
-      sum += level;
-    }
-  }
+  view.reduced({column * kStaticCell + kMiddle, row * kStaticCell + kMiddle}, kReduction * Eigen::Matrix2d::Identity(),
+               texture.data());
+  const float sum = std::accumulate(texture.begin(), texture.end(), 0.0F);
   const auto count = static_cast<float>(texture.size());
   float squares = 0;
   for (float& level : texture) {
