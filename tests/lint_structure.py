@@ -29,7 +29,7 @@ MOST_LINES = {
     "host/data/calibrations": 2150,
     "host/device": 4700,
     "host/edges": 3200,
-    "host/geometry": 2240,
+    "host/geometry": 2250,
     "host/motion": 6240,
     "host/output": 3160,
     "host/paper": 980,
@@ -40,7 +40,7 @@ MOST_LINES = {
     "include": 2240,
     "kernels": 6450,
     "python": 11510,
-    "scripts": 3110,
+    "scripts": 3125,
     "tests": 35830,
 }
 STALE_PHRASES = re.compile(

@@ -280,6 +280,18 @@ TEST_CASE("calibrate: files, judgement and errors", "[cli]") {
   CHECK(run_program({"calibrate", small_sequence(), "--most-frames", "1"}).code == 2);
 }
 
+TEST_CASE("calibrate: the rig of KITTI's raw drives is off, that of MH_01 stays as given", "[cli][real]") {
+  const TemporaryFolder folder;
+  for (const auto& [name, verdict] : {std::pair("kitti_raw_0926", "the calibration is off"),
+                                      std::pair("euroc_mh_01_easy", "the calibration is as good as given")}) {
+    const std::string recording = real_data(name);
+    if (recording.empty()) continue;
+    INFO(name);
+    CHECK_THAT(run_program({"calibrate", recording, "-o", folder / (std::string(name) + ".yaml")}).out,
+               Contains(verdict));
+  }
+}
+
 TEST_CASE("run: --calibrate says what it learned and leaves it beside the results", "[cli][device]") {
   const TemporaryFolder folder;
   const auto run = run_program({"run", small_sequence(), "-o", folder / "out", "--calibrate", "--quiet"});
