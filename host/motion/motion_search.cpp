@@ -268,7 +268,7 @@ bool MotionSearch::may_stand_still(const MotionQuery& query) {
 }
 
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
-/// motion found until the predicted positions no longer change or the motion explains less than before.
+/// motion found until the predicted positions no longer change.
 StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query,
                                       const PoseConfig& limits, Eigen::Isometry3d current_from_base,
                                       const Others& others) {
@@ -297,21 +297,19 @@ StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, co
       if (step->ok() && shift_from_known() < kSettled) return nullptr;
     }
   }
-  StepHandle before;
+  predict_all();
   for (int round = 1;; ++round) {
-    predict_all();
     frontend_.match(*base, *query.current, search_, step->matches);
     fits_.fit(query, limits, current_from_base, pose::RefinementGoal::pose_and_covariance, *step);
     evidence_.judge(search_.left, others.explained != nullptr ? 0 : config_.temporal.min_support, *step);
     if (!step->ok()) break;
-    if (before && step->verdict.area < before->verdict.area) return before;
     current_from_base = step->motion.current_from_previous;
     predict(current_from_base, kSettledStep, next_search_);
     if (known != nullptr && shift_from_known() < kSettled) return nullptr;
     if (round == kGuidedRounds || step->verdict.area < others.least_area ||
         frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled)
       break;
-    before = std::exchange(step, fits_.new_step(query, base));
+    predict_all();
   }
   return step;
 }
