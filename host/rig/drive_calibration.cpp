@@ -147,10 +147,10 @@ void DriveCalibrator::Implementation::judge_unseen(DriveCalibration& result) con
     const Eigen::VectorXd values = rig::PairAdjustment(unknowns_, halves[half]).learn();
     const Unseen given = unseen(halves[1 - half], Eigen::VectorXd::Zero(unknowns_.count())),
                  learned = unseen(halves[1 - half], values);
-    // A calibration that is far off leaves few points below the limit of outliers, whose median says nothing: those
-    // above it are the most.
     of_given.insert(of_given.end(), given.all.begin(), given.all.end());
     of_learned.insert(of_learned.end(), learned.all.begin(), learned.all.end());
+    // A calibration that is far off leaves few points below the limit of outliers, whose median says nothing: those
+    // above it are the most.
     const double least = 2 * given.points < learned.points ? rig::PairAdjustment::kFitLimit : 0;
     for (std::size_t side = 0; side < 2; ++side) {
       result.unseen_given[side] += std::max(least, given.distances[side]) / 2;
