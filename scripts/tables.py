@@ -426,7 +426,8 @@ def evidence(results):
         first = rows[0]
         text.append(f"## {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
                     f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>. "
-                    f"{commits_of(rows)}. Times of different commits do not compare.\n\n" + table(head, [whole_row(row, lengths) for row in rows]))
+                    f"{commits_of(rows)}. Times of different commits do not compare.\n\n"
+                    + table(head, [whole_row(row, lengths) for row in rows]))
         text += [f"{PEERS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
         text.append("Commands: " + ", ".join(f"`{row['command']}`" for row in rows if row["command"]) + ".\n")
         if not lengths:
