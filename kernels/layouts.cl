@@ -151,7 +151,7 @@ typedef struct {
 enum { kStripLines = 11, kGridLines = 26, kStripLineFront = 16 };
 
 // edge_detection_strip.cl, edge_detection_tile.cl and grid_edges.cl. Edges are packed in blocks of max_edges floats: x,
-// y, direction, strength.
+// y, direction, strength, scale-space shift.
 typedef struct {
   int width, height;  // of the image
   int plane_stride;   // floats per row of the padded image

@@ -389,9 +389,8 @@ def commits_of(rows, date=""):
 def whole_recordings(results):
     """The headline: errors of five rows over two lengths of sub-paths."""
     part, rows = results["evidence"], []
-    for row in part["rows"]:
-        if row["system"] in ("QuadEdge, fast", "toy_vo") or not row["runs"]:
-            continue
+    shown = [row for row in part["rows"] if row["system"] not in ("QuadEdge, fast", "toy_vo") and row["runs"]]
+    for row in shown:
         if row["recording"] not in HEADLINE:
             if not row["true_length_m"]:
                 continue
@@ -406,7 +405,7 @@ def whole_recordings(results):
     head = ("recording: length of sub-paths", "system", "frames with a pose", "t_rel [%]", "r_rel [deg/100 m]")
     seeds = "One seed." if part["seeds"] == 1 else f"Medians of {part['seeds']} seeds, and their range."
     rows = [row if index == 0 or row[0] != rows[index - 1][0] else ("", *row[1:]) for index, row in enumerate(rows)]
-    return table(head, rows, f"{seeds} {commits_of(part['rows'], ', ' + part['date'])}.\n")
+    return table(head, rows, f"{seeds} {commits_of(shown, ', ' + part['date'])}.\n")
 
 
 def evidence(results):

@@ -71,11 +71,10 @@ struct MutualScene {
       stages::DeviceRelaxation device_relaxation;
       device_relaxation.chosen.write(context, relaxation.chosen);
       device_relaxation.score.write(context, {relaxation.score.begin(), relaxation.score.end()});
-      stages::DeviceMutual mutual;
       stages::DeviceStereoEdges result;
       StereoEdges found;
       stage.run(upload(context, left), upload(context, right), right_patches, geometry, searched, device_clusters,
-                device_relaxation, mutual, result, found);
+                device_relaxation, result, found);
       REQUIRE(found.left_index == truth.left_index);
       CHECK(found.right_index == truth.right_index);
       CHECK(found.left_x == truth.left_x);

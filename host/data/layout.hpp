@@ -1,6 +1,5 @@
 #pragma once
-/// \file layout.hpp  Common parts of the readers of published layouts: kitti, kitti_raw, euroc, eth3d_slam,
-/// eth3d_two_view, middlebury, viso2_quad.
+/// \file layout.hpp  Common parts of the readers of published layouts: the folders that `quadedge run` reads.
 
 #include <filesystem>
 #include <functional>

@@ -230,31 +230,31 @@ StereoMutual::StereoMutual(opencl::Context& context, const StereoConfig& config,
 
 void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches,
                        const EpipolarGeometry& geometry, const EpipolarGeometry* searched,
-                       const DeviceClusters& clusters, const DeviceRelaxation& relaxation, DeviceMutual& mutual,
-                       DeviceStereoEdges& result, StereoEdges& edges) {
+                       const DeviceClusters& clusters, const DeviceRelaxation& relaxation, DeviceStereoEdges& result,
+                       StereoEdges& edges) {
   begin();
   const int n = left.host_count;
   const auto left_edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
-  mutual.keep.ensure(context_, left_edges);
-  mutual.claimed.ensure(context_, right_edges);
-  mutual.owner.ensure(context_, right_edges);
-  mutual.claimed.fill(0, right_edges);
-  mutual.owner.fill(std::numeric_limits<cl_int>::max(), right_edges);
+  keep_.ensure(context_, left_edges);
+  claimed_.ensure(context_, right_edges);
+  owners_.ensure(context_, right_edges);
+  claimed_.fill(0, right_edges);
+  owners_.fill(std::numeric_limits<cl_int>::max(), right_edges);
 
   StereoMutualArguments arguments{};
   arguments.left = left.positions().at;
   arguments.capacity = clusters.stride;
   arguments.mutual_radius = mutual_radius_;
   const opencl::Range range = over(left_edges);
-  claim_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed);
-  owner_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed, mutual.owner);
-  mutual_(range, arguments, relaxation.chosen, clusters.anchor, left.packed, mutual.owner, mutual.keep);
+  claim_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, claimed_);
+  owner_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, claimed_, owners_);
+  mutual_(range, arguments, relaxation.chosen, clusters.anchor, left.packed, owners_, keep_);
   result.reserve(context_, left_edges);
   result.stride = n;
-  scan_.run(mutual.keep, n, n, mutual.keep_first, result.total);
+  scan_.run(keep_, n, n, keep_first_, result.total);
   const auto collect = [&](const EpipolarGeometry& lines) {
     arguments.geometry = lines;
-    collect_(range, arguments, mutual.keep_first, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
+    collect_(range, arguments, keep_first_, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
              result.left_index, result.right_index, result.packed, result.ncc);
   };
   collect(geometry);

@@ -190,13 +190,6 @@ class StereoRelaxation : private Stage {
       consult_;
 };
 
-/// Owners of the right edges.
-struct DeviceMutual {
-  opencl::Buffer<cl_int> claimed;  ///< per right edge: the bits of the highest score offered
-  opencl::Buffer<cl_int> owner;    ///< per right edge: the left edge that offers it
-  opencl::Buffer<cl_int> keep, keep_first;
-};
-
 /// Stage 5e: best and mutual; the stereo edges of a frame.
 /// doc/method.md section 3, filter 12. Variants of the stage "stereo_mutual".
 class StereoMutual : private Stage {
@@ -209,10 +202,16 @@ class StereoMutual : private Stage {
   /// where patches are cut; null: the same
   void run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches, const EpipolarGeometry& geometry,
            const EpipolarGeometry* searched, const DeviceClusters& clusters, const DeviceRelaxation& relaxation,
-           DeviceMutual& mutual, DeviceStereoEdges& result, StereoEdges& edges);
+           DeviceStereoEdges& result, StereoEdges& edges);
+
+  /// Of the last run, per right edge: the left edge that offers the highest score.
+  const opencl::Buffer<cl_int>& owners() const { return owners_; }
 
  private:
   float mutual_radius_;
+  opencl::Buffer<cl_int> claimed_;  ///< per right edge: the bits of the highest score offered
+  opencl::Buffer<cl_int> owners_;
+  opencl::Buffer<cl_int> keep_, keep_first_;
   Scan scan_;
   opencl::ReadBack read_back_;
   opencl::Kernel<void(StereoMutualArguments args, const cl_int* chosen, const cl_float* score,

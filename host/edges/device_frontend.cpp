@@ -163,7 +163,7 @@ RelaxationTally DeviceFrontend::find_stereo_edges(FrameEdges& current, const Epi
   context_.flush();
   relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, coarse_disparity(stereo_edges, coarse));
   mutual_.run(left_.edges, right_.edges, right_.patches, range_.geometry(), corrects_rows() ? &geometry : nullptr,
-              clusters_, relaxed_, owners_, stereo_edges, current.edges);
+              clusters_, relaxed_, stereo_edges, current.edges);
   return relaxed_.host_tally;
 }
 

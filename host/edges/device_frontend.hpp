@@ -126,7 +126,6 @@ class DeviceFrontend : public StagedFrontend {
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;
   stages::DeviceRelaxation relaxed_;
-  stages::DeviceMutual owners_;
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
   const FrameEdges* indexed_ = nullptr;    ///< the frame of both indices; null: none

@@ -64,7 +64,7 @@ void DeviceFrontend::tap_stereo() {
   const auto chosen = relaxed_.chosen.read(rows);
   const auto is_chosen = [&](std::size_t i, std::size_t k) { return chosen[i] == static_cast<std::int32_t>(k); };
   tap_clusters(StereoFilter::relaxation, is_chosen);
-  const auto owner = owners_.owner.read(static_cast<std::size_t>(right_.edges.host_count));
+  const auto owner = mutual_.owners().read(static_cast<std::size_t>(right_.edges.host_count));
   tap_clusters(StereoFilter::one_to_one, [&](std::size_t i, std::size_t k) {
     return is_chosen(i, k) && owner[static_cast<std::size_t>(clusters.anchor[k])] == static_cast<std::int32_t>(i);
   });

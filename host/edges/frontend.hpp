@@ -28,8 +28,8 @@ struct FrontendCounts {
   int dropped_edges = 0;  ///< beyond edges.max_edges, in both images
 };
 
-/// Interface with three implementations: the OpenCL stages, the C++ reference and the paper's method. Callers keep
-/// frames by holding their handles.
+/// Interface with four implementations: the default and the paper's method, each on OpenCL and in plain C++. Callers
+/// keep frames by holding their handles.
 class Frontend {
  public:
   virtual ~Frontend() = default;

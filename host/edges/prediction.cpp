@@ -9,9 +9,7 @@ namespace quadedge::frontend {
 namespace {
 
 /// Assigns to vectors that keep their memory.
-void set_without_motion(const StereoEdges& previous, double radius, TemporalSearch& search) {
-  search.radius = static_cast<float>(radius);
-  search.coarse = false;
+void set_without_motion(const StereoEdges& previous, TemporalSearch& search) {
   search.left.x = previous.left_x;
   search.left.y = previous.left_y;
   search.left.direction = previous.left_direction;
@@ -24,7 +22,8 @@ void set_without_motion(const StereoEdges& previous, double radius, TemporalSear
 
 TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse) {
   TemporalSearch search;
-  set_without_motion(previous, coarse ? config.coarse_radius : config.radius, search);
+  set_without_motion(previous, search);
+  search.radius = static_cast<float>(coarse ? config.coarse_radius : config.radius);
   search.coarse = coarse;
   return search;
 }
@@ -32,8 +31,10 @@ TemporalSearch search_without_motion(const StereoEdges& previous, const Temporal
 void predict_positions(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
                        const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
                        TemporalSearch& search) {
-  set_without_motion(previous, radius, search);
+  search.radius = static_cast<float>(radius);
+  search.coarse = false;
   search.step = step;
+  if (!current_from_previous || step > 1) set_without_motion(previous, search);
   if (!current_from_previous) return;
   pose::predict_edges(rig, measured, *current_from_previous, static_cast<std::size_t>(step), search.left, search.right);
 }

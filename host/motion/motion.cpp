@@ -40,8 +40,6 @@ Refusal MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& 
   if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return Refusal::too_few_quads;
 
   const Consensus consensus = find_consensus(quads, rig, config, seed, initial, consensus_);
-  motion.hypotheses = consensus.hypotheses;
-  motion.draws = consensus.draws;
   if (!consensus.found) return Refusal::no_consensus;
 
   motion.current_from_previous = motion.learned.current_from_previous = consensus.current_from_previous;

@@ -59,7 +59,6 @@ struct MotionEstimate {
   PoseAndOffset learned;
   std::vector<std::uint8_t> inlier;  ///< one byte per quad
   int inliers = 0;
-  int hypotheses = 0, draws = 0;  ///< numbers of the consensus search, see Consensus
 
   /// inliers / quads
   double inlier_ratio() const { return inliers / std::max(1.0, static_cast<double>(inlier.size())); }

@@ -44,8 +44,7 @@ struct Ambiguity {
   bool exists() const { return kind != AmbiguityKind::none; }
 };
 
-/// What is known of a motion that was tried. If it is refused, only the support, the refusal and the ambiguity have a
-/// meaning.
+/// What is known of a motion that was tried. What is measured after the reason to refuse it has its default.
 struct Verdict {
   double support = 0;       ///< inliers divided by the base's edges that the motion brings into view
   double area = 0;          ///< mean over the image cells of the fraction of edges that agree closely

@@ -110,8 +110,8 @@ constexpr int kRareMotion = 4;
 /// Two motions that share more than this fraction of the inliers are the same motion.
 constexpr double kSharedInlierRatio = 0.7;
 
-/// Beside another motion, standstill is tried with all edges if every kStillStep-th gives it this fraction of the
-/// support that a motion needs.
+/// Beside another motion, standstill is tried with all edges if those that support it among every kStillStep-th are
+/// this fraction of those that a motion needs among all.
 constexpr int kStillStep = 4;
 constexpr double kStillSupport = 0.5;
 

@@ -105,8 +105,6 @@ Refusal PaperSearch::solve(std::uint64_t seed, MotionStep& step) {
   if (step.quads.size() < static_cast<std::size_t>(config_.min_inliers)) return Refusal::too_few_quads;
   const StereoRig rig = corrected_rig(rig_, step.rig);
   paper::PaperConsensus found = paper::find_paper_consensus(step.quads, rig.left, config_, seed);
-  motion.hypotheses = found.hypotheses;
-  motion.draws = found.draws;
   if (!found.current_from_previous) return Refusal::no_consensus;
   motion.inlier = std::move(found.inlier);
   motion.inliers = found.inliers;

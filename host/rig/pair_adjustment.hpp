@@ -46,7 +46,8 @@ class PairAdjustment {
   /// Learns the unknowns, or with `fixed` values only motions and points. \returns the values
   Eigen::VectorXd learn();
   void fit(const Eigen::VectorXd& fixed);
-  /// The motion of the only pair by the given calibration, from a start that may be far off; points() then agree.
+  /// The motion of the only pair by the calibration that it was made with, from a start that may be far off; points()
+  /// then agree.
   Eigen::Isometry3d find_motion();
 
   /// Of the last learn(): what the pairs alone tell, at the values.

@@ -433,9 +433,9 @@ void bind_odometry(nb::module_& module) {
           "had been used, and\n"
           "UsageError after close(). The odometry's state does not change when DataError or TypeError is raised.")
       .def("edges", &Odometry::edges, kReleasesGil,
-           "Stereo edges of the last tracked frame; empty before the first one. Raises UsageError after close().")
+           "Stereo edges of the last frame; empty before the first one. Raises UsageError after close().")
       .def("details", &Odometry::details, kReleasesGil,
-           "All edges and quads of the last tracked frame. Raises UsageError after close().")
+           "All edges and quads of the last frame. Raises UsageError after close().")
       .def("map_trajectory", &Odometry::map_trajectory, kReleasesGil,
            "The corrected Trajectory, in the frame of the map: all frames that measured motions connect; if the\n"
            "trajectory broke and no place joins its segments, those of the largest segment. Raises UsageError without\n"
