@@ -121,7 +121,8 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     assert page.row("What is left at the end", "pooled")[2] == "48\u202f299"
     assert page.row("What is left at the end", "room")[7:9] == ["96.00", "70.00"]
     assert [row[3].split(THIN)[0] for row in page.tables["Quads"][1:]] == ["90.00", "60.00"]
-    assert page.figure("filters_stereo")["data"][0]["x"] == ["baseline", "epipolar proximity", "NCC", "best"]  # names, no disabled filters
+    names = page.figure("filters_stereo")["data"][0]["x"]
+    assert names == ["baseline", "epipolar proximity", "NCC", "best"]  # no disabled filters
     assert list(page.traces("filters_stereo")) == ["recall, paired", "precision, paired", "recall, all",
                                                    "precision, all"]
     # 250 of 300 values lie within the shown range of the cue, in bins of equal height.
