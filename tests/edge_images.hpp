@@ -10,19 +10,27 @@
 
 #include "quadedge/image.hpp"
 
+/// An image with these pixel values, by columns of each row in order.
+inline quadedge::Image filled_image(int width, int height, int max_value,
+                                    const std::function<int(int x, int y)>& value) {
+  quadedge::Image image(width, height, max_value);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.set(x, y, value(x, y));
+  return image;
+}
+inline quadedge::Image filled_image(int width, int height, const std::function<int(int x, int y)>& value) {
+  return filled_image(width, height, quadedge::kMaxValue8, value);
+}
+
 /// Normal noise around `level`, both in grey levels, rounded and clipped as by a camera.
 inline quadedge::Image noisy_image(int width, int height, double level, double sigma,
                                    int max_value = quadedge::kMaxValue8, unsigned seed = 1) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(level, sigma);
-  quadedge::Image image(width, height, max_value);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double value = normal(generator) * max_value / quadedge::kMaxValue8;
-      image.set(x, y, static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(max_value))));
-    }
-  }
-  return image;
+  return filled_image(width, height, max_value, [&](int, int) {
+    const double value = normal(generator) * max_value / quadedge::kMaxValue8;
+    return static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(max_value)));
+  });
 }
 
 /// Points of the plane with `inside(x, y)` have grey level `bright`, all others `dark`. 256 samples per pixel on a

@@ -41,7 +41,7 @@ MOST_LINES = {
     "kernels": 6450,
     "python": 11520,
     "scripts": 3125,
-    "tests": 35830,
+    "tests": 34800,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

@@ -113,21 +113,6 @@ inline reference::CandidateScores fresh_scores(std::size_t candidates) {
           std::vector<std::uint8_t>(candidates, 0)};
 }
 
-using Variants = std::map<std::string, std::string>;
-
-/// Every variant of a stage on every device.
-inline void for_each_variant(
-    const std::string& stage,
-    const std::function<void(opencl::Context&, const Variants&, const std::string& name)>& visit) {
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage == stage)
-        visit(*device.context(), {{stage, variant.name}}, device.info().name + " " + variant.name);
-    }
-  }
-}
-
 /// Rectified rig of a small image.
 inline StereoRig flat_rig(int width = 64, int height = 48, double focal = 60, double baseline = 0.1) {
   StereoRig rig;

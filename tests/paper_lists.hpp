@@ -3,6 +3,7 @@
 
 #include "device/paper_clusters.hpp"
 #include "device/paper_refinement.hpp"
+#include "edge_images.hpp"
 #include "matching.hpp"
 #include "paper/cascades.hpp"
 
@@ -10,15 +11,11 @@ namespace matching {
 
 /// A smooth texture with two waves of noise, moved by (dx, dy) px.
 inline Image paper_image(int width, int height, double dx, double dy, int max_value = kMaxValue8) {
-  Image image(width, height, max_value);
   Random noise(static_cast<std::uint64_t>(7 + 10 * (dx + dy)));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double grey = std::clamp(smooth_grey(x - dx, y - dy) + noise(-4, 4), 0.0, 255.0);
-      image.set(x, y, static_cast<int>(std::lround(grey * max_value / kMaxValue8)));
-    }
-  }
-  return image;
+  return filled_image(width, height, max_value, [&](int x, int y) {
+    const double grey = std::clamp(smooth_grey(x - dx, y - dy) + noise(-4, 4), 0.0, 255.0);
+    return static_cast<int>(std::lround(grey * max_value / kMaxValue8));
+  });
 }
 
 /// Edges of one image, candidates in the other, and which of them are alive.

@@ -1,6 +1,7 @@
 #pragma once
 /// \file program.hpp  Runs the quadedge program as a user does.
 
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -59,12 +60,29 @@ inline ProgramResult run_program(const std::vector<std::string>& arguments, cons
   return result;
 }
 
+/// The same where it has to succeed.
+inline ProgramResult run_well(const std::vector<std::string>& arguments, const std::string& environment = "") {
+  ProgramResult result = run_program(arguments, environment);
+  INFO(Catch::StringMaker<std::vector<std::string>>::convert(arguments) << "\n" << result.err);
+  REQUIRE(result.code == 0);
+  return result;
+}
+
+/// The same where it has to end with `code` and an error message that has all these words.
+inline ProgramResult check_error(const std::vector<std::string>& arguments, int code,
+                                 const std::vector<std::string>& words = {}, const std::string& environment = "") {
+  ProgramResult result = run_program(arguments, environment);
+  INFO(Catch::StringMaker<std::vector<std::string>>::convert(arguments));
+  CHECK(result.code == code);
+  for (const std::string& word : words) CHECK_THAT(result.err, Catch::Contains(word));
+  return result;
+}
+
 /// A rendered sequence of 320 x 200 px, created once per process.
 inline const std::string& small_sequence() {
   static const TemporaryFolder folder;
   static const std::string path = [] {
-    const auto result = run_program({"synth", folder / "room4", "--frames", "4", "--size", "320x200", "--quiet"});
-    if (result.code != 0) throw std::runtime_error("synth failed: " + result.err);
+    run_well({"synth", folder / "room4", "--frames", "4", "--size", "320x200", "--quiet"});
     return folder / "room4";
   }();
   return path;

@@ -146,11 +146,10 @@ TEST_CASE("cli: check and calibrate write calibrations for other programs", "[cl
       "check",    small_sequence(),      "--quiet",  "--write-calibration", folder / "own.yaml",
       "--kalibr", folder / "chain.yaml", "--opencv", folder / "stereo.yml", "--ros",
       both};
-  REQUIRE(run_program(check).code == 0);
-  CHECK(run_program(check).code == 2);  // without --force
+  run_well(check);
+  check_error(check, 2);  // without --force
   for (const std::string& files : {folder / "chain.yaml", folder / "stereo.yml", both}) {
-    INFO(files);
-    CHECK(run_program({"check", small_sequence(), "--quiet", "--calibration", files}).code == 0);
+    run_well({"check", small_sequence(), "--quiet", "--calibration", files});
     CHECK(read_calibration(files).right_from_left.matrix() ==
           read_calibration(folder / "own.yaml").right_from_left.matrix());
   }
@@ -161,22 +160,16 @@ TEST_CASE("cli: check and calibrate write calibrations for other programs", "[cl
     text.replace(text.find(side + "coefficients: []"), side.size() + 16, side + "coefficients: [0.1]");
   }
   dataset_files::write_text(folder / "fov.yaml", text);
-  const auto refused = run_program({"check", small_sequence(), "--calibration", folder / "fov.yaml", "--opencv",
-                                    folder / "fov.yml", "--kalibr", folder / "fov_chain.yaml"});
-  CHECK(refused.code == 2);
+  const auto refused = check_error({"check", small_sequence(), "--calibration", folder / "fov.yaml", "--opencv",
+                                    folder / "fov.yml", "--kalibr", folder / "fov_chain.yaml"},
+                                   2, {"fov.yml: format opencv: the left lens is fov with 1 parameter"});
   CHECK_THAT(refused.out, Contains(" errors, "));
-  CHECK_THAT(refused.err, Contains("fov.yml: format opencv: the left lens is fov with 1 parameter"));
   CHECK(read_calibration(folder / "fov_chain.yaml").left.model == LensModel::field_of_view);
-  const auto twice = run_program({"check", small_sequence(), "--opencv", folder / "a.yaml", "--ros",
-                                  (folder / "a.yaml") + "," + (folder / "b.yaml")});
-  CHECK(twice.code == 2);
-
-  const auto one = run_program({"calibrate", small_sequence(), "--ros", folder / "one.yaml"});
-  CHECK(one.code == 2);
-  CHECK_THAT(one.err, Contains("LEFT,RIGHT"));
-  REQUIRE(run_program(
-              {"calibrate", small_sequence(), "--quiet", "-o", folder / "rig.yaml", "--opencv", folder / "learned.yml"})
-              .code == 0);
+  check_error({"check", small_sequence(), "--opencv", folder / "a.yaml", "--ros",
+               (folder / "a.yaml") + "," + (folder / "b.yaml")},
+              2);
+  check_error({"calibrate", small_sequence(), "--ros", folder / "one.yaml"}, 2, {"LEFT,RIGHT"});
+  run_well({"calibrate", small_sequence(), "--quiet", "-o", folder / "rig.yaml", "--opencv", folder / "learned.yml"});
   CHECK(read_calibration(folder / "learned.yml").left.camera.fx ==
         read_calibration(folder / "rig.yaml").left.camera.fx);
 }

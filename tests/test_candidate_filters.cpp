@@ -46,35 +46,34 @@ FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sif
 void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a,
                 const reference::EdgeDescriptions& b, const FilterLimits& limits, int row_step, bool all_scores,
                 const std::function<void(const reference::CandidateScores&, const std::vector<cl_int>& alive)>& check) {
-  for_each_variant(
-      "candidate_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-        INFO(name << (all_scores ? ", all scores" : ""));
-        stages::CandidateFilters stage(context, variants);
-        auto device = upload(context, lists);
-        opencl::Buffer<cl_char> patches_a, patches_b;
-        opencl::Buffer<cl_uchar> sift_a, sift_b;
-        patches_a.write(context, a.patches);
-        sift_a.write(context, a.sift);
-        sift_b.write(context, b.sift);
-        opencl::Buffer<cl_int> itself, turned;
-        std::vector<cl_int> numbers(a.sift.size() / kEdgeSiftBytes);
-        std::iota(numbers.begin(), numbers.end(), 0);
-        itself.write(context, numbers);
-        // The second set's patches are stored in reverse order.
-        std::vector<std::int8_t> patches_turned;
-        std::vector<cl_int> from_the_end;
-        for (auto k = static_cast<cl_int>(b.sift.size() / kEdgeSiftBytes) - 1; k >= 0; --k) {
-          from_the_end.push_back(k);
-          patches_turned.insert(patches_turned.end(), b.patches.begin() + kEdgePatchBytes * k,
-                                b.patches.begin() + kEdgePatchBytes * (k + 1));
-        }
-        turned.write(context, from_the_end);
-        patches_b.write(context, patches_turned);
-        stage.run({patches_a, itself, sift_a}, {patches_b, turned, sift_b}, limits, row_step, all_scores, device);
-        const auto size = lists.target.size();
-        check({device.ncc.read(size), device.sift.read(size), device.state.read(size)},
-              device.alive.read(static_cast<std::size_t>(device.rows)));
-      });
+  for_each_variant("candidate_filters", [&](opencl::Context& context, const Variants& variants) {
+    CAPTURE(all_scores);
+    stages::CandidateFilters stage(context, variants);
+    auto device = upload(context, lists);
+    opencl::Buffer<cl_char> patches_a, patches_b;
+    opencl::Buffer<cl_uchar> sift_a, sift_b;
+    patches_a.write(context, a.patches);
+    sift_a.write(context, a.sift);
+    sift_b.write(context, b.sift);
+    opencl::Buffer<cl_int> itself, turned;
+    std::vector<cl_int> numbers(a.sift.size() / kEdgeSiftBytes);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    itself.write(context, numbers);
+    // The second set's patches are stored in reverse order.
+    std::vector<std::int8_t> patches_turned;
+    std::vector<cl_int> from_the_end;
+    for (auto k = static_cast<cl_int>(b.sift.size() / kEdgeSiftBytes) - 1; k >= 0; --k) {
+      from_the_end.push_back(k);
+      patches_turned.insert(patches_turned.end(), b.patches.begin() + kEdgePatchBytes * k,
+                            b.patches.begin() + kEdgePatchBytes * (k + 1));
+    }
+    turned.write(context, from_the_end);
+    patches_b.write(context, patches_turned);
+    stage.run({patches_a, itself, sift_a}, {patches_b, turned, sift_b}, limits, row_step, all_scores, device);
+    const auto size = lists.target.size();
+    check({device.ncc.read(size), device.sift.read(size), device.state.read(size)},
+          device.alive.read(static_cast<std::size_t>(device.rows)));
+  });
 }
 
 /// Reference and devices must reject exactly as `expected` says.

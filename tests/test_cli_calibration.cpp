@@ -16,8 +16,9 @@ TEST_CASE("cli: the flight has the same trajectory with every calibration format
   if (flight.empty() || kalibr.empty()) return;
   const TemporaryFolder folder;
   const std::string sensors = flight + "/mav0/cam0/sensor.yaml," + flight + "/mav0/cam1/sensor.yaml";
-  REQUIRE(run_program({"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"}).code == 0);
-  CHECK(run_program({"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"}).code == 2);  // --force
+  const std::vector<std::string> check = {"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"};
+  run_well(check);
+  check_error(check, 2, {"--force"});
   calibration_files::Rig rig;
   const auto body_from = [&](const char* camera) {
     const std::string text = read_text(flight + "/mav0/" + camera + "/sensor.yaml"), from = "data: [";
@@ -38,9 +39,7 @@ TEST_CASE("cli: the flight has the same trajectory with every calibration format
     std::vector<std::string> arguments = run;
     arguments.push_back(folder / name);
     if (!calibration.empty()) arguments.insert(arguments.end(), {"--calibration", calibration});
-    const ProgramResult result = run_program(arguments);
-    INFO(result.err);
-    REQUIRE(result.code == 0);
+    run_well(arguments);
     return read_text(folder / (name + "/poses.csv"));
   };
   const std::string expected = trajectory("layout", "");
@@ -56,9 +55,7 @@ TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with
   const std::string flight = dataset_files::write_euroc(folder / "flight");
   const auto fails = [&](std::vector<std::string> arguments, int code, const std::string& found) {
     arguments.insert(arguments.begin(), {"run", flight, "-o", folder / "out"});
-    const ProgramResult result = run_program(arguments);
-    CHECK(result.code == code);
-    CHECK_THAT(result.err, Contains(found));
+    check_error(arguments, code, {found});
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
   };
   const calibration_files::Rig rig;
@@ -70,10 +67,10 @@ TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with
   dataset_files::write_image(folder / "mask.png", 16, 24);
   fails({"--mask", folder / "mask.png"}, 3, "16 x 24");
   const std::string pinhole = dataset_files::write_kitti(folder / "k");
-  CHECK(run_program({"check", pinhole, "--fov", "90"}).code == 2);
-  CHECK(run_program({"synth", folder / "s", "--right-rotation", "0,2"}).code == 2);
+  check_error({"check", pinhole, "--fov", "90"}, 2);
+  check_error({"synth", folder / "s", "--right-rotation", "0,2"}, 2);
   // The rig of a recording without lens distortion can be written too.
-  CHECK(run_program({"check", pinhole, "--quiet", "--write-calibration", folder / "kitti.yaml"}).code == 0);
+  run_well({"check", pinhole, "--quiet", "--write-calibration", folder / "kitti.yaml"});
   CHECK_THAT(read_text(folder / "kitti.yaml"),
              Contains("left_coefficients: []") && Contains("translation: [-0.5, 0, 0]"));
 }
@@ -107,10 +104,8 @@ TEST_CASE("cli: KITTI's rectified images beside the cameras as they record are p
 
 TEST_CASE("check: --correct mends a rolled right camera", "[cli]") {
   const TemporaryFolder folder;
-  REQUIRE(run_program({"check", small_sequence(), "--write-calibration", folder / "sound.yaml", "--quiet"}).code == 0);
-  REQUIRE(run_program({"synth", folder / "rolled", "--frames", "4", "--size", "320x200", "--right-rotation", "0,0,1",
-                       "--quiet"})
-              .code == 0);
+  run_well({"check", small_sequence(), "--write-calibration", folder / "sound.yaml", "--quiet"});
+  run_well({"synth", folder / "rolled", "--frames", "4", "--size", "320x200", "--right-rotation", "0,0,1", "--quiet"});
   const auto check = [&](const std::string& calibration, const std::string& written) {
     return run_program({"check", folder / "rolled", "--calibration", folder / calibration, "--write-calibration",
                         folder / written, "--correct"});
@@ -124,5 +119,5 @@ TEST_CASE("check: --correct mends a rolled right camera", "[cli]") {
   CHECK(std::hypot(x, y) < 0.002);
   CHECK(z == Approx(-0.01745).epsilon(0.1));
   CHECK(read_text(folder / "again.yaml") == read_text(folder / "corrected.yaml"));
-  CHECK(run_program({"check", folder / "rolled", "--correct"}).code == 2);
+  check_error({"check", folder / "rolled", "--correct"}, 2);
 }

@@ -8,9 +8,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto result = run_program({"demo", "-o", folder / "demo", "--frames", "4", "--size", "320x200"});
-  INFO(result.err);
-  REQUIRE(result.code == 0);
+  const auto result = run_well({"demo", "-o", folder / "demo", "--frames", "4", "--size", "320x200"});
   CHECK_THAT(result.out, Contains("4 of 4 frames") && Contains("error      ") && Contains("deg per frame (mean)"));
   CHECK_THAT(read_text(folder / "demo/config.toml"), Contains("rig_sigma_length = 0 "));  // rendered rigs are exact
   for (const char* name : {"pictures/edges_000002.png", "pictures/quads_000002.png"}) {
@@ -22,10 +20,7 @@ TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string cache = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
   const auto demo = [&](const std::string& out, const std::string& environment) {
-    auto result = run_program({"demo", "-o", folder / out, "--frames", "3", "--size", "320x200"}, environment);
-    INFO(result.err);
-    REQUIRE(result.code == 0);
-    return result;
+    return run_well({"demo", "-o", folder / out, "--frames", "3", "--size", "320x200"}, environment);
   };
   const auto first = demo("first", cache);
   const auto kernels = first.err.find("building kernels"), rendering = first.err.find("rendering 3/3");
@@ -36,15 +31,10 @@ TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
 
   const auto second = demo("second", cache);
   CHECK(second.err.find("rendering") == std::string::npos);
-  fs::path view;
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "cache/quadedge/rendered")) view = entry.path();
-  fs::resize_file(view, 100);
-  const auto third = demo("third", cache);
-  CHECK_THAT(third.err, Contains("rendering 3/3"));
   std::ofstream(folder / "file") << "in the way";
-  const auto fourth = demo("fourth", "XDG_CACHE_HOME='" + (folder / "file/cache") + "'");
-  CHECK_THAT(fourth.err, Contains("not cached") && Contains(folder / "file/cache"));
-  for (const char* out : {"second", "third", "fourth"}) {
+  const auto third = demo("third", "XDG_CACHE_HOME='" + (folder / "file/cache") + "'");
+  CHECK_THAT(third.err, Contains("not cached") && Contains(folder / "file/cache"));
+  for (const char* out : {"second", "third"}) {
     for (const char* name : {"/trajectory.txt", "/trajectory_kitti.txt"})
       CHECK(read_text(folder / (out + std::string(name))) == read_text(folder / ("first" + std::string(name))));
   }

@@ -11,9 +11,7 @@ TEST_CASE("edges: the table has a header, six decimals, and only edges inside th
   const TemporaryFolder folder;
   std::string image;
   for (const auto& entry : fs::directory_iterator(small_sequence() + "/rgb")) image = entry.path().string();
-  const auto result = run_program({"edges", image, "--csv", folder / "e.csv", "--draw", folder / "e.png"});
-  INFO(result.err);
-  REQUIRE(result.code == 0);
+  run_well({"edges", image, "--csv", folder / "e.csv", "--draw", folder / "e.png"});
   const auto rows = read_lines(folder / "e.csv");
   REQUIRE(rows.size() > 100);
   CHECK(rows[0] == "x,y,direction_rad,strength");
@@ -28,6 +26,6 @@ TEST_CASE("edges: the table has a header, six decimals, and only edges inside th
     REQUIRE(strength > 1.9);                   // the threshold applies at the pixel, the strength is that of the edge
   }
   CHECK(fs::file_size(folder / "e.png") > 1000);
-  CHECK(run_program({"edges", image, "--csv", folder / "e.csv"}).code == 2);
-  CHECK(run_program({"edges", image, "--csv", folder / "absent/e.csv"}).code == 3);
+  check_error({"edges", image, "--csv", folder / "e.csv"}, 2);
+  check_error({"edges", image, "--csv", folder / "absent/e.csv"}, 3);
 }

@@ -32,10 +32,7 @@ TEST_CASE("localise: the frames of a map are found in it", "[cli][device]") {
     const TemporaryFolder folder;
     std::vector<std::string> arguments = {"localise", map.file(), small_sequence(), "-o", folder / "out", "--quiet"};
     if (follow) arguments.emplace_back("--follow");
-    const auto result = run_program(arguments);
-    INFO(result.err);
-    REQUIRE(result.code == 0);
-    CHECK_THAT(result.out, Contains("located    4 of 4 frames") && Contains("SE(3)-aligned"));
+    CHECK_THAT(run_well(arguments).out, Contains("located    4 of 4 frames") && Contains("SE(3)-aligned"));
     CHECK(read_lines(folder / "out/trajectory.txt").size() == 5);
     const auto rows = read_lines(folder / "out/locations.csv");
     REQUIRE(rows.size() == 5);
@@ -45,8 +42,7 @@ TEST_CASE("localise: the frames of a map are found in it", "[cli][device]") {
     CHECK(json.at("frames_located") == 4);
     CHECK(json.at("map").at("key_rigs") == 1);  // the four frames see the same
     CHECK(json.at("accuracy").at("se3_aligned").at("ape_translation_m").at("max") < 0.005);
-    // Results are kept.
-    CHECK(run_program(arguments).code == 2);
+    check_error(arguments, 2);  // results are kept
   }
 }
 
@@ -57,10 +53,7 @@ TEST_CASE("localise: errors have the documented exit codes", "[cli][device]") {
   const auto refused = [&](std::vector<std::string> arguments, int code, const std::string& words) {
     arguments.insert(arguments.begin(), "localise");
     arguments.insert(arguments.end(), {"-o", folder / "out", "--quiet"});
-    const auto result = run_program(arguments);
-    INFO(result.err);
-    CHECK(result.code == code);
-    CHECK_THAT(result.err, Contains(words));
+    check_error(arguments, code, {words});
   };
   refused({small_sequence() + "/absent.map", small_sequence()}, 3, "absent.map");
   refused({map.folder / "out/report.json", small_sequence()}, 3, "report.json: found a file of another kind");
@@ -71,19 +64,14 @@ TEST_CASE("localise: errors have the documented exit codes", "[cli][device]") {
   refused({map.file(), small_sequence(), "--frames", "3"}, 2, "--frames 3");
   CHECK_FALSE(fs::exists(folder / "out/locations.csv"));
   // Another scene: nothing is found.
-  const auto cables =
-      run_program({"synth", folder / "cables", "--scene", "cables", "--frames", "2", "--size", "320x200", "--quiet"});
-  REQUIRE(cables.code == 0);
+  run_well({"synth", folder / "cables", "--scene", "cables", "--frames", "2", "--size", "320x200", "--quiet"});
   refused({map.file(), folder / "cables"}, 5, "located 0 of 2 frames");
 }
 
 TEST_CASE("run: a map that cannot be written or exists is refused before the run", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto absent = run_program({"run", small_sequence(), "-o", folder / "a", "--save-map", folder / "absent/a.map"});
-  CHECK(absent.code == 3);
-  CHECK_THAT(absent.err, Contains("absent/a.map"));
+  check_error({"run", small_sequence(), "-o", folder / "a", "--save-map", folder / "absent/a.map"}, 3,
+              {"absent/a.map"});
   CHECK_FALSE(fs::exists(folder / "a/trajectory.txt"));
-  const auto exists = run_program({"run", small_sequence(), "-o", folder / "b", "--save-map", shared_map().file()});
-  CHECK(exists.code == 2);
-  CHECK_THAT(exists.err, Contains("--force"));
+  check_error({"run", small_sequence(), "-o", folder / "b", "--save-map", shared_map().file()}, 2, {"--force"});
 }

@@ -6,21 +6,15 @@
 
 using Catch::Matchers::Contains;
 
-TEST_CASE("command line: every command's help shows two examples", "[cli]") {
-  for (const std::string command : {"run", "demo", "edges", "synth", "check", "devices", "variants"}) {
-    const auto result = run_program({command, "--help"});
-    INFO(command);
-    CHECK(result.code == 0);
-    const auto examples = result.out.find("Examples:");
-    REQUIRE(examples != std::string::npos);
-    const auto first = result.out.find("quadedge ", examples);
-    REQUIRE(first != std::string::npos);
-    CHECK(result.out.find("quadedge ", first + 1) != std::string::npos);
-  }
-  const auto evaluate = run_program({"evaluate", "trajectory", "--help"});
-  CHECK(evaluate.code == 0);
-  CHECK_THAT(evaluate.out, Contains("Examples:") && Contains("ESTIMATE") && Contains("--from-frame"));
-  CHECK_THAT(run_program({"--help"}).out, Contains("evaluate") && Contains("Exit codes"));
+TEST_CASE("command line: every command's help shows examples, and lists the scenes and paths that it renders",
+          "[cli]") {
+  for (const std::string command : {"run", "demo", "edges", "synth", "check", "devices", "variants"})
+    CHECK_THAT(run_well({command, "--help"}).out, Contains("Examples:\n") && Contains("quadedge " + command));
+  CHECK_THAT(run_well({"evaluate", "trajectory", "--help"}).out,
+             Contains("Examples:") && Contains("ESTIMATE") && Contains("--from-frame"));
+  CHECK_THAT(run_well({"--help"}).out, Contains("evaluate") && Contains("Exit codes"));
+  for (const std::string command : {"synth", "demo", "bench"})
+    CHECK_THAT(run_well({command, "--help"}).out, Contains("facade") && Contains("handheld"));
 }
 
 TEST_CASE("command line: help and version are commands too", "[cli]") {
@@ -28,15 +22,12 @@ TEST_CASE("command line: help and version are commands too", "[cli]") {
     auto words = command, options = command;
     words.insert(words.begin(), "help");
     options.push_back("--help");
-    const auto result = run_program(words);
-    CHECK(result.code == 0);
+    const auto result = run_well(words);
     CHECK(result.out == run_program(options).out);
     CHECK_THAT(result.out, Contains("--help"));
   }
-  const auto version = run_program({"version"});
-  CHECK(version.code == 0);
-  CHECK(version.out == run_program({"--version"}).out);
-  CHECK(run_program({"help", "rnu"}).code == 2);
+  CHECK(run_well({"version"}).out == run_program({"--version"}).out);
+  CHECK_THAT(run_program({"variants"}).out, Contains("undistortion") && Contains("item64") && Contains("cpu"));
 }
 
 TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
@@ -49,113 +40,60 @@ TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
 }
 
 TEST_CASE("command line: invalid use ends with code 2 and names the error", "[cli]") {
-  const auto unknown = run_program({"run", "x", "--no-such-option"});
-  CHECK(unknown.code == 2);
-  CHECK_THAT(unknown.err, Contains("--no-such-option"));
-  CHECK_THAT(run_program({"run", "x", "--ouptut", "y"}).err,
-             Contains("--ouptut") && Contains("did you mean '--output'?"));
-  CHECK(run_program({}).code == 2);
-  const auto command = run_program({"rnu", "x"});
-  CHECK(command.code == 2);
-  CHECK_THAT(command.err, Contains("unknown command 'rnu'; did you mean 'run'?"));
-  CHECK_THAT(run_program({"evaluate", "trajctory"}).err, Contains("'trajctory'; did you mean 'trajectory'?"));
-  CHECK_THAT(run_program({"no-such-command"}).err, Contains("unknown command 'no-such-command'") && !Contains("mean"));
-  CHECK(run_program({"run"}).code == 2);
-  CHECK(run_program({"evaluate"}).code == 2);
-  const auto letters = run_program({"edges", "x.png", "--edges.sigma", "wide"});
-  CHECK(letters.code == 2);
-  CHECK_THAT(letters.err, Contains("edges.sigma") && Contains("wide"));
-  for (const std::string seed : {"-1", "010", "0x10", "18446744073709551616", "1.5", ""}) {
-    INFO(seed);
-    const auto result = run_program({"edges", "x.png", "--seed", seed});
-    CHECK(result.code == 2);
-    CHECK_THAT(result.err, Contains("seed"));
-  }
-  CHECK_THAT(run_program({"edges", "x.png", "--edges.sigma", ""}).err,
-             Contains("edges.sigma") && Contains("not a number"));
-  const auto range = run_program({"edges", "x.png", "--stereo.ncc_min", "1.5"});
-  CHECK(range.code == 2);
-  CHECK_THAT(range.err, Contains("stereo.ncc_min") && Contains("1.5") && Contains("0.01 to 1"));
-  const auto format = run_program({"run", "x", "--format", "betamax"});
-  CHECK(format.code == 2);
-  CHECK_THAT(format.err, Contains("betamax") && Contains("kitti"));
-  const auto frames = run_program({"run", "x", "--frames", "7"});
-  CHECK(frames.code == 2);
-  CHECK_THAT(frames.err, Contains("A:B"));
-  CHECK(run_program({"run", "x", "--frames", "3:z"}).code == 2);
-  CHECK(run_program({"run", "x", "--min-tracked", "150"}).code == 2);
-  CHECK(run_program({"demo", "--size", "320"}).code == 2);
-  CHECK(run_program({"demo", "--size", "320x200x3"}).code == 2);
-  CHECK(run_program({"demo", "--scene", "kitchen"}).code == 2);
-}
-
-TEST_CASE("command line: an unknown variant is refused with a list of the known ones", "[cli]") {
-  const auto stage = run_program({"demo", "--variant", "cooking=fast"});
-  CHECK(stage.code == 2);
-  CHECK_THAT(stage.err, Contains("cooking") && Contains("undistortion"));
-  CHECK(run_program({"demo", "--variant", "undistortion"}).code == 2);
-  CHECK_THAT(run_program({"variants"}).out, Contains("undistortion") && Contains("item64") && Contains("cpu"));
+  check_error({}, 2);
+  check_error({"run"}, 2);
+  check_error({"evaluate"}, 2);
+  check_error({"help", "rnu"}, 2);
+  check_error({"rnu", "x"}, 2, {"unknown command 'rnu'; did you mean 'run'?"});
+  check_error({"evaluate", "trajctory"}, 2, {"'trajctory'; did you mean 'trajectory'?"});
+  CHECK_THAT(check_error({"no-such-command"}, 2, {"unknown command 'no-such-command'"}).err, !Contains("mean"));
+  check_error({"run", "x", "--no-such-option"}, 2, {"--no-such-option"});
+  check_error({"run", "x", "--ouptut", "y"}, 2, {"--ouptut", "did you mean '--output'?"});
+  check_error({"edges", "x.png", "--edges.sigma", "wide"}, 2, {"edges.sigma", "wide"});
+  check_error({"edges", "x.png", "--edges.sigma", ""}, 2, {"edges.sigma", "not a number"});
+  for (const std::string seed : {"-1", "010", "0x10", "18446744073709551616", "1.5", ""})
+    check_error({"edges", "x.png", "--seed", seed}, 2, {"seed"});
+  check_error({"edges", "x.png", "--stereo.ncc_min", "1.5"}, 2, {"stereo.ncc_min", "1.5", "0.01 to 1"});
+  check_error({"run", "x", "--format", "betamax"}, 2, {"betamax", "kitti"});
+  check_error({"run", "x", "--frames", "7"}, 2, {"A:B"});
+  check_error({"run", "x", "--frames", "3:z"}, 2);
+  check_error({"run", "x", "--min-tracked", "150"}, 2);
+  check_error({"demo", "--size", "320"}, 2);
+  check_error({"demo", "--size", "320x200x3"}, 2);
+  check_error({"demo", "--variant", "cooking=fast"}, 2, {"cooking", "undistortion"});
+  check_error({"demo", "--variant", "undistortion"}, 2);
 }
 
 TEST_CASE("configuration file: unknown keys, bad values and missing files end with code 2 and name the key", "[cli]") {
   const TemporaryFolder folder;
-  const auto with_file = [&](const std::string& text) {
+  const auto check_refused = [&](const std::string& text, const std::vector<std::string>& words) {
     std::ofstream(folder / "config.toml") << text;
-    return run_program({"edges", "x.png", "--config", folder / "config.toml"});
+    check_error({"edges", "x.png", "--config", folder / "config.toml"}, 2, words);
   };
-  const auto unknown = with_file("[stereo]\nncc_minimum = 0.7\n");
-  CHECK(unknown.code == 2);
-  CHECK_THAT(unknown.err, Contains("stereo.ncc_minimum") && Contains("config.toml"));
-  const auto top = with_file("sigma = 2\n");
-  CHECK(top.code == 2);
-  CHECK_THAT(top.err, Contains("\"sigma\""));
-  const auto positional = with_file("IMAGE = \"other.png\"\n");
-  CHECK(positional.code == 2);
-  const auto text = with_file("[edges]\nsigma = \"wide\"\n");
-  CHECK(text.code == 2);
-  CHECK_THAT(text.err, Contains("edges.sigma") && Contains("wide"));
-  const auto range = with_file("[edges]\nsigma = 1000\n");
-  CHECK(range.code == 2);
-  CHECK_THAT(range.err, Contains("edges.sigma") && Contains("1000"));
-  const auto twice = with_file("seed = 3\n[edges]\nsigma = 2\n[stereo]\nncc_min = 0.5\n[edges]\nsigma = 3\n");
-  CHECK(twice.code == 2);
-  CHECK_THAT(twice.err, Contains("config.toml:6:") && Contains("'edges'"));
-  const auto both_names = with_file("max-disparity = 3\n[stereo]\nmax_disparity = 2\n");
-  CHECK(both_names.code == 2);
-  CHECK_THAT(both_names.err, Contains("config.toml:3: stereo.max_disparity") && Contains("max-disparity"));
-  const auto flag = with_file("force = 1\n");
-  CHECK(flag.code == 2);
-  CHECK_THAT(flag.err, Contains("config.toml:1: force: expected true or false, found 1"));
-  const auto missing = run_program({"edges", "x.png", "--config", folder / "absent.toml"});
-  CHECK(missing.code == 2);
-  CHECK_THAT(missing.err, Contains("absent.toml"));
-  CHECK(run_program({"edges", "x.png", "--config", folder.path()}).code == 2);
+  check_refused("[stereo]\nncc_minimum = 0.7\n", {"stereo.ncc_minimum", "config.toml"});
+  check_refused("sigma = 2\n", {"\"sigma\""});
+  check_refused("IMAGE = \"other.png\"\n", {});
+  check_refused("[edges]\nsigma = \"wide\"\n", {"edges.sigma", "wide"});
+  check_refused("seed = 3\n[edges]\nsigma = 2\n[edges]\nsigma = 3\n", {"config.toml:4:", "'edges'"});
+  check_refused("max-disparity = 3\n[stereo]\nmax_disparity = 2\n",
+                {"config.toml:3: stereo.max_disparity", "max-disparity"});
+  check_refused("force = 1\n", {"config.toml:1: force: expected true or false, found 1"});
+  check_error({"edges", "x.png", "--config", folder / "absent.toml"}, 2, {"absent.toml"});
+  check_error({"edges", "x.png", "--config", folder.path()}, 2);
 }
 
 TEST_CASE("configuration file: the command line overrides the environment, which overrides the file", "[cli]") {
   // The message about the unknown device shows which setting counts.
   const TemporaryFolder folder;
-  std::ofstream(folder / "config.toml") << "device = \"from-file\"\n";
-  const auto device = [&](std::vector<std::string> arguments, const std::string& environment) {
-    arguments.insert(arguments.begin(), {"demo", "--frames", "1", "--config", folder / "config.toml"});
-    return run_program(arguments, environment).err;
-  };
-  CHECK_THAT(device({}, ""), Contains("from-file"));
-  CHECK_THAT(device({}, "QUADEDGE_DEVICE=from-environment"), Contains("from-environment"));
-  CHECK_THAT(device({"--device", "from-command-line"}, "QUADEDGE_DEVICE=from-environment"),
-             Contains("from-command-line"));
-}
-
-TEST_CASE("configuration file: the command line overrides it, but invalid values in it are still errors", "[cli]") {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "config.toml") << "[edges]\nsigma = 3\n";
-  std::ofstream(folder / "wrong.toml") << "[edges]\nsigma = 1000  # far out of range\n";
-  const auto edges = [&](const std::string& file, const std::string& sigma) {
-    return run_program({"edges", folder / "absent.png", "--config", folder / file, "--edges.sigma", sigma});
-  };
-  CHECK(edges("config.toml", "2").code == 3);  // only the image is missing
-  CHECK(edges("config.toml", "1000").code == 2);
-  const auto wrong = edges("wrong.toml", "2");
-  CHECK(wrong.code == 2);
-  CHECK_THAT(wrong.err, Contains("wrong.toml:2: edges.sigma: expected 0.5 to 8, found 1000"));
+  const std::string file = folder / "config.toml", environment = "QUADEDGE_DEVICE=from-environment";
+  std::ofstream(file) << "device = \"from-file\"\n[edges]\nsigma = 3\n";
+  check_error({"demo", "--config", file}, 4, {"from-file", "0: "});  // and a list of the devices
+  check_error({"demo", "--config", file}, 4, {"from-environment"}, environment);
+  check_error({"demo", "--config", file, "--device", "from-command-line"}, 4, {"from-command-line"}, environment);
+  // Values in the file that are overridden must be valid all the same.
+  check_error({"edges", folder / "absent.png", "--config", file, "--edges.sigma", "2"}, 3, {"absent.png"});
+  check_error({"edges", folder / "absent.png", "--config", file, "--edges.sigma", "1000"}, 2);
+  std::ofstream(file) << "[edges]\nsigma = 1000  # far out of range\n";
+  check_error({"edges", folder / "absent.png", "--config", file, "--edges.sigma", "2"}, 2,
+              {"config.toml:2: edges.sigma: expected 0.5 to 8, found 1000"});
 }

@@ -37,6 +37,9 @@ std::vector<std::string> video_run(const std::string& video, const std::string& 
   return {"run", "--video", video, "--split", "left-right", "--calibration", camera().calibration, "-o", out};
 }
 
+/// A command prefix that pipes a file into the program.
+std::string through_a_pipe(const std::string& file) { return "sh -c 'cat \"" + file + "\" | \"$0\" \"$@\"'"; }
+
 /// Whether a process was started with the word `argument`.
 bool runs_with(const std::string& argument) {
   for (const auto& process : fs::directory_iterator("/proc")) {
@@ -52,21 +55,14 @@ bool runs_with(const std::string& argument) {
 TEST_CASE("run: folders, a video and a pipe of the same images give the same trajectory", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string rgb = small_sequence() + "/rgb", rgb2 = small_sequence() + "/rgb2";
-  auto result = run_program({"run", "--left", rgb, "--right", rgb2, "--fps", "20", "--calibration",
-                             camera().calibration, "-o", folder / "folders"});
-  INFO(result.err);
-  REQUIRE(result.code == 0);
+  run_well({"run", "--left", rgb, "--right", rgb2, "--fps", "20", "--calibration", camera().calibration, "-o",
+            folder / "folders"});
   const std::string expected = read_text(folder / "folders/trajectory.txt");
   CHECK(read_lines(folder / "folders/trajectory.txt").size() == 5);
-  result = run_program(video_run(camera().video, folder / "video"));
-  INFO(result.err);
-  CHECK(result.code == 0);
+  run_well(video_run(camera().video, folder / "video"));
   CHECK(read_text(folder / "video/trajectory.txt") == expected);
-
-  const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
-                           "' run - --fps 20 --quiet --calibration '" + camera().calibration + "' -o '" +
-                           (folder / "pipe") + "' >/dev/null";
-  CHECK(std::system(pipe.c_str()) == 0);
+  run_well({"run", "-", "--fps", "20", "--calibration", camera().calibration, "-o", folder / "pipe"},
+           through_a_pipe(camera().stream));
   CHECK(read_text(folder / "pipe/trajectory.txt") == expected);
   CHECK_THAT(read_text(folder / "pipe/report.json"), Contains("\"dropped\": 0") && Contains("\"frames\": 4"));
 }
@@ -84,60 +80,50 @@ TEST_CASE("run: nanosecond names stay the stamps with --fps, which only has to a
     stamps.push_back(name.substr(0, 10) + "." + name.substr(10));
   }
   const auto run = [&](const std::string& fps, const std::string& out) {
-    return run_program({"run", "--left", folder / "left", "--right", folder / "right", "--fps", fps, "--quiet",
-                        "--calibration", camera().calibration, "-o", folder / out});
+    return run_well({"run", "--left", folder / "left", "--right", folder / "right", "--fps", fps, "--quiet",
+                     "--calibration", camera().calibration, "-o", folder / out});
   };
-  const auto agreeing = run("20", "agreeing");
-  INFO(agreeing.err);
-  REQUIRE(agreeing.code == 0);
-  CHECK_THAT(agreeing.err, !Contains("warning"));
+  CHECK_THAT(run("20", "agreeing").err, !Contains("warning"));
   const auto rows = read_lines(folder / "agreeing/trajectory.txt");
   REQUIRE(rows.size() == 1 + stamps.size());
   for (std::size_t i = 0; i < stamps.size(); ++i) CHECK(rows[i + 1].rfind(stamps[i] + " ", 0) == 0);
 
-  const auto contradicting = run("30", "contradicting");
-  CHECK(contradicting.code == 0);
-  CHECK_THAT(contradicting.err, Contains("warning: --fps 30 contradicts the timestamps, whose rate is 20 Hz"));
+  CHECK_THAT(run("30", "contradicting").err,
+             Contains("warning: --fps 30 contradicts the timestamps, whose rate is 20 Hz"));
   CHECK(read_text(folder / "contradicting/trajectory.txt") == read_text(folder / "agreeing/trajectory.txt"));
   CHECK_THAT(read_text(folder / "contradicting/report.json"), Contains("--fps 30 contradicts"));
 }
 
 TEST_CASE("match: a pair from a pipe is matched like the same pair from folders", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto of_folders =
-      run_program({"match", "--left", small_sequence() + "/rgb", "--right", small_sequence() + "/rgb2", "--fps", "20",
-                   "--frame", "1", "--calibration", camera().calibration, "--csv", folder / "folders.csv"});
-  INFO(of_folders.err);
-  REQUIRE(of_folders.code == 0);
-  const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
-                           "' match - --frame 1 --fps 20 --quiet --calibration '" + camera().calibration + "' --csv '" +
-                           (folder / "pipe.csv") + "'";
-  CHECK(std::system(pipe.c_str()) == 0);
+  run_well({"match", "--left", small_sequence() + "/rgb", "--right", small_sequence() + "/rgb2", "--fps", "20",
+            "--frame", "1", "--calibration", camera().calibration, "--csv", folder / "folders.csv"});
+  run_well({"match", "-", "--frame", "1", "--fps", "20", "--calibration", camera().calibration, "--csv",
+            folder / "pipe.csv"},
+           through_a_pipe(camera().stream));
   CHECK(read_text(folder / "pipe.csv") == read_text(folder / "folders.csv"));
   CHECK(read_lines(folder / "pipe.csv").size() > 100);
-  CHECK(run_program({"match", "-", "right.png"}).code == 2);
+  check_error({"match", "-", "right.png"}, 2);
 }
 
 TEST_CASE("run: a pipe is read whole; with --live, pairs that come too fast are dropped and counted", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string all = own_camera::pgm_stream_of_small();
   own_camera::write_bytes(folder / "many.pgm", all + all + all + all + all);
-  const auto run = [&](const std::string& options, const std::string& out) {
-    const std::string pipe = "cat '" + (folder / "many.pgm") + "' | " + environment_of_tests() + " '" + program_path() +
-                             "' run - --fps 20 --quiet --min-tracked 0 " + options + " --calibration '" +
-                             camera().calibration + "' -o '" + (folder / out) + "' >'" + (folder / "summary") + "'";
-    REQUIRE(std::system(pipe.c_str()) == 0);
-    return read_lines(folder / (out + "/frames.csv")).size() - 1;
-  };
-  CHECK(run("", "whole") == 20);
+  std::vector<std::string> run = {
+      "run", "-", "--fps", "20", "--min-tracked", "0", "--calibration", camera().calibration, "-o", folder / "whole"};
+  CHECK_THAT(run_well(run, through_a_pipe(folder / "many.pgm")).out, !Contains("dropped"));
+  CHECK(read_lines(folder / "whole/frames.csv").size() == 21);
   CHECK_THAT(read_text(folder / "whole/report.json"), Contains("\"dropped\": 0"));
-  CHECK_THAT(read_text(folder / "summary"), !Contains("dropped"));
   // All pairs arrive while kernels are built or read: four wait.
-  const auto frames = run("--live", "live");
+  run.back() = folder / "live";
+  run.emplace_back("--live");
+  const std::string summary = run_well(run, through_a_pipe(folder / "many.pgm")).out;
+  const auto frames = read_lines(folder / "live/frames.csv").size() - 1;
   CHECK((frames >= 4 && frames < 20));
   const std::string dropped = std::to_string(20 - frames);
   CHECK_THAT(read_text(folder / "live/report.json"), Contains("\"dropped\": " + dropped));
-  CHECK_THAT(read_text(folder / "summary"), Contains("dropped    " + dropped + " pairs"));
+  CHECK_THAT(summary, Contains("dropped    " + dropped + " pairs"));
 }
 
 TEST_CASE("run: a video that ends early ends with code 3, and its frames and map are kept", "[cli][device]") {
@@ -146,9 +132,7 @@ TEST_CASE("run: a video that ends early ends with code 3, and its frames and map
   fs::resize_file(folder / "cut.mkv", fs::file_size(folder / "cut.mkv") * 3 / 4);
   auto arguments = video_run(folder / "cut.mkv", folder / "out");
   arguments.insert(arguments.end(), {"--points", folder / "map.ply", "--points-min-views", "1"});
-  const auto result = run_program(arguments);
-  CHECK(result.code == 3);
-  CHECK_THAT(result.err, Contains("cut.mkv") && Contains("finished frame"));
+  check_error(arguments, 3, {"cut.mkv", "finished frame"});
   CHECK_THAT(read_text(folder / "out/report.json"), Contains("ended_early") && Contains("cut.mkv"));
   CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() >= 2);
   CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
@@ -209,10 +193,11 @@ TEST_CASE("run: images of a pipe take the timestamps of --times; the report has 
   std::string rows;
   for (const auto& time : times) rows += time + "\n";
   own_camera::write_bytes(folder / "times.txt", rows);
-  const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
-                           "' run - --name yard --times '" + (folder / "times.txt") + "' --quiet --calibration '" +
-                           camera().calibration + "' -o '" + (folder / "out") + "' >/dev/null";
-  REQUIRE(std::system(pipe.c_str()) == 0);
+  const auto run = [&](const std::string& file, const std::string& out) -> std::vector<std::string> {
+    return {"run", "-",         "--name", "yard", "--times", folder / file, "--calibration", camera().calibration,
+            "-o",  folder / out};
+  };
+  run_well(run("times.txt", "out"), through_a_pipe(camera().stream));
   const auto poses = read_lines(folder / "out/trajectory.txt");
   REQUIRE(poses.size() == 1 + times.size());
   for (std::size_t i = 0; i < times.size(); ++i) CHECK(poses[i + 1].rfind(times[i] + " ", 0) == 0);
@@ -220,11 +205,8 @@ TEST_CASE("run: images of a pipe take the timestamps of --times; the report has 
   CHECK_THAT(report, Contains("\"name\": \"yard\"") && Contains("\"calibration\": \"" + camera().calibration + "\"") &&
                          Contains("\"times\": \"" + (folder / "times.txt") + "\""));
   own_camera::write_bytes(folder / "few.txt", "1\n2\n");
-  const std::string short_of_times = "cat '" + camera().stream + "' | '" + program_path() + "' run - --times '" +
-                                     (folder / "few.txt") + "' --calibration '" + camera().calibration + "' -o '" +
-                                     (folder / "few") + "' >/dev/null 2>'" + (folder / "log") + "'";
-  CHECK(std::system(short_of_times.c_str()) != 0);
-  CHECK_THAT(read_text(folder / "log"), Contains("few.txt: found 2 times, expected one for every pair"));
+  check_error(run("few.txt", "few"), 3, {"few.txt: found 2 times, expected one for every pair"},
+              through_a_pipe(camera().stream));
 }
 
 TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
@@ -232,22 +214,19 @@ TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
                                            "left-right", "--calibration", camera().calibration};
   const auto with_source = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), source.begin(), source.end());
-    return run_program(arguments);
+    return arguments;
   };
-  const auto check = with_source({"check"});
-  CHECK(check.code == 0);
-  CHECK_THAT(check.out, Contains("format: video") && Contains("frames: 4") && Contains("frame 0: epipolar residual") &&
-                            Contains("frame 3: epipolar residual"));
+  CHECK_THAT(run_well(with_source({"check"})).out, Contains("format: video") && Contains("frames: 4") &&
+                                                       Contains("frame 0: epipolar residual") &&
+                                                       Contains("frame 3: epipolar residual"));
   const TemporaryFolder folder;
-  CHECK(with_source({"bench", "--frames", "1", "--warm-up", "1", "--json", folder / "bench.json", "--quiet"}).code ==
-        0);
+  run_well(with_source({"bench", "--frames", "1", "--warm-up", "1", "--json", folder / "bench.json", "--quiet"}));
   CHECK_THAT(read_text(folder / "bench.json"), Contains(camera().video));
-  CHECK(with_source({"edges", "--frame", "2", "--csv", folder / "a.csv"}).code == 0);
-  CHECK(run_program({"edges", own_camera::small_dataset().frames[2].left, "--csv", folder / "b.csv"}).code == 0);
+  run_well(with_source({"edges", "--frame", "2", "--csv", folder / "a.csv"}));
+  run_well({"edges", own_camera::small_dataset().frames[2].left, "--csv", folder / "b.csv"});
   CHECK(read_text(folder / "a.csv") == read_text(folder / "b.csv"));
-  CHECK(with_source({"edges", "--frame", "7"}).code == 2);
-  CHECK(with_source({"run", small_sequence()}).code == 2);
-  CHECK(run_program({"run"}).code == 2);
-  CHECK(run_program({"run", small_sequence(), "--fps", "3"}).code == 2);
-  CHECK(run_program({"edges", own_camera::small_dataset().frames[2].left, "--fov", "90"}).code == 2);
+  check_error(with_source({"edges", "--frame", "7"}), 2);
+  check_error(with_source({"run", small_sequence()}), 2);
+  check_error({"run", small_sequence(), "--fps", "3"}, 2);
+  check_error({"edges", own_camera::small_dataset().frames[2].left, "--fov", "90"}, 2);
 }

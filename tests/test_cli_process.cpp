@@ -24,7 +24,7 @@ std::string without_rights() {
 
 TEST_CASE("process: output to closed streams does not end up in a file", "[cli][device]") {
   const TemporaryFolder folder;
-  REQUIRE(run_program({"run", small_sequence(), "-o", folder / "open"}).code == 0);
+  run_well({"run", small_sequence(), "-o", folder / "open"});
   const std::string trajectory = read_text(folder / "open/trajectory.txt");
   int number = 0;
   for (const auto& [redirections, code] : {std::pair<const char*, int>{"2>&-", 0},
@@ -53,9 +53,7 @@ TEST_CASE("process: two runs never write into the same folder", "[cli][device]")
   for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--force"}}) {
     auto arguments = run;
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto second = run_program(arguments);
-    CHECK(second.code == 2);
-    CHECK_THAT(second.err, Contains(out) && Contains("is writing to this folder"));
+    check_error(arguments, 2, {out, "is writing to this folder"});
   }
   kill(first.process(), SIGCONT);
   REQUIRE_FALSE(first.wait_until([] { return false; }));
@@ -66,10 +64,8 @@ TEST_CASE("process: two runs never write into the same folder", "[cli][device]")
 
 TEST_CASE("process: a file size limit is an error like a full disk", "[cli]") {
   const TemporaryFolder folder;
-  const auto result = run_program({"run", small_sequence(), "-o", folder / "out", "--device", "reference"},
-                                  through_shell("ulimit -f 2;", ""));
-  CHECK(result.code == 3);
-  CHECK_THAT(result.err, Contains(folder / "out/config.toml") && Contains("large"));
+  check_error({"run", small_sequence(), "-o", folder / "out", "--device", "reference"}, 3,
+              {folder / "out/config.toml", "large"}, through_shell("ulimit -f 2;", ""));
 }
 
 TEST_CASE("process: an unwritable output file is refused at the start", "[cli]") {
@@ -88,10 +84,7 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
     for (const std::string& file : {folder / "absent/t.json", folder / "file/t.json", folder / "results"}) {
       auto arguments = command;
       arguments.push_back(file);
-      INFO(command[0] << " " << file);
-      const auto result = run_program(arguments);
-      CHECK(result.code == 3);
-      CHECK_THAT(result.err, Contains(file) && Contains("expected a writable location"));
+      check_error(arguments, 3, {file, "expected a writable location"});
       CHECK_FALSE(fs::exists(folder / "out/trajectory.txt"));
     }
   }
@@ -99,10 +92,8 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
 
 TEST_CASE("process: the report is written even if the trace cannot be written", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto result =
-      run_program({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"});
-  CHECK(result.code == 3);
-  CHECK_THAT(result.err, Contains("/dev/full"));
+  check_error({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"}, 3,
+              {"/dev/full"});
   CHECK(nlohmann::json::parse(read_text(folder / "out/report.json"))["frames_tracked"] == 1);
 }
 
@@ -114,15 +105,12 @@ TEST_CASE("process: unreadable folders are recorded with code 3, and the others 
   fs::create_symlink("itself", tree + "/itself");
   for (const char* name : {"one", "two"}) fs::copy(small_sequence(), tree + "/" + name, fs::copy_options::recursive);
   fs::permissions(tree + "/locked", fs::perms::none);
-  const auto check = run_program({"check", tree}, without_rights());
-  INFO(check.out << check.err);
-  CHECK(check.code == 3);
+  const auto check =
+      check_error({"check", tree}, 3, {"tree/locked: found", "Permission denied", "Too many levels"}, without_rights());
   CHECK_THAT(check.out, Contains("ok       one") && Contains("ok       two") && Contains("DAMAGED  locked") &&
                             Contains("DAMAGED  itself") && Contains("4 found, 2 of them damaged"));
-  CHECK_THAT(check.err, Contains("tree/locked: found") && Contains("Permission denied") && Contains("Too many levels"));
-  const auto list = run_program({"batch", tree, "--list"}, without_rights());
-  CHECK(list.code == 0);
-  CHECK_THAT(list.out, Contains("itself\t") && Contains("locked\t") && Contains("one\t") && Contains("two\t"));
+  CHECK_THAT(run_well({"batch", tree, "--list"}, without_rights()).out,
+             Contains("itself\t") && Contains("locked\t") && Contains("one\t") && Contains("two\t"));
   fs::permissions(tree + "/locked", fs::perms::owner_all);
 }
 
@@ -130,14 +118,7 @@ TEST_CASE("process: an impossible path is a user error, not an internal error", 
   const TemporaryFolder folder;
   fs::create_symlink("itself", folder / "itself");
   for (const std::string& path : {folder / "itself", std::string(300, 'y')}) {
-    for (const std::vector<std::string>& command :
-         {std::vector<std::string>{"run"}, {"check"}, {"batch"}, {"report"}, {"edges"}}) {
-      INFO(command[0]);
-      auto arguments = command;
-      arguments.push_back(path);
-      const auto result = run_program(arguments);
-      CHECK(result.code == 3);
-      CHECK_THAT(result.err, Contains(path) && !Contains("internal"));
-    }
+    for (const std::string command : {"run", "check", "batch", "report", "edges"})
+      CHECK_THAT(check_error({command, path}, 3, {path}).err, !Contains("internal"));
   }
 }

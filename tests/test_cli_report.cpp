@@ -46,9 +46,7 @@ TEST_CASE("report: starts the Python module with the results and the given optio
   const auto arguments_of = [&](const std::vector<std::string>& options) {
     std::vector<std::string> command = {"report"};
     command.insert(command.end(), options.begin(), options.end());
-    const auto result = run_program(command, environment);
-    INFO(result.err);
-    CHECK(result.code == 0);
+    run_well(command, environment);
     return read_lines(folder / "arguments");
   };
   CHECK(arguments_of({batch}) ==

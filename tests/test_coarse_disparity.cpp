@@ -56,11 +56,9 @@ struct Boards {
 /// Grey levels of blocks of 2 x 2 px.
 Image random_blocks(int width, int height, std::uint64_t seed) {
   const auto levels = random_numbers(seed, width * height, 0, 255);
-  Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      image.set(x, y, static_cast<int>(levels[static_cast<std::size_t>(y / 2 * width + x / 2)]));
-  return image;
+  return filled_image(width, height, [&](int x, int y) {
+    return static_cast<int>(levels[static_cast<std::size_t>(y / 2 * width + x / 2)]);
+  });
 }
 
 /// Of the pixels at joints of boards whose counterpart is in the image: the ratio of those that are known, and of these
@@ -194,18 +192,16 @@ TEST_CASE("coarse disparity: every device and variant gives exactly the referenc
     for (int y = 0; y < of.right_height; ++y)
       for (int x = 0; x < of.right_width; ++x) right.set(x, y, scale * pattern.view().value(x + 9, y));
     const auto expected = reference::coarse_disparity(left.view(), right.view(), search).positions;
-    for_each_variant("coarse_disparity",
-                     [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-                       INFO(name);
-                       const stages::DeviceImage on_left = upload(context, left), on_right = upload(context, right);
-                       stages::CoarseDisparity stage(context, variants, of.max_value);
-                       const std::size_t before = context.bytes();
-                       for (int run = 0; run < 2; ++run) {
-                         stage.run(on_left, on_right, search);
-                         CHECK(context.bytes() - before <= stages::CoarseDisparity::bytes(search));
-                         CHECK(2 * (context.bytes() - before) >= stages::CoarseDisparity::bytes(search));
-                         CHECK(stage.positions().read(expected.size()) == expected);
-                       }
-                     });
+    for_each_variant("coarse_disparity", [&](opencl::Context& context, const Variants& variants) {
+      const stages::DeviceImage on_left = upload(context, left), on_right = upload(context, right);
+      stages::CoarseDisparity stage(context, variants, of.max_value);
+      const std::size_t before = context.bytes();
+      for (int run = 0; run < 2; ++run) {
+        stage.run(on_left, on_right, search);
+        CHECK(context.bytes() - before <= stages::CoarseDisparity::bytes(search));
+        CHECK(2 * (context.bytes() - before) >= stages::CoarseDisparity::bytes(search));
+        CHECK(stage.positions().read(expected.size()) == expected);
+      }
+    });
   }
 }

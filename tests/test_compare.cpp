@@ -48,10 +48,8 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
           "[cli][bench][device]") {
   const TemporaryFolder folder;
   const auto result =
-      run_program(compare_arguments({"--stage", "edge_detection", "--save", "--json", folder / "compare.json"}),
-                  "XDG_CONFIG_HOME='" + folder.path() + "'");
-  INFO(result.err << result.out);
-  REQUIRE(result.code == 0);
+      run_well(compare_arguments({"--stage", "edge_detection", "--save", "--json", folder / "compare.json"}),
+               "XDG_CONFIG_HOME='" + folder.path() + "'");
   const Json comparison = Json::parse(read_text(folder / "compare.json"));
   REQUIRE(comparison["stages"].size() == 1);
   const auto& stage = comparison["stages"][0];
@@ -78,18 +76,14 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   REQUIRE(fs::exists(file));
   CHECK(Json::parse(read_text(file))["variants"]["edge_detection"] == stage["best"]);
   CHECK_THAT(result.out, Contains(file));
-  const auto run = run_with_saved(folder.path(), folder / "out");
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  REQUIRE(run_with_saved(folder.path(), folder / "out").code == 0);
   CHECK(Json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
 }
 
 TEST_CASE("compare: a stage that only copies the input has no time", "[cli][bench][device]") {
   const TemporaryFolder folder;  // the built-in sequence has no distortion
-  const auto result = run_program(compare_arguments({"--stage", "undistortion", "--json", folder / "compare.json"}));
-  INFO(result.err << result.out);
-  REQUIRE(result.code == 0);
-  CHECK_THAT(result.out, Contains("this input never runs the stage"));
+  CHECK_THAT(run_well(compare_arguments({"--stage", "undistortion", "--json", folder / "compare.json"})).out,
+             Contains("this input never runs the stage"));
   CHECK(Json::parse(read_text(folder / "compare.json"))["stages"][0]["variants"][0]["median_ms"].is_null());
 }
 
@@ -223,8 +217,8 @@ TEST_CASE("compare: the first difference names stage, edge and value", "[bench]"
 }
 
 TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
-  CHECK(run_program({"compare", "--stage", "none"}).code == 2);
-  CHECK(run_program({"compare", "--repetitions", "0"}).code == 2);
-  CHECK(run_program({"compare", "--edges", "-1"}).code == 2);
-  CHECK(run_program({"compare", "--device", "reference"}).code == 2);
+  check_error({"compare", "--stage", "none"}, 2);
+  check_error({"compare", "--repetitions", "0"}, 2);
+  check_error({"compare", "--edges", "-1"}, 2);
+  check_error({"compare", "--device", "reference"}, 2);
 }

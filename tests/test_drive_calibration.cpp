@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dataset_files.hpp"
 #include "geometry/calibration.hpp"
 #include "geometry/lens_mapping.hpp"
 #include "matching.hpp"
@@ -267,24 +268,23 @@ TEST_CASE("drive calibration: a camera that stands shows nothing, and says what 
 TEST_CASE("calibrate: files, judgement and errors", "[cli]") {
   const TemporaryFolder folder;
   const std::string rig = folder / "rig.yaml";
-  const auto short_one = run_program({"calibrate", small_sequence(), "-o", rig, "--json", folder / "rig.json"});
-  CHECK(short_one.code == 0);
-  CHECK_THAT(short_one.out, Contains("this recording cannot show it") && Contains("holds the given calibration"));
+  CHECK_THAT(run_well({"calibrate", small_sequence(), "-o", rig, "--json", folder / "rig.json"}).out,
+             Contains("this recording cannot show it") && Contains("holds the given calibration"));
   CHECK_THAT(read_text(folder / "rig.json"), Contains("\"verdict\": \"cannot_show\""));
-  REQUIRE(run_program({"check", small_sequence(), "--quiet", "--write-calibration", folder / "given.yaml"}).code == 0);
+  run_well({"check", small_sequence(), "--quiet", "--write-calibration", folder / "given.yaml"});
   CHECK(read_text(rig) == read_text(folder / "given.yaml"));
-  CHECK(run_program({"calibrate", small_sequence(), "-o", rig}).code == 2);  // --force
-  CHECK(run_program({"calibrate", small_sequence(), "-o", rig, "--force", "--quiet"}).code == 0);
-  CHECK(run_program({"calibrate"}).code == 2);
-  CHECK(run_program({"calibrate", folder / "absent"}).code == 3);
-  CHECK(run_program({"calibrate", small_sequence(), "--most-frames", "1"}).code == 2);
+  check_error({"calibrate", small_sequence(), "-o", rig}, 2);  // --force
+  run_well({"calibrate", small_sequence(), "-o", rig, "--force", "--quiet"});
+  check_error({"calibrate"}, 2);
+  check_error({"calibrate", folder / "absent"}, 3);
+  check_error({"calibrate", small_sequence(), "--most-frames", "1"}, 2);
 }
 
 TEST_CASE("calibrate: the rig of KITTI's raw drives is off, that of MH_01 stays as given", "[cli][real]") {
   const TemporaryFolder folder;
   for (const auto& [name, verdict] : {std::pair("kitti_raw_0926", "the calibration is off"),
                                       std::pair("euroc_mh_01_easy", "the calibration is as good as given")}) {
-    const std::string recording = real_data(name);
+    const std::string recording = dataset_files::real_data(name);
     if (recording.empty()) continue;
     INFO(name);
     CHECK_THAT(run_program({"calibrate", recording, "-o", folder / (std::string(name) + ".yaml")}).out,
@@ -294,12 +294,9 @@ TEST_CASE("calibrate: the rig of KITTI's raw drives is off, that of MH_01 stays 
 
 TEST_CASE("run: --calibrate says what it learned and leaves it beside the results", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto run = run_program({"run", small_sequence(), "-o", folder / "out", "--calibrate", "--quiet"});
-  CHECK(run.code == 0);
-  CHECK_THAT(run.err, Contains("this recording cannot show it"));
+  const std::vector<std::string> run = {"run", small_sequence(), "-o", folder / "out", "--calibrate", "--quiet"};
+  CHECK_THAT(run_well(run).err, Contains("this recording cannot show it"));
   CHECK_THAT(read_text(folder / "out/rig.json"), Contains("cannot_show"));
   CHECK_THAT(read_text(folder / "out/rig.yaml"), Contains("left_model: radtan"));
-  const auto again = run_program({"run", small_sequence(), "-o", folder / "out", "--calibrate", "--quiet"});
-  CHECK(again.code == 2);
-  CHECK_THAT(again.err, Contains("holds results") && !Contains("cannot show it"));  // before it learns
+  CHECK_THAT(check_error(run, 2, {"holds results"}).err, !Contains("cannot show it"));  // before it learns
 }

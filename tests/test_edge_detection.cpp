@@ -39,22 +39,13 @@ struct Input {
   }
 };
 
-Detection detect(Device& device, const std::string& variant, const Image& image, const EdgesConfig& config) {
-  stages::EdgeDetection stage(*device.context(), image.width, image.height, config, {{"edge_detection", variant}});
-  Input input(*device.context(), image, config);
+Detection detect(opencl::Context& context, const Variants& variants, const Image& image, const EdgesConfig& config) {
+  stages::EdgeDetection stage(context, image.width, image.height, config, variants);
+  Input input(context, image, config);
   stages::DeviceEdges edges;
   stage.run(input.plane, input.threshold, edges);
   edges.read_count();
   return {edges.read(image.height), edges.host_dropped};
-}
-
-void for_each_variant(const std::function<void(Device&, const std::string&)>& visit) {
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage == "edge_detection") visit(device, variant.name);
-    }
-  }
 }
 
 EdgesConfig small_capacity(int margin = 10) {
@@ -119,13 +110,13 @@ void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config
 
 TEST_CASE("edge detection: every device and variant agrees with the reference at small sizes",
           "[edges][device][oclgrind]") {
-  for_each_variant([](Device& device, const std::string& variant) {
+  for_each_variant("edge_detection", [](opencl::Context& context, const Variants& variants) {
     for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}}) {
       const Image image = textured_image(width, height);
       EdgesConfig config = small_capacity(1);
       config.max_edges = 300;
-      INFO(variant << " " << width << "x" << height);
-      const Detection detection = detect(device, variant, image, config);
+      INFO(width << "x" << height);
+      const Detection detection = detect(context, variants, image, config);
       compare(detection.edges, image, config);
       CHECK(detection.dropped == 0);
       if (width >= 17) CHECK(detection.edges.size() > 20);
@@ -137,25 +128,25 @@ TEST_CASE("edge detection: every device and variant agrees with the reference an
   for (const auto& [width, height] : {std::pair{64, 48}, {321, 243}, {640, 480}}) {
     const Image image = textured_image(width, height);
     EdgeSet first;
-    for_each_variant([&, width = width, height = height](Device& device, const std::string& variant) {
-      INFO(variant << " " << width);
-      const Detection detection = detect(device, variant, image, small_capacity());
-      REQUIRE(detection.dropped == 0);
-      compare(detection.edges, image, small_capacity());
-      CHECK(static_cast<int>(detection.edges.size()) > width * height / 40);
-      CHECK(matching::same_bytes(detection.edges, detect(device, variant, image, small_capacity()).edges));
-      // All variants of one device and all local sizes give the same bytes.
-      if (variant == "strip") first = detection.edges;
-      CHECK(matching::same_bytes(detection.edges, first));
-    });
+    for_each_variant(
+        "edge_detection", [&, width = width, height = height](opencl::Context& context, const Variants& variants) {
+          INFO(width);
+          const Detection detection = detect(context, variants, image, small_capacity());
+          REQUIRE(detection.dropped == 0);
+          compare(detection.edges, image, small_capacity());
+          CHECK(static_cast<int>(detection.edges.size()) > width * height / 40);
+          CHECK(matching::same_bytes(detection.edges, detect(context, variants, image, small_capacity()).edges));
+          // All variants of one device and all local sizes give the same bytes.
+          if (variants.at("edge_detection") == "strip") first = detection.edges;
+          CHECK(matching::same_bytes(detection.edges, first));
+        });
   }
 }
 
 TEST_CASE("edge detection: agrees with the reference for directions at the pixel, other scales and no Newton step",
           "[edges][device]") {
   const Image image = textured_image(160, 120);
-  for_each_variant([&](Device& device, const std::string& variant) {
-    INFO(variant);
+  for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
     // Every scale with another setting: building a program takes longer than running it.
     EdgesConfig at_pixel = small_capacity(7), parabola = at_pixel, large = at_pixel;
     at_pixel.direction_at = "pixel";
@@ -166,7 +157,7 @@ TEST_CASE("edge detection: agrees with the reference for directions at the pixel
     for (EdgesConfig* config : {&at_pixel, &parabola, &large}) {
       config->threshold = 3.5;
       INFO("sigma " << config->sigma);
-      compare(detect(device, variant, image, *config).edges, image, *config);
+      compare(detect(context, variants, image, *config).edges, image, *config);
     }
   });
 }
@@ -174,14 +165,13 @@ TEST_CASE("edge detection: agrees with the reference for directions at the pixel
 TEST_CASE("edge detection: a full edge list is truncated in scan order, and the dropped edges are counted",
           "[edges][device][oclgrind]") {
   const Image image = textured_image(30, 26);
-  for_each_variant([&](Device& device, const std::string& variant) {
-    INFO(variant);
+  for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
     EdgesConfig config = small_capacity(2);
     config.max_edges = 500;
-    const EdgeSet all = detect(device, variant, image, config).edges;
+    const EdgeSet all = detect(context, variants, image, config).edges;
     config.max_edges = 40;
     REQUIRE((all.size() > 45 && all.size() < 500));
-    const Detection cut = detect(device, variant, image, config);
+    const Detection cut = detect(context, variants, image, config);
     REQUIRE(cut.edges.size() == 40);
     CHECK(cut.dropped == static_cast<int>(all.size()) - 40);
     for (std::size_t i = 0; i < 40; ++i) {
@@ -195,27 +185,26 @@ TEST_CASE("edge detection: a full edge list is truncated in scan order, and the 
 }
 
 TEST_CASE("edge detection: a detector can be reused for several images", "[edges][device]") {
-  for_each_variant([](Device& device, const std::string& variant) {
-    INFO(variant);
+  for_each_variant("edge_detection", [](opencl::Context& context, const Variants& variants) {
     const Image first = textured_image(96, 80, 1), second = textured_image(96, 80, 2);
     const EdgesConfig config = small_capacity();
-    stages::EdgeDetection stage(*device.context(), 96, 80, config, {{"edge_detection", variant}});
-    const Input first_input(*device.context(), first, config), second_input(*device.context(), second, config);
+    stages::EdgeDetection stage(context, 96, 80, config, variants);
+    const Input first_input(context, first, config), second_input(context, second, config);
     stages::DeviceEdges first_edges, second_edges;
     stage.run(first_input.plane, first_input.threshold, first_edges);
     stage.run(second_input.plane, second_input.threshold, second_edges);
     first_edges.read_count();
     second_edges.read_count();
-    CHECK(matching::same_bytes(first_edges.read(80), detect(device, variant, first, config).edges));
-    CHECK(matching::same_bytes(second_edges.read(80), detect(device, variant, second, config).edges));
+    CHECK(matching::same_bytes(first_edges.read(80), detect(context, variants, first, config).edges));
+    CHECK(matching::same_bytes(second_edges.read(80), detect(context, variants, second, config).edges));
   });
 }
 
 TEST_CASE("edge detection: a flat image has no edges and an unknown variant is refused", "[edges][device]") {
   Image flat(40, 30);
-  for_each_variant([&](Device& device, const std::string& variant) {
-    CHECK(detect(device, variant, flat, small_capacity()).edges.size() == 0);
-    CHECK_THROWS_AS(detect(device, "no-such-variant", flat, small_capacity()), UsageError);
-    CHECK_THROWS_AS(stages::PaddedPlane(*device.context(), 0, 5, 2.0), UsageError);
+  for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
+    CHECK(detect(context, variants, flat, small_capacity()).edges.size() == 0);
+    CHECK_THROWS_AS(detect(context, {{"edge_detection", "no-such-variant"}}, flat, small_capacity()), UsageError);
+    CHECK_THROWS_AS(stages::PaddedPlane(context, 0, 5, 2.0), UsageError);
   });
 }

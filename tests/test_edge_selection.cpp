@@ -112,46 +112,40 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
   config.budget = 75;
   for (const auto& rig : {rectified_rig(width, height), general_rig(width, height)}) {
     const SelectionArguments left = selection_arguments(rig, Side::left), right = selection_arguments(rig, Side::right);
-    for (const auto& index : all_devices()) {
-      Device device(index, kept_programs());
-      opencl::Context& context = *device.context();
-      for (const auto& variant : opencl::all_variants()) {
-        if (variant.stage != "edge_detection") continue;
-        INFO(device.info().name << ", " << variant.name);
-        stages::EdgeDetection in_left(context, width, height, config, {{"edge_detection", variant.name}});
-        stages::EdgeDetection in_right(context, width, height, config, {{"edge_detection", variant.name}});
-        stages::PaddedPlane plane(context, width, height, config.sigma);
-        opencl::Buffer<cl_float> threshold;
-        threshold.write(context, {2.0F});
-        const auto find = [&](stages::EdgeDetection& detection, std::uint64_t seed) {
-          opencl::Buffer<cl_uchar> pixels;
-          pixels.write(context, textured_image(width, height, seed).pixels);
-          plane.prepare(pixels);
-          detection.find_maxima(plane, threshold);
-          return read(detection.maxima(), width, height);
-        };
-        const std::vector<DeviceMaxima> all = {find(in_left, 1), find(in_right, 2)};
-        const float spacing = reference::selection_spacing(left, all[0].maxima, right, all[1].maxima, config.budget);
-        REQUIRE(spacing > 0.6F);
-        const auto kept_left = reference::kept_by_selection(left, all[0].maxima, spacing),
-                   kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
-        REQUIRE(count_kept(kept_left) < all[0].maxima.x.size() / 2);
+    for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
+      stages::EdgeDetection in_left(context, width, height, config, variants),
+          in_right(context, width, height, config, variants);
+      stages::PaddedPlane plane(context, width, height, config.sigma);
+      opencl::Buffer<cl_float> threshold;
+      threshold.write(context, {2.0F});
+      const auto find = [&](stages::EdgeDetection& detection, std::uint64_t seed) {
+        opencl::Buffer<cl_uchar> pixels;
+        pixels.write(context, textured_image(width, height, seed).pixels);
+        plane.prepare(pixels);
+        detection.find_maxima(plane, threshold);
+        return read(detection.maxima(), width, height);
+      };
+      const std::vector<DeviceMaxima> all = {find(in_left, 1), find(in_right, 2)};
+      const float spacing = reference::selection_spacing(left, all[0].maxima, right, all[1].maxima, config.budget);
+      REQUIRE(spacing > 0.6F);
+      const auto kept_left = reference::kept_by_selection(left, all[0].maxima, spacing),
+                 kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
+      REQUIRE(count_kept(kept_left) < all[0].maxima.x.size() / 2);
 
-        stages::EdgeSelection selection(context, config, in_left.maxima());
-        selection.run(left, right, in_left.maxima(), in_right.maxima());
-        selection.request();
-        CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
-        CHECK(read(in_right.maxima(), width, height).rows == kept_rows(all[1], kept_right));
-        CHECK(selection.host_spacing() == static_cast<double>(spacing));
-        // The next frame is selected independently.
-        find(in_left, 1);
-        find(in_right, 2);
-        selection.run(left, right, in_left.maxima(), in_right.maxima());
-        selection.request();
-        CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
-        CHECK(selection.host_spacing() == static_cast<double>(spacing));
-      }
-    }
+      stages::EdgeSelection selection(context, config, in_left.maxima());
+      selection.run(left, right, in_left.maxima(), in_right.maxima());
+      selection.request();
+      CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
+      CHECK(read(in_right.maxima(), width, height).rows == kept_rows(all[1], kept_right));
+      CHECK(selection.host_spacing() == static_cast<double>(spacing));
+      // The next frame is selected independently.
+      find(in_left, 1);
+      find(in_right, 2);
+      selection.run(left, right, in_left.maxima(), in_right.maxima());
+      selection.request();
+      CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
+      CHECK(selection.host_spacing() == static_cast<double>(spacing));
+    });
   }
 }
 

@@ -19,14 +19,10 @@ namespace {
 
 /// The image with its differences from `middle` scaled, at another bit depth.
 Image flattened(const Image& image, double contrast, int max_value, double middle = 128) {
-  Image result(image.width, image.height, max_value);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const double grey = middle + contrast * (static_cast<double>(image.view().at(x, y)) - middle);
-      result.set(x, y, static_cast<int>(std::lround(grey * max_value / kMaxValue8)));
-    }
-  }
-  return result;
+  return filled_image(image.width, image.height, max_value, [&](int x, int y) {
+    const double grey = middle + contrast * (static_cast<double>(image.view().at(x, y)) - middle);
+    return static_cast<int>(std::lround(grey * max_value / kMaxValue8));
+  });
 }
 
 struct ThresholdAndNoise {
@@ -34,10 +30,9 @@ struct ThresholdAndNoise {
 };
 
 /// The thresholds of consecutive frames in one stage; a frame is one image or two.
-std::vector<ThresholdAndNoise> measure(Device& device, const std::string& variant,
+std::vector<ThresholdAndNoise> measure(opencl::Context& context, const Variants& variants,
                                        const std::vector<std::vector<Image>>& frames, const EdgesConfig& config) {
-  opencl::Context& context = *device.context();
-  stages::EdgeThreshold stage(context, config, {{"edge_threshold", variant}});
+  stages::EdgeThreshold stage(context, config, variants);
   std::vector<ThresholdAndNoise> found;
   for (const auto& images : frames) {
     std::vector<stages::PaddedPlane> planes;
@@ -59,14 +54,6 @@ std::vector<ImageView> views(const std::vector<Image>& images) {
   std::vector<ImageView> result;
   for (const Image& image : images) result.push_back(image.view());
   return result;
-}
-
-void for_each_threshold_variant(const std::function<void(Device&, const std::string&)>& visit) {
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    for (const auto& variant : opencl::all_variants())
-      if (variant.stage == "edge_threshold") visit(device, variant.name);
-  }
 }
 
 /// Threshold and noise of a single frame by the reference.
@@ -113,13 +100,13 @@ TEST_CASE("edge threshold: every device and variant agrees with the reference", 
     cases.push_back({flattened(image, 0.01, 65535), flattened(other, 0.01, 65535)});
     cases.push_back({noisy_image(width, height, 3, 4), noisy_image(width, height, 128, 12)});
   }
-  for_each_threshold_variant([&](Device& device, const std::string& variant) {
+  for_each_variant("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
     for (const double sigma : {2.0, 0.8, 3.1}) {
       EdgesConfig config;
       config.sigma = sigma;
       for (std::size_t i = 0; i < cases.size(); ++i) {
-        INFO(device.info().name << " " << variant << " sigma " << sigma << " case " << i);
-        const ThresholdAndNoise found = measure(device, variant, {cases[i]}, config).front();
+        INFO("sigma " << sigma << " case " << i);
+        const ThresholdAndNoise found = measure(context, variants, {cases[i]}, config).front();
         const ThresholdAndNoise expected = reference_of(cases[i], config);
         // A gradient on the border of two bins may fall on either side; the smallest sizes have few points.
         CHECK(found.threshold == Approx(expected.threshold).epsilon(cases[i][0].width < 70 ? 0.05 : 0.01));
@@ -132,19 +119,15 @@ TEST_CASE("edge threshold: every device and variant agrees with the reference", 
 TEST_CASE("edge threshold: all variants give the same bytes, reproducibly", "[edges][device]") {
   const std::vector<std::vector<Image>> frames = {
       {flattened(textured_image(321, 243), 0.1, 255), flattened(textured_image(321, 243, 2), 0.1, 255)}};
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    std::vector<ThresholdAndNoise> first;
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage != "edge_threshold") continue;
-      for (int repetition = 0; repetition < 2; ++repetition) {
-        const auto found = measure(device, variant.name, frames, {});
-        if (first.empty()) first = found;
-        CHECK(found[0].threshold == first[0].threshold);
-        CHECK(found[0].noise == first[0].noise);
-      }
+  std::map<std::string, ThresholdAndNoise> first;  // of each device
+  for_each_variant("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
+    for (int repetition = 0; repetition < 2; ++repetition) {
+      const ThresholdAndNoise found = measure(context, variants, frames, {}).front();
+      const ThresholdAndNoise& same = first.emplace(context.device().getInfo<CL_DEVICE_NAME>(), found).first->second;
+      CHECK(found.threshold == same.threshold);
+      CHECK(found.noise == same.noise);
     }
-  }
+  });
 }
 
 TEST_CASE("edge threshold: normal contrast gives the largest, a flat image the lowest, a saturated image the largest",
@@ -195,8 +178,8 @@ TEST_CASE("edge threshold: stays constant under small changes of contrast and fo
   CHECK(expected[3] == expected[0]);
   CHECK(expected[4] > 2.5 * expected[0]);
   CHECK(expected[5] < 0.5 * expected[4]);
-  for_each_threshold_variant([&](Device& device, const std::string& variant) {
-    const auto found = measure(device, variant, frames, {});
+  for_each_variant("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
+    const auto found = measure(context, variants, frames, {});
     for (std::size_t i = 0; i < frames.size(); ++i) CHECK(found[i].threshold == Approx(expected[i]).epsilon(0.01));
   });
 }
@@ -206,7 +189,7 @@ TEST_CASE("edge threshold: a fixed one is used unchanged", "[edges][device]") {
   config.threshold = 0.75;
   const Image flat = noisy_image(64, 48, 100, 0);
   CHECK(reference_of({flat}, config).threshold == 0.75F);
-  for_each_threshold_variant([&](Device& device, const std::string& variant) {
-    CHECK(measure(device, variant, {{flat}}, config)[0].threshold == 0.75F);
+  for_each_variant("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
+    CHECK(measure(context, variants, {{flat}}, config)[0].threshold == 0.75F);
   });
 }

@@ -135,9 +135,7 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
 TEST_CASE("frontend: rows that lie beside those of the calibration are found, with the same disparities",
           "[frontend][matching][device]") {
   const RenderedScene scene("room", 320, 200, 1);
-  auto names = all_devices();
-  names.emplace_back("reference");
-  for (const auto& name : names) {
+  for (const auto& name : all_devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());
     const auto edges_of = [&](double offset, double* correction) {
@@ -169,9 +167,7 @@ TEST_CASE("frontend: rows that lie beside those of the calibration are found, wi
 
 TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "[frontend][device]") {
   const RenderedScene scene("cables", 120, 75, 4);
-  auto names = all_devices();
-  names.emplace_back("reference");
-  for (const auto& name : names) {
+  for (const auto& name : all_devices_and_reference()) {
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     const auto held = frontend->process(scene.frame(0));

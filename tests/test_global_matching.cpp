@@ -55,8 +55,7 @@ stages::DeviceStereoEdges on_device(opencl::Context& context, const StereoEdges&
 /// The reference's matches, after checking that every device and variant finds the same.
 TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& current) {
   const auto expected = reference::find_global_matches(earlier, current);
-  for_each_variant("global_matching", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name);
+  for_each_variant("global_matching", [&](opencl::Context& context, const Variants& variants) {
     const auto before = on_device(context, earlier.edges), now = on_device(context, current.edges);
     opencl::Buffer<cl_uchar> before_bytes, now_bytes;
     before_bytes.write(context, earlier.descriptors);

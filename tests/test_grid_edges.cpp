@@ -30,7 +30,7 @@ EdgesConfig grid_config(int max_edges, int margin, double sigma = 2.0) {
   return config;
 }
 
-FoundGridEdges find_grid_edges(opencl::Context& context, const matching::Variants& variants, const Image& image,
+FoundGridEdges find_grid_edges(opencl::Context& context, const Variants& variants, const Image& image,
                                const EdgesConfig& config, const PixelMask& mask = {}) {
   stages::GridEdges stage(context, image.width, image.height, config, mask, variants);
   stages::PaddedPlane plane(context, image.width, image.height, config.sigma, image.max_value);
@@ -98,18 +98,16 @@ TEST_CASE("grid edges: devices agree with the plain form at odd sizes, margins a
     const EdgesConfig config = grid_config(60000, margin, sigma);
     const auto truth = expected_grid_edges(image, config);
     EdgeSet first;
-    matching::for_each_variant(
-        "grid_edges", [&, w = width, h = height](opencl::Context& context, const matching::Variants& variants,
-                                                 const std::string& name) {
-          INFO(name << " " << w << "x" << h);
-          const FoundGridEdges found = find_grid_edges(context, variants, image, config);
-          CHECK(found.dropped == 0);
-          check_grid_edges(found.edges, truth, h);
-          CHECK(static_cast<int>(found.edges.size()) > w * h / 60);
-          CHECK(matching::same_bytes(found.edges, find_grid_edges(context, variants, image, config).edges));
-          if (variants.at("grid_edges") == "rows32") first = found.edges;
-          CHECK(matching::same_bytes(found.edges, first));
-        });
+    for_each_variant("grid_edges", [&, w = width, h = height](opencl::Context& context, const Variants& variants) {
+      INFO(w << "x" << h);
+      const FoundGridEdges found = find_grid_edges(context, variants, image, config);
+      CHECK(found.dropped == 0);
+      check_grid_edges(found.edges, truth, h);
+      CHECK(static_cast<int>(found.edges.size()) > w * h / 60);
+      CHECK(matching::same_bytes(found.edges, find_grid_edges(context, variants, image, config).edges));
+      if (variants.at("grid_edges") == "rows32") first = found.edges;
+      CHECK(matching::same_bytes(found.edges, first));
+    });
   }
 }
 
@@ -119,9 +117,7 @@ TEST_CASE("grid edges: images within the margin have none, hidden pixels have no
   PixelMask mask{41, 37, std::vector<std::uint8_t>(41 * 37)};
   for (int y = 0; y < 37; ++y)
     for (int x = 15; x < 22; ++x) mask.hidden[static_cast<std::size_t>(41 * y + x)] = 1;
-  matching::for_each_variant("grid_edges", [&](opencl::Context& context, const matching::Variants& variants,
-                                               const std::string& name) {
-    INFO(name);
+  for_each_variant("grid_edges", [&](opencl::Context& context, const Variants& variants) {
     for (const auto& [width, height] : {std::pair(1, 1), std::pair(7, 60), std::pair(60, 5), std::pair(21, 21)})
       CHECK(find_grid_edges(context, variants, textured_image(width, height), grid_config(100, 10)).edges.size() == 0);
     EdgesConfig config = grid_config(3000, 2);

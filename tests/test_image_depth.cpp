@@ -19,10 +19,7 @@ namespace {
 
 /// The same grey levels at 16 bits.
 Image deepened(const Image& image) {
-  Image result(image.width, image.height, 65535);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) result.set(x, y, 257 * image.view().value(x, y));
-  return result;
+  return filled_image(image.width, image.height, 65535, [&](int x, int y) { return 257 * image.view().value(x, y); });
 }
 
 }  // namespace
@@ -43,9 +40,7 @@ TEST_CASE("image depth: pixels hold raw values, grey levels do not depend on the
 
 TEST_CASE("image depth: the same grey levels at 16 bits have the same edges", "[edges][device]") {
   const Image image = textured_image(161, 123), deep = deepened(image);
-  auto names = all_devices();
-  names.emplace_back("reference");
-  for (const auto& name : names) {
+  for (const auto& name : all_devices_and_reference()) {
     Device device(name, kept_programs());
     const EdgeSet expected = detect_edges(image.view(), device, {}), found = detect_edges(deep.view(), device, {});
     REQUIRE(expected.size() > 500);

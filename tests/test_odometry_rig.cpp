@@ -13,9 +13,7 @@ using namespace tracked_room;
 TEST_CASE("odometry: rows that lie beside those of the calibration cost no accuracy, but are warned of",
           "[odometry][rig][device]") {
   const RenderedScene off = room_with_rows_off_by(0.8);
-  auto names = all_devices();
-  names.emplace_back("reference");
-  for (const auto& name : names) {
+  for (const auto& name : all_devices_and_reference()) {
     INFO(name);
     const auto right = track(room(), name, room().config), found = track(off, name, off.config);
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -42,8 +42,7 @@ void compare_clusters(const Rows& rows) {
   }
   lists.moving.x = lists.moving.y = lists.moving.strength = lists.moving.scale_shift = lists.moving.direction;
   x.insert(x.end(), y.begin(), y.end());
-  for_each_variant("paper_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name);
+  for_each_variant("paper_clusters", [&](opencl::Context& context, const Variants& variants) {
     auto candidates = upload(context, lists.candidates);
     const auto moving = upload(context, lists.moving);
     opencl::Buffer<cl_float> refined;
@@ -126,8 +125,7 @@ void compare_cascade(const StereoRig& rig, int step, std::size_t expected) {
   const auto in_left = view_of(left, grid_of_edges(rig.left.width, rig.left.height, step, 0, 0, 1)),
              in_right = view_of(right, grid_of_edges(rig.right.width, rig.right.height, step, -2.3, 0, 2));
   const auto truth = paper::match_stereo(in_left, in_right, geometry, config, offset, false);
-  for_each_variant("paper_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name);
+  for_each_variant("paper_clusters", [&](opencl::Context& context, const Variants& variants) {
     const PaperOnDevice a(context, left, in_left.edges, offset), b(context, right, in_right.edges, offset);
     auto candidates = upload(context, truth.candidates);
     upload(context, truth.scores, candidates);

@@ -24,19 +24,17 @@ constexpr double kPaperOffset = 5;  // of patches, px
 /// A texture, a part of it that is seen from 6 px further right, and its negative: directions that differ by half a
 /// turn.
 struct PaperViews {
-  Image left{kPaperWidth, kPaperHeight}, right{kPaperWidth, kPaperHeight};
+  Image left = shifted(0), right = shifted(kPaperShift);
   paper::View in_left, in_right;
 
-  PaperViews() : in_left(view_of(fill(left, 0))), in_right(view_of(fill(right, kPaperShift))) {}
+  PaperViews() : in_left(view_of(left)), in_right(view_of(right)) {}
 
-  static const Image& fill(Image& image, int shift) {
+  static Image shifted(int shift) {
     const Image wide = textured_image(kPaperWidth + kPaperShift, kPaperHeight);
-    for (int y = 0; y < kPaperHeight; ++y)
-      for (int x = 0; x < kPaperWidth; ++x) {
-        const int grey = static_cast<int>(wide.view().at(x + shift, y));
-        image.set(x, y, shift > 0 && y > kPaperHeight / 2 ? 255 - grey : grey);
-      }
-    return image;
+    return filled_image(kPaperWidth, kPaperHeight, [&](int x, int y) {
+      const int grey = static_cast<int>(wide.view().at(x + shift, y));
+      return shift > 0 && y > kPaperHeight / 2 ? 255 - grey : grey;
+    });
   }
   static paper::View view_of(const Image& image) {
     EdgesConfig config;
@@ -104,8 +102,7 @@ struct DescriptionsForFilters {
 void check_paper_filters(const reference::Candidates& lists, const paper::Described& a, const paper::Described& b,
                          const FilterLimits& limits, bool all_scores) {
   const auto truth = paper::judge(lists, a, b, limits, all_scores);
-  for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name);
+  for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants) {
     stages::PaperFilters stage(context, variants);
     const DescriptionsForFilters on_a(context, a), on_b(context, b);
     const std::size_t size = lists.target.size();
@@ -145,17 +142,15 @@ TEST_CASE("paper candidates: in stereo, devices list what the plain form lists",
       paper::match_stereo(views.in_left, views.in_right, geometry, paper_stereo_config(), kPaperOffset, false)
           .candidates;
   REQUIRE(truth.target.size() > 2 * views.in_left.edges.size());
-  for_each_variant(
-      "stereo_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-        INFO(name);
-        stages::StereoCandidates stage(context, variants, stages::Turns::half);
-        const auto left = upload(context, views.in_left.edges), right = upload(context, views.in_right.edges);
-        stages::DeviceCandidates found;
-        stage.run(left, right, kPaperHeight, geometry, {0, 0}, found);
-        const auto lists = found.read();
-        CHECK(lists.first == truth.first);
-        CHECK(lists.target == truth.target);
-      });
+  for_each_variant("stereo_candidates", [&](opencl::Context& context, const Variants& variants) {
+    stages::StereoCandidates stage(context, variants, stages::Turns::half);
+    const auto left = upload(context, views.in_left.edges), right = upload(context, views.in_right.edges);
+    stages::DeviceCandidates found;
+    stage.run(left, right, kPaperHeight, geometry, {0, 0}, found);
+    const auto lists = found.read();
+    CHECK(lists.first == truth.first);
+    CHECK(lists.target == truth.target);
+  });
 }
 
 TEST_CASE("paper candidates: in time, devices list what the plain form lists", "[paper][matching][device]") {
@@ -164,20 +159,19 @@ TEST_CASE("paper candidates: in time, devices list what the plain form lists", "
   for (const double orientation : {10 * kDegree, 2 * kPi}) {
     const auto truth = paper::near_previous(before.edges.positions(), now.edges.positions(), kPaperWidth, kPaperHeight,
                                             9.5, orientation);
-    for_each_variant("temporal_candidates",
-                     [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-                       INFO(name << " " << orientation);
-                       stages::TemporalCandidates stage(context, variants, stages::Turns::half);
-                       stages::PointIndex indexing(context, {});
-                       const auto from = upload(context, before.edges), to = upload(context, now.edges);
-                       stages::DevicePointIndex index(kPaperWidth, kPaperHeight), unused(kPaperWidth, kPaperHeight);
-                       indexing.run(to.positions(), to.positions(), index, unused);
-                       stages::DeviceCandidates found;
-                       stage.run(from.positions(), 1, index, 9.5F, static_cast<float>(orientation), found);
-                       const auto lists = found.read();
-                       CHECK(lists.first == truth.first);
-                       CHECK(lists.target == truth.target);
-                     });
+    for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants) {
+      INFO(orientation);
+      stages::TemporalCandidates stage(context, variants, stages::Turns::half);
+      stages::PointIndex indexing(context, {});
+      const auto from = upload(context, before.edges), to = upload(context, now.edges);
+      stages::DevicePointIndex index(kPaperWidth, kPaperHeight), unused(kPaperWidth, kPaperHeight);
+      indexing.run(to.positions(), to.positions(), index, unused);
+      stages::DeviceCandidates found;
+      stage.run(from.positions(), 1, index, 9.5F, static_cast<float>(orientation), found);
+      const auto lists = found.read();
+      CHECK(lists.first == truth.first);
+      CHECK(lists.target == truth.target);
+    });
   }
 }
 
@@ -203,8 +197,7 @@ TEST_CASE("paper filters: flat patches are similar to none", "[paper][filters][m
   flat.sift.resize(2 * kEdgeSiftBytes);
   other.sift.resize(kEdgeSiftBytes);
   const reference::Candidates lists{{0, 1, 2}, {0, 0}};
-  for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name);
+  for_each_variant("paper_filters", [&](opencl::Context& context, const Variants& variants) {
     stages::PaperFilters stage(context, variants);
     const DescriptionsForFilters on_a(context, flat), on_b(context, other);
     auto device = upload(context, lists);

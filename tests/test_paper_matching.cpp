@@ -16,15 +16,11 @@ constexpr double kSideOffset = 5;
 
 /// A smooth pattern, moved by (dx, dy) px.
 Image wavy_image(int width, int height, double dx, double dy, bool inverted = false) {
-  Image image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double u = x - dx, v = y - dy;
-      const double grey = 128 + 50 * std::sin(0.31 * u + 0.12 * v) + 40 * std::sin(0.23 * v - 0.17 * u + 1);
-      image.set(x, y, static_cast<int>(std::lround(inverted ? 255 - grey : grey)));
-    }
-  }
-  return image;
+  return filled_image(width, height, [=](int x, int y) {
+    const double u = x - dx, v = y - dy;
+    const double grey = 128 + 50 * std::sin(0.31 * u + 0.12 * v) + 40 * std::sin(0.23 * v - 0.17 * u + 1);
+    return static_cast<int>(std::lround(inverted ? 255 - grey : grey));
+  });
 }
 
 paper::Hypothesis hypothesis_at(double x, double y, double direction_deg, std::int32_t target) {

@@ -13,9 +13,7 @@ namespace {
 void compare_patches(const Image& image, const EdgePositions& edges, double offset) {
   INFO(image.width << " x " << image.height << ", values to " << image.max_value << ", offset " << offset);
   const auto truth = paper::cut_sides(paper::Picture(image.view()), edges, offset);
-  matching::for_each_variant("paper_patches", [&](opencl::Context& context, const matching::Variants& variants,
-                                                  const std::string& name) {
-    INFO(name);
+  for_each_variant("paper_patches", [&](opencl::Context& context, const Variants& variants) {
     context.check_kernels(true);
     stages::PaperPatches stage(context, image.width, image.height, variants, image.max_value);
     context.check_kernels(false);

@@ -83,8 +83,8 @@ TEST_CASE("paper quads: as the plain form, byte by byte", "[paper][device][oclgr
   for (const int rows : {1, 3, 501}) {
     const auto left = made_up_side(rows, 20, 3), right = made_up_side(rows, 20, 4);
     const TemporalMatches truth = paper::quads_of(left, right);
-    for_each_variant("paper_quads", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-      INFO(name << ", " << rows << " rows, " << truth.size() << " quads");
+    for_each_variant("paper_quads", [&](opencl::Context& context, const Variants& variants) {
+      INFO(rows << " rows, " << truth.size() << " quads");
       const SideOnDevice in_left(context, left), in_right(context, right);
       context.check_kernels(true);
       stages::PaperQuads stage(context, variants);

@@ -63,9 +63,7 @@ using Run = std::function<void(stages::PaperRefinement&, const stages::PaperEdge
 void on_every_device(const Image& fixed, const Image& moving, const PaperLists& lists, const StereoConfig& config,
                      const std::vector<Eigen::Vector2d>& truth, const Run& run) {
   INFO("sides " << config.refine_sides << ", values to " << fixed.max_value);
-  for_each_variant("paper_refinement", [&](opencl::Context& context, const Variants& variants,
-                                           const std::string& name) {
-    INFO(name);
+  for_each_variant("paper_refinement", [&](opencl::Context& context, const Variants& variants) {
     const PaperOnDevice a(context, fixed, lists.fixed, kPatchOffset), b(context, moving, lists.moving, kPatchOffset);
     auto candidates = upload(context, lists.candidates);
     upload(context, lists.scores, candidates);

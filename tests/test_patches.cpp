@@ -276,29 +276,23 @@ TEST_CASE("patches: those of edges that are not wanted stay as they were", "[pat
   std::vector<cl_int> wanted(kCount);
   for (std::size_t k = 0; k < kCount; ++k)
     wanted[k] = k % 3 == 0 && (k < 20 || k > 60) ? static_cast<cl_int>(k) + 1 : 0;
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    auto& context = *device.context();
+  for_each_variant("patches", [&](opencl::Context& context, const Variants& variants) {
     opencl::Buffer<cl_uchar> pixels;
     opencl::Buffer<cl_int> wanted_on_device;
     stages::DevicePositions device_edges;
     pixels.write(context, image.pixels);
     wanted_on_device.write(context, wanted);
     device_edges.write(context, {edges});
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage != "patches") continue;
-      CAPTURE(device.info().name, variant.name);
-      stages::Patches stage(context, 64, 48, {}, {{"patches", variant.name}});
-      stage.prepare(pixels);
-      opencl::Buffer<cl_char> all, some(context, kCount * kEdgePatchBytes);
-      some.fill(7, kCount * kEdgePatchBytes);
-      stage.cut(device_edges.list(), all);
-      stage.cut(device_edges.list(), wanted_on_device, some);
-      const auto described = all.read(kCount * kEdgePatchBytes), found = some.read(kCount * kEdgePatchBytes);
-      for (std::size_t byte = 0; byte < found.size(); ++byte)
-        REQUIRE(found[byte] == (wanted[byte / kEdgePatchBytes] != 0 ? described[byte] : 7));
-    }
-  }
+    stages::Patches stage(context, 64, 48, {}, variants);
+    stage.prepare(pixels);
+    opencl::Buffer<cl_char> all, some(context, kCount * kEdgePatchBytes);
+    some.fill(7, kCount * kEdgePatchBytes);
+    stage.cut(device_edges.list(), all);
+    stage.cut(device_edges.list(), wanted_on_device, some);
+    const auto described = all.read(kCount * kEdgePatchBytes), found = some.read(kCount * kEdgePatchBytes);
+    for (std::size_t byte = 0; byte < found.size(); ++byte)
+      REQUIRE(found[byte] == (wanted[byte / kEdgePatchBytes] != 0 ? described[byte] : 7));
+  });
 }
 
 TEST_CASE("patches: the kernels' similarity equals the reference's bit for bit", "[patches][device][oclgrind]") {

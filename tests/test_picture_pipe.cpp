@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "data/stream_reader.hpp"
+#include "edge_images.hpp"
 #include "own_camera.hpp"
 #include "quadedge/error.hpp"
 
@@ -16,11 +17,9 @@ namespace {
 constexpr int kPipeWidth = 12, kPipeHeight = 7;
 
 Image piped_picture(int number, int width = kPipeWidth, int max_value = 255) {
-  Image image(width, kPipeHeight, max_value);
-  for (int y = 0; y < kPipeHeight; ++y)
-    for (int x = 0; x < width; ++x)
-      image.set(x, y, (13 * number + 5 * x + 3 * y) * (max_value / 255) % (max_value + 1));
-  return image;
+  return filled_image(width, kPipeHeight, max_value, [=](int x, int y) {
+    return (13 * number + 5 * x + 3 * y) * (max_value / 255) % (max_value + 1);
+  });
 }
 
 std::string pairs(int count, int max_value = 255) {

@@ -82,18 +82,16 @@ TEST_CASE("point index: a square holds every point within its radius, also beyon
 
 TEST_CASE("point index: devices sort the edges of both sides like the reference",
           "[temporal][matching][device][oclgrind]") {
-  matching::for_each_variant(
-      "point_index", [&](opencl::Context& context, const matching::Variants& variants, const std::string& name) {
-        INFO(name);
-        stages::PointIndex stage(context, variants);
-        stages::DevicePointIndex left_index(83, 31), right_index(90, 29);
-        for (const auto& [left_count, right_count] : {std::pair(700, 513), {0, 3}, {1, 0}, {401, 800}}) {
-          const auto left = crowded_edges(left_count, 83, 31, 5), right = crowded_edges(right_count, 90, 29, 6);
-          stages::DevicePositions edges;
-          edges.write(context, {left, right});
-          stage.run(edges.list(0), edges.list(1), left_index, right_index);
-          check_index(left, 83, 31, left_index);
-          check_index(right, 90, 29, right_index);
-        }
-      });
+  for_each_variant("point_index", [&](opencl::Context& context, const Variants& variants) {
+    stages::PointIndex stage(context, variants);
+    stages::DevicePointIndex left_index(83, 31), right_index(90, 29);
+    for (const auto& [left_count, right_count] : {std::pair(700, 513), {0, 3}, {1, 0}, {401, 800}}) {
+      const auto left = crowded_edges(left_count, 83, 31, 5), right = crowded_edges(right_count, 90, 29, 6);
+      stages::DevicePositions edges;
+      edges.write(context, {left, right});
+      stage.run(edges.list(0), edges.list(1), left_index, right_index);
+      check_index(left, 83, 31, left_index);
+      check_index(right, 90, 29, right_index);
+    }
+  });
 }

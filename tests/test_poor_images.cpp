@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "edge_images.hpp"
 #include "frontends.hpp"
 #include "rig/poor_images.hpp"
 #include "rig/rig_monitor.hpp"
@@ -19,11 +20,9 @@ const RenderedScene& room() {
 
 /// Clips at the largest value, as a sensor does.
 Image brighter(const Image& image, double factor) {
-  Image result(image.width, image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      result.set(x, y, std::min(255, static_cast<int>(std::lround(factor * image.view().value(x, y)))));
-  return result;
+  return filled_image(image.width, image.height, [&](int x, int y) {
+    return std::min(255, static_cast<int>(std::lround(factor * image.view().value(x, y))));
+  });
 }
 
 /// Blocks of 8 x 8 px, each half of the way to its mean.

@@ -15,9 +15,7 @@ Config effective(const std::vector<std::string>& options) {
   const TemporaryFolder folder;
   std::vector<std::string> call = {"run", small_sequence(), "-o", folder / "out", "--frames", "0:2", "--quiet"};
   call.insert(call.end(), options.begin(), options.end());
-  const auto run = run_program(call);
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  run_well(call);
   return read_config(folder / "out/config.toml");
 }
 
@@ -40,8 +38,6 @@ TEST_CASE("presets: --preset applies its file; --config and the command line ove
   const Config both = effective({"--preset", "fast", "--config", folder / "other.toml"});
   CHECK(both.edges.budget == 7000);
   CHECK(both.stereo.ncc_min == 0.5);
-  const auto wrong = run_program({"run", small_sequence(), "-o", folder / "out", "--preset", "fastest"});
-  CHECK(wrong.code == 2);
-  CHECK_THAT(wrong.err, Catch::Contains("--preset") && Catch::Contains("fastest"));
+  check_error({"run", small_sequence(), "-o", folder / "out", "--preset", "fastest"}, 2, {"--preset", "fastest"});
   CHECK_THROWS_AS(data::read_preset("quick"), UsageError);
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "edge_images.hpp"
 #include "frontends.hpp"
 #include "rig/interlacing.hpp"
 #include "rig/rig_constants.hpp"
@@ -43,14 +44,10 @@ StereoRig turned_rig(double degrees, const Eigen::Vector3d& axis) {
 /// Pixel (x, y) of the result is that of `image` at from(x, y).
 template <class From>
 Image rearranged(const Image& image, const From& from) {
-  Image result(image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const auto [u, v] = from(x, y);
-      result.set(x, y, image.view().value(u, v));
-    }
-  }
-  return result;
+  return filled_image(image.width, image.height, [&](int x, int y) {
+    const auto [u, v] = from(x, y);
+    return image.view().value(u, v);
+  });
 }
 
 }  // namespace
@@ -245,8 +242,6 @@ TEST_CASE("rig monitor: odd rows that are shifted against even ones are reported
   CHECK(rig::warning(finding).kind == WarningKind::unsynchronised_cameras);
   CHECK_THAT(rig::warning(finding).text, Contains("87 %") && Contains("is the video interlaced?"));
   // Vertical stripes are the same in all rows.
-  Image columns(128, 192);
-  for (int y = 0; y < columns.height; ++y)
-    for (int x = 0; x < columns.width; ++x) columns.set(x, y, x % 16 < 8 ? 40 : 200);
+  const Image columns = filled_image(128, 192, [](int x, int) { return x % 16 < 8 ? 40 : 200; });
   CHECK(rig::combed_ratio(columns.view()) == 0);
 }

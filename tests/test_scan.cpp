@@ -11,25 +11,21 @@ using namespace quadedge;
 namespace {
 
 void check_scan(const std::vector<int>& sizes, int capacity) {
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage != "scan") continue;
-      stages::Scan scan(*device.context(), {{"scan", variant.name}});
-      for (const int size : sizes) {
-        std::vector<cl_int> counts(static_cast<std::size_t>(size));
-        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<cl_int>((i * 7919 + 13) % 5);
-        opencl::Buffer<cl_int> device_counts(*device.context(), counts.size()), first, total;
-        device_counts.write(*device.context(), counts);
-        scan.run(device_counts, size, capacity, first, total);
+  for_each_variant("scan", [&](opencl::Context& context, const Variants& variants) {
+    stages::Scan scan(context, variants);
+    for (const int size : sizes) {
+      std::vector<cl_int> counts(static_cast<std::size_t>(size));
+      for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<cl_int>((i * 7919 + 13) % 5);
+      opencl::Buffer<cl_int> device_counts(context, counts.size()), first, total;
+      device_counts.write(context, counts);
+      scan.run(device_counts, size, capacity, first, total);
 
-        const reference::Scan expected = reference::scan(counts, capacity);
-        INFO(variant.name << ", " << size << " counts, capacity " << capacity);
-        CHECK(first.read(counts.size() + 1) == expected.first);
-        CHECK(total.read(2) == std::vector<cl_int>{expected.fitting, expected.cut_off});
-      }
+      const reference::Scan expected = reference::scan(counts, capacity);
+      INFO(size << " counts, capacity " << capacity);
+      CHECK(first.read(counts.size() + 1) == expected.first);
+      CHECK(total.read(2) == std::vector<cl_int>{expected.fitting, expected.cut_off});
     }
-  }
+  });
 }
 
 }  // namespace

@@ -25,12 +25,9 @@ constexpr double kGrey = 255.0 / 65535;  ///< of a step of 16 bits
 Image in_the_dark(const Image& image, double light, double noise, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(0, noise);
-  Image dark(image.width, image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      dark.set(x, y,
-               static_cast<int>(std::clamp(std::round(light * image.view().at(x, y) + normal(generator)), 0.0, 255.0)));
-  return dark;
+  return filled_image(image.width, image.height, [&](int x, int y) {
+    return static_cast<int>(std::clamp(std::round(light * image.view().at(x, y) + normal(generator)), 0.0, 255.0));
+  });
 }
 
 }  // namespace
@@ -108,22 +105,18 @@ TEST_CASE("smoothing: begins where the limit of noise exceeds the contrast, and 
 }
 
 TEST_CASE("smoothing: every device and variant equals the reference exactly", "[smoothing][device][oclgrind]") {
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage != "smoothing") continue;
-      for (const int max_value : {255, 4095, 65535}) {
-        stages::Smoothing stage(*device.context(), {{"smoothing", variant.name}}, max_value);
-        for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {129, 66}}) {
-          const Image image = noisy_image(width, height, 128, 102, max_value);
-          opencl::Buffer<cl_uchar> pixels;
-          pixels.write(*device.context(), image.pixels);
-          stage.run(width, height, pixels);
-          CHECK(pixels.read(image.pixels.size()) == reference::smoothed(image.view()).pixels);
-        }
+  for_each_variant("smoothing", [](opencl::Context& context, const Variants& variants) {
+    for (const int max_value : {255, 4095, 65535}) {
+      stages::Smoothing stage(context, variants, max_value);
+      for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {129, 66}}) {
+        const Image image = noisy_image(width, height, 128, 102, max_value);
+        opencl::Buffer<cl_uchar> pixels;
+        pixels.write(context, image.pixels);
+        stage.run(width, height, pixels);
+        CHECK(pixels.read(image.pixels.size()) == reference::smoothed(image.view()).pixels);
       }
     }
-  }
+  });
 }
 
 TEST_CASE(

@@ -98,19 +98,17 @@ std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, c
   const auto geometry = corrected(make_epipolar_geometry(rig, config), error, rig);
   const auto lists = reference::stereo_candidates(left, right, geometry, probe);
   const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, error, left, right);
-  for_each_variant("stereo_candidates",
-                   [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-                     INFO(name);
-                     stages::StereoCandidates stage(context, variants);
-                     const auto device_left = upload(context, left), device_right = upload(context, right);
-                     stages::DeviceCandidates found;
-                     stage.run(device_left, device_right, rig.right.height, geometry, probe, found);
-                     const auto target = found.target.read(static_cast<std::size_t>(found.host_total));
-                     check_lists(found.first.read(left.size() + 1), target, rig, config, probe, error, left, right);
-                     std::vector<cl_int> listed(right.size());
-                     for (const auto j : target) listed[static_cast<std::size_t>(j)] = 1;
-                     if (left.size() > 0) CHECK(stage.listed().read(right.size()) == listed);
-                   });
+  for_each_variant("stereo_candidates", [&](opencl::Context& context, const Variants& variants) {
+    stages::StereoCandidates stage(context, variants);
+    const auto device_left = upload(context, left), device_right = upload(context, right);
+    stages::DeviceCandidates found;
+    stage.run(device_left, device_right, rig.right.height, geometry, probe, found);
+    const auto target = found.target.read(static_cast<std::size_t>(found.host_total));
+    check_lists(found.first.read(left.size() + 1), target, rig, config, probe, error, left, right);
+    std::vector<cl_int> listed(right.size());
+    for (const auto j : target) listed[static_cast<std::size_t>(j)] = 1;
+    if (left.size() > 0) CHECK(stage.listed().read(right.size()) == listed);
+  });
   return certain;
 }
 

@@ -43,9 +43,7 @@ struct ClusterLists {
     left.x = left.y = left.direction = std::vector<float>(rows, 1.0f);
     EdgeSet placed = right;
     placed.x = placed.y = placed.direction;
-    for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants,
-                                            const std::string& name) {
-      INFO(name);
+    for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants) {
       stages::StereoClusters stage(context, variants);
       auto lists = upload(context, candidates);
       upload(context, scores, lists);

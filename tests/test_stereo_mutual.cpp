@@ -55,8 +55,7 @@ struct MutualScene {
   /// \param searched see StereoMutual::run()
   void compare_devices(const EpipolarGeometry* searched) const {
     const StereoEdges truth = match(), seen = match(searched != nullptr ? *searched : geometry);
-    for_each_variant("stereo_mutual", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-      INFO(name);
+    for_each_variant("stereo_mutual", [&](opencl::Context& context, const Variants& variants) {
       stages::StereoMutual stage(context, config, variants);
       stages::Patches right_patches(context, 97, 71, all.patches, {});
       const auto image = upload(context, right_image);

@@ -87,35 +87,33 @@ struct RefinementScene {
   void compare_devices() const {
     auto truth = scores;
     const auto [positions, similarity] = refine(truth);
-    for_each_variant(
-        "stereo_refinement", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-          INFO(name);
-          stages::StereoRefinement stage(context, config, kOffset, variants);
-          auto device = upload(context, lists);
-          upload(context, scores, device);
-          opencl::Buffer<cl_char> device_patches;
-          stages::DeviceRefined found;
-          device_patches.write(context, left_patches());
-          stages::PixelCorners left_corners(context), right_corners(context);
-          left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
-          right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
-          stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches,
-                    geometry, device, found);
-          const auto states = device.state.read(positions.size());
-          const auto device_positions = found.position.read(positions.size()),
-                     device_similarity = found.similarity.read(positions.size());
-          std::size_t other_state = 0;
-          double largest = 0, unlike = 0;
-          for (std::size_t c = 0; c < positions.size(); ++c) {
-            other_state += states[c] != truth.state[c] ? 1 : 0;
-            if (states[c] != 0 || truth.state[c] != kCandidateAlive) continue;
-            largest = std::max(largest, std::abs(positions[c] - static_cast<double>(device_positions[c])));
-            unlike = std::max(unlike, std::abs(similarity[c] - static_cast<double>(device_similarity[c])));
-          }
-          CHECK(other_state <= positions.size() / 100);
-          CHECK(largest < 1e-2);
-          CHECK(unlike < 5e-3);
-        });
+    for_each_variant("stereo_refinement", [&](opencl::Context& context, const Variants& variants) {
+      stages::StereoRefinement stage(context, config, kOffset, variants);
+      auto device = upload(context, lists);
+      upload(context, scores, device);
+      opencl::Buffer<cl_char> device_patches;
+      stages::DeviceRefined found;
+      device_patches.write(context, left_patches());
+      stages::PixelCorners left_corners(context), right_corners(context);
+      left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
+      right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
+      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, geometry,
+                device, found);
+      const auto states = device.state.read(positions.size());
+      const auto device_positions = found.position.read(positions.size()),
+                 device_similarity = found.similarity.read(positions.size());
+      std::size_t other_state = 0;
+      double largest = 0, unlike = 0;
+      for (std::size_t c = 0; c < positions.size(); ++c) {
+        other_state += states[c] != truth.state[c] ? 1 : 0;
+        if (states[c] != 0 || truth.state[c] != kCandidateAlive) continue;
+        largest = std::max(largest, std::abs(positions[c] - static_cast<double>(device_positions[c])));
+        unlike = std::max(unlike, std::abs(similarity[c] - static_cast<double>(device_similarity[c])));
+      }
+      CHECK(other_state <= positions.size() / 100);
+      CHECK(largest < 1e-2);
+      CHECK(unlike < 5e-3);
+    });
   }
 };
 

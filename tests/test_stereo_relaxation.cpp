@@ -71,40 +71,38 @@ struct RelaxationScene {
     std::vector<float> packed;
     for (const auto* block : {&clusters.position, &clusters.direction, &clusters.similarity})
       packed.insert(packed.end(), block->begin(), block->end());
-    for_each_variant(
-        "stereo_relaxation", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-          INFO(name);
-          stages::StereoRelaxation stage(context, rig.left.width, rig.left.height, config, variants);
-          const auto candidates = upload(context, lists);
-          stages::DeviceClusters device_clusters;
-          device_clusters.stride = candidates.capacity;
-          device_clusters.packed.write(context, packed);
-          device_clusters.count.write(context, counts);
-          stages::DeviceRelaxation found;
-          stages::CoarseDisparity coarse(context, variants, kMaxValue8);
-          if (coarse_disparity)
-            coarse.run(upload(context, views.first), upload(context, views.second), coarse_disparity->search);
-          const stages::CoarseDisparity* const asked = coarse_disparity ? &coarse : nullptr;
-          stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
-          const auto belief = found.belief.read(clusters.position.size());
-          const auto chosen = found.chosen.read(rows);
-          const auto score = found.score.read(rows);
-          std::size_t different = 0;
-          for (std::size_t i = 0; i < rows; ++i) {
-            bool same = chosen[i] == truth.chosen[i] && std::abs(static_cast<double>(score[i]) - truth.score[i]) < 1e-3;
-            for (auto k = static_cast<std::size_t>(clusters.first[i]);
-                 k < static_cast<std::size_t>(clusters.first[i + 1]); ++k)
-              same = same && std::abs(static_cast<double>(belief[k]) - truth.belief[k]) < 1e-3;
-            different += same ? 0 : 1;
-          }
-          CHECK(different <= band);
-          CHECK(found.host_tally.edges == truth.tally.edges);
-          CHECK(std::abs(found.host_tally.undecided - truth.tally.undecided) <= static_cast<int>(band));
-          stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
-          CHECK(found.belief.read(clusters.position.size()) == belief);
-          CHECK(found.chosen.read(rows) == chosen);
-          CHECK(found.score.read(rows) == score);
-        });
+    for_each_variant("stereo_relaxation", [&](opencl::Context& context, const Variants& variants) {
+      stages::StereoRelaxation stage(context, rig.left.width, rig.left.height, config, variants);
+      const auto candidates = upload(context, lists);
+      stages::DeviceClusters device_clusters;
+      device_clusters.stride = candidates.capacity;
+      device_clusters.packed.write(context, packed);
+      device_clusters.count.write(context, counts);
+      stages::DeviceRelaxation found;
+      stages::CoarseDisparity coarse(context, variants, kMaxValue8);
+      if (coarse_disparity)
+        coarse.run(upload(context, views.first), upload(context, views.second), coarse_disparity->search);
+      const stages::CoarseDisparity* const asked = coarse_disparity ? &coarse : nullptr;
+      stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
+      const auto belief = found.belief.read(clusters.position.size());
+      const auto chosen = found.chosen.read(rows);
+      const auto score = found.score.read(rows);
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < rows; ++i) {
+        bool same = chosen[i] == truth.chosen[i] && std::abs(static_cast<double>(score[i]) - truth.score[i]) < 1e-3;
+        for (auto k = static_cast<std::size_t>(clusters.first[i]); k < static_cast<std::size_t>(clusters.first[i + 1]);
+             ++k)
+          same = same && std::abs(static_cast<double>(belief[k]) - truth.belief[k]) < 1e-3;
+        different += same ? 0 : 1;
+      }
+      CHECK(different <= band);
+      CHECK(found.host_tally.edges == truth.tally.edges);
+      CHECK(std::abs(found.host_tally.undecided - truth.tally.undecided) <= static_cast<int>(band));
+      stage.run(upload(context, left), geometry, candidates, device_clusters, found, asked);
+      CHECK(found.belief.read(clusters.position.size()) == belief);
+      CHECK(found.chosen.read(rows) == chosen);
+      CHECK(found.score.read(rows) == score);
+    });
   }
 };
 

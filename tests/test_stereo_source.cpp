@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <functional>
 
 #include "data/find_sequences.hpp"
 #include "own_camera.hpp"
@@ -193,40 +194,26 @@ TEST_CASE("own camera: images of both folders are paired by time, and those alon
 }
 
 TEST_CASE("own camera: missing and contradictory options are reported", "[data]") {
-  StereoSource source = recording().folders();
-  source.fps = 0;
-  CHECK_THAT(complaint(source), Contains("9.png") && Contains("--fps"));
-  source = recording().folders();
-  source.right.clear();
-  CHECK_THAT(complaint(source), Contains("--left and --right go together"));
-  source = recording().folders();
-  source.calibration.clear();
-  CHECK_THAT(complaint(source), Contains("with --calibration FILE"));
-  source = recording().folders();
-  source.video = recording().file("both.mkv");
-  CHECK_THAT(complaint(source), Contains("expected one of"));
-  source = recording().folders();
-  source.split = "left-right";
-  CHECK_THAT(complaint(source), Contains("--split is for"));
-  source = recording().one_video();
-  source.split.clear();
-  CHECK_THAT(complaint(source), Contains("--split left-right"));
-  source.split = "sideways";
-  CHECK_THAT(complaint(source), Contains("sideways"));
-  source.split = "top-bottom";  // 640 x 100 views, unlike the calibration
-  CHECK_THAT(complaint(source), Contains("640 x 100") && Contains("320 x 200"));
-  source = recording().folders();
-  source.left = "n\xc3\xb6";
-  CHECK_THAT(complaint(source), Contains("n\xc3\xb6: found no such file or folder") && Contains("folder of images"));
-  source = recording().folders();
-  source.right = recording().file("right.mkv");
-  CHECK_THAT(complaint(source), Contains("right.mkv: found a file, expected a folder"));
-  source = recording().folders();
-  source.tolerance_ms = -1;
-  CHECK_THAT(complaint(source), Contains("--tolerance"));
-  source = recording().folders();
-  source.live = true;
-  CHECK_THAT(complaint(source), Contains("--live"));
+  const auto complaint_of = [](StereoSource source, const std::function<void(StereoSource&)>& change) {
+    change(source);
+    return complaint(source);
+  };
+  const StereoSource folders = recording().folders(), video = recording().one_video();
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.fps = 0; }), Contains("9.png") && Contains("--fps"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.right.clear(); }), Contains("--left and --right go together"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.calibration.clear(); }), Contains("with --calibration FILE"));
+  CHECK_THAT(complaint_of(folders, [&](auto& s) { s.video = video.video; }), Contains("expected one of"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.split = "left-right"; }), Contains("--split is for"));
+  CHECK_THAT(complaint_of(video, [](auto& s) { s.split.clear(); }), Contains("--split left-right"));
+  CHECK_THAT(complaint_of(video, [](auto& s) { s.split = "sideways"; }), Contains("sideways"));
+  CHECK_THAT(complaint_of(video, [](auto& s) { s.split = "top-bottom"; }),  // unlike the calibration
+             Contains("640 x 100") && Contains("320 x 200"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.left = "n\xc3\xb6"; }),
+             Contains("n\xc3\xb6: found no such file or folder") && Contains("folder of images"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.right = recording().file("right.mkv"); }),
+             Contains("right.mkv: found a file, expected a folder"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.tolerance_ms = -1; }), Contains("--tolerance"));
+  CHECK_THAT(complaint_of(folders, [](auto& s) { s.live = true; }), Contains("--live"));
   StereoSource pipe;
   pipe.pipe = true;
   pipe.calibration = recording().file("rig.yaml");

@@ -153,28 +153,21 @@ TEST_CASE("a synthetic sequence has the same bytes every time, on any number of 
   }
 }
 
-TEST_CASE("the synthetic camera starts at the identity and moves smoothly", "[synthetic]") {
+TEST_CASE("the ellipse moves by 1 to 4 cm per frame in all six degrees of freedom", "[synthetic]") {
   SyntheticOptions options = small_options("room");
   options.frames = 1500;
   const SyntheticSequence sequence(options);
   CHECK(sequence.frames() == 1500);
   CHECK(sequence.stamp_ns(0) == 0);
   CHECK(sequence.stamp_ns(1499) == 74'950'000'000);
-  CHECK(sequence.world_from_left(0).matrix() == Eigen::Matrix4d::Identity());
 
-  Vector3d last_step = Vector3d::Zero();
   Vector3d sway = Vector3d::Zero(), travel = Vector3d::Zero();
   for (int frame = 1; frame < options.frames; ++frame) {
-    const Isometry3d before = sequence.world_from_left(frame - 1), now = sequence.world_from_left(frame);
-    const Isometry3d step = before.inverse() * now;
+    const Isometry3d now = sequence.world_from_left(frame), step = sequence.world_from_left(frame - 1).inverse() * now;
     const Eigen::AngleAxisd turn(step.linear());
-    REQUIRE((now.linear().transpose() * now.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
     REQUIRE(step.translation().norm() >= 0.01);
     REQUIRE(step.translation().norm() <= 0.04);
     REQUIRE(turn.angle() <= 1.0 * M_PI / 180.0);
-    const Vector3d moved = now.translation() - before.translation();
-    if (frame > 1) REQUIRE((moved - last_step).norm() < 0.003);
-    last_step = moved;
     REQUIRE(now.translation().norm() < 0.7);
     sway = sway.cwiseMax((turn.angle() * turn.axis()).cwiseAbs());
     travel = travel.cwiseMax(now.translation().cwiseAbs());
@@ -251,23 +244,6 @@ TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]
     const double displaced = photometry(a, b, camera, quiet.rig().right_from_left, {1.0, 0.0}).median_difference;
     CAPTURE(aligned, displaced);
     CHECK(aligned < 0.5 * displaced);
-  }
-}
-
-TEST_CASE("no visible surface exceeds the synthetic sequence's largest disparity", "[long][synthetic]") {
-  for (const std::string& scene : synthetic_scenes()) {
-    SyntheticOptions options = small_options(scene);
-    options.frames = 1000;
-    options.supersampling = 1;
-    const SyntheticSequence sequence(options);
-    double nearest = 1e9;
-    for (int frame = 0; frame < options.frames; frame += 29)
-      for (float depth : sequence.render(frame, kSides[frame % 2]).depth) nearest = std::min<double>(nearest, depth);
-    REQUIRE(nearest > 0.0);  // every ray hits something
-    const double largest = options.focal * options.baseline / nearest;
-    CAPTURE(scene, largest);
-    CHECK(largest <= sequence.rig().max_disparity);
-    CHECK(largest > 0.6 * (sequence.rig().max_disparity - 1.0));
   }
 }
 

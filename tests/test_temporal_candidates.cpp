@@ -62,22 +62,20 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
   const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius),
                                                     static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
-  for_each_variant(
-      "temporal_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-        INFO(name);
-        stages::DevicePositions device_current, device_predicted;
-        device_current.write(context, {current});
-        stages::DevicePointIndex device_index(kRowWidth, height), other(kRowWidth, height);
-        stages::PointIndex(context, variants).run(device_current.list(), device_current.list(), device_index, other);
-        device_predicted.write(context, {predicted});
-        stages::TemporalCandidates stage(context, variants);
-        stages::DeviceCandidates lists;
-        stage.run(device_predicted.list(), step, device_index, static_cast<float>(radius),
-                  static_cast<float>(orientation), lists);
-        check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
-                    lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current, radius,
-                    orientation, step);
-      });
+  for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants) {
+    stages::DevicePositions device_current, device_predicted;
+    device_current.write(context, {current});
+    stages::DevicePointIndex device_index(kRowWidth, height), other(kRowWidth, height);
+    stages::PointIndex(context, variants).run(device_current.list(), device_current.list(), device_index, other);
+    device_predicted.write(context, {predicted});
+    stages::TemporalCandidates stage(context, variants);
+    stages::DeviceCandidates lists;
+    stage.run(device_predicted.list(), step, device_index, static_cast<float>(radius), static_cast<float>(orientation),
+              lists);
+    check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
+                lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current, radius, orientation,
+                step);
+  });
   return certain;
 }
 

@@ -103,25 +103,23 @@ struct TemporalScene {
   }
   /// Runs every variant except the lists on every device.
   void on_devices(const std::function<void(const std::optional<TemporalMatches>&)>& check) const {
-    for_each_variant(
-        "temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-          stages::TemporalMatch stage(context, config, variants);
-          if (!stage.serves(search)) return;
-          INFO(name);
-          stages::DeviceStereoEdges device_base, device_current;
-          upload_rig(context, base, base_left, base_right, device_base);
-          upload_rig(context, current, left, right, device_current);
-          stages::DevicePositions edges;
-          edges.write(context, {current.positions(Side::left), current.positions(Side::right)});
-          stages::DevicePointIndex left_index(kImageWidth, kImageHeight), right_index(kImageWidth, kImageHeight);
-          stages::PointIndex(context, variants).run(edges.list(0), edges.list(1), left_index, right_index);
-          stages::DevicePositions predicted;
-          predicted.write(context, {search.left, search.right});
-          TemporalMatches quads;
-          const bool fits =
-              stage.run(predicted, search, device_base, device_current, left_index, right_index, current, quads);
-          check(fits ? std::optional(quads) : std::nullopt);
-        });
+    for_each_variant("temporal_match", [&](opencl::Context& context, const Variants& variants) {
+      stages::TemporalMatch stage(context, config, variants);
+      if (!stage.serves(search)) return;
+      stages::DeviceStereoEdges device_base, device_current;
+      upload_rig(context, base, base_left, base_right, device_base);
+      upload_rig(context, current, left, right, device_current);
+      stages::DevicePositions edges;
+      edges.write(context, {current.positions(Side::left), current.positions(Side::right)});
+      stages::DevicePointIndex left_index(kImageWidth, kImageHeight), right_index(kImageWidth, kImageHeight);
+      stages::PointIndex(context, variants).run(edges.list(0), edges.list(1), left_index, right_index);
+      stages::DevicePositions predicted;
+      predicted.write(context, {search.left, search.right});
+      TemporalMatches quads;
+      const bool fits =
+          stage.run(predicted, search, device_base, device_current, left_index, right_index, current, quads);
+      check(fits ? std::optional(quads) : std::nullopt);
+    });
   }
   std::size_t compare_devices() const {
     const auto truth = expected();

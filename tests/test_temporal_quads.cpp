@@ -65,32 +65,30 @@ struct QuadScene {
   /// Checks that every device and variant finds the same quads bit for bit.
   void compare_devices() const {
     const auto truth = match();
-    for_each_variant("temporal_quads",
-                     [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-                       INFO(name);
-                       stages::DeviceStereoEdges device_edges;
-                       device_edges.count = device_edges.stride = static_cast<int>(current.size());
-                       std::vector<float> packed;
-                       for (const auto* block : {&current.left_x, &current.left_y, &current.left_direction,
-                                                 &current.right_x, &current.right_y, &current.right_direction}) {
-                         packed.insert(packed.end(), block->begin(), block->end());
-                       }
-                       device_edges.packed.write(context, packed);
-                       stages::DevicePositions predicted;
-                       predicted.write(context, {search.left});
-                       auto device_left = upload(context, left), device_right = upload(context, right);
-                       upload(context, left_scores, device_left);
-                       upload(context, right_scores, device_right);
-                       stages::TemporalQuads stage(context, config, variants);
-                       stage.agree(device_left, device_right);
-                       const auto found = stage.collect(device_edges, current, search, predicted.list(), device_left);
-                       CHECK(found.previous == truth.previous);
-                       CHECK(found.current == truth.current);
-                       CHECK(found.competing_clusters == truth.competing_clusters);
-                       CHECK(found.ncc == truth.ncc);
-                       CHECK(found.left_x == truth.left_x);
-                       CHECK(found.right_y == truth.right_y);
-                     });
+    for_each_variant("temporal_quads", [&](opencl::Context& context, const Variants& variants) {
+      stages::DeviceStereoEdges device_edges;
+      device_edges.count = device_edges.stride = static_cast<int>(current.size());
+      std::vector<float> packed;
+      for (const auto* block : {&current.left_x, &current.left_y, &current.left_direction, &current.right_x,
+                                &current.right_y, &current.right_direction}) {
+        packed.insert(packed.end(), block->begin(), block->end());
+      }
+      device_edges.packed.write(context, packed);
+      stages::DevicePositions predicted;
+      predicted.write(context, {search.left});
+      auto device_left = upload(context, left), device_right = upload(context, right);
+      upload(context, left_scores, device_left);
+      upload(context, right_scores, device_right);
+      stages::TemporalQuads stage(context, config, variants);
+      stage.agree(device_left, device_right);
+      const auto found = stage.collect(device_edges, current, search, predicted.list(), device_left);
+      CHECK(found.previous == truth.previous);
+      CHECK(found.current == truth.current);
+      CHECK(found.competing_clusters == truth.competing_clusters);
+      CHECK(found.ncc == truth.ncc);
+      CHECK(found.left_x == truth.left_x);
+      CHECK(found.right_y == truth.right_y);
+    });
   }
 };
 

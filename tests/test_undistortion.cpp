@@ -3,6 +3,7 @@
 #include "device/images.hpp"
 #include "device/variants.hpp"
 #include "devices.hpp"
+#include "edge_images.hpp"
 #include "geometry/undistortion.hpp"
 
 using namespace quadedge;
@@ -10,13 +11,9 @@ using namespace quadedge;
 namespace {
 
 Image pattern(int width, int height, int max_value = kMaxValue8) {
-  Image image(width, height, max_value);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image.set(x, y, (x * 37 + y * 101 + x * y * 5) * (max_value / kMaxValue8) % (max_value + 1));
-    }
-  }
-  return image;
+  return filled_image(width, height, max_value, [=](int x, int y) {
+    return (x * 37 + y * 101 + x * y * 5) * (max_value / kMaxValue8) % (max_value + 1);
+  });
 }
 
 /// A table that shifts by (dx, dy) and extends beyond the border.
@@ -46,26 +43,21 @@ TEST_CASE("undistortion: whole-pixel shifts copy pixels and replicate the border
 }
 
 TEST_CASE("undistortion: every device and variant equals the reference exactly", "[undistortion][device][oclgrind]") {
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage != "undistortion") continue;
-      for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
-        for (const int max_value : {255, 4095, 65535}) {
-          const Image image = pattern(width + 2, height + 3, max_value);
-          for (const auto& [dx, dy] : {std::pair{0.37f, 1.61f}, {-3.25f, 4.8f}}) {  // the second leaves the image
-            const auto table = shift_table(width, height, dx, dy);
-            stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}},
-                                       max_value);
-            opencl::Buffer<cl_uchar> result;
-            stage.run(image.view(), result);
-            const Image expected = undistort(image.view(), table);
-            CHECK(result.read(expected.pixels.size()) == expected.pixels);
-          }
+  for_each_variant("undistortion", [](opencl::Context& context, const Variants& variants) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
+      for (const int max_value : {255, 4095, 65535}) {
+        const Image image = pattern(width + 2, height + 3, max_value);
+        for (const auto& [dx, dy] : {std::pair{0.37f, 1.61f}, {-3.25f, 4.8f}}) {  // the second leaves the image
+          const auto table = shift_table(width, height, dx, dy);
+          stages::Undistortion stage(context, table, width, height, variants, max_value);
+          opencl::Buffer<cl_uchar> result;
+          stage.run(image.view(), result);
+          const Image expected = undistort(image.view(), table);
+          CHECK(result.read(expected.pixels.size()) == expected.pixels);
         }
       }
     }
-  }
+  });
 }
 
 TEST_CASE("undistortion: a reduced pixel is the mean of four positions half a pixel apart, also at the border",

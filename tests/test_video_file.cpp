@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include "data/video_file.hpp"
+#include "edge_images.hpp"
 #include "own_camera.hpp"
 #include "quadedge/error.hpp"
 
@@ -17,10 +18,8 @@ namespace {
 
 /// Images that differ from one another in every pixel, at any bit depth.
 Image picture(int number, int width = 48, int height = 32, int max_value = 255) {
-  Image image(width, height, max_value);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) image.set(x, y, (37 * number + 5 * x + 11 * y + x * y) % (max_value + 1));
-  return image;
+  return filled_image(width, height, max_value,
+                      [=](int x, int y) { return (37 * number + 5 * x + 11 * y + x * y) % (max_value + 1); });
 }
 
 std::string stream(int first, int count, int width = 48, int height = 32, int max_value = 255) {

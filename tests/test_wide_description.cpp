@@ -96,34 +96,33 @@ TEST_CASE("wide description: every device and variant equals the reference exact
     const Image image = waves(width, height);
     const auto edges = stereo_edges(random_edges(width, height, count, 6, 12));
     const auto expected = reference::wide_descriptions(reference::shrink(image.view()), edges, step);
-    for_each_variant(
-        "wide_description", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-          CAPTURE(name, width, height, step);
-          stages::WideDescription stage(context, width, height, variants);
-          opencl::Buffer<cl_uchar> pixels, descriptors;
-          opencl::Buffer<cl_float> small;
-          pixels.write(context, image.pixels);
-          stage.prepare(pixels, small);
-          stages::DeviceStereoEdges device_edges;
-          device_edges.count = count;
-          device_edges.stride = count + 3;
-          const auto stride = static_cast<std::size_t>(device_edges.stride);
-          std::vector<float> packed(6 * stride, 0.0f);
-          std::copy(edges.left_x.begin(), edges.left_x.end(), packed.begin());
-          std::copy(edges.left_y.begin(), edges.left_y.end(), packed.begin() + device_edges.stride);
-          std::copy(edges.left_direction.begin(), edges.left_direction.end(), packed.begin() + 2 * device_edges.stride);
-          device_edges.packed.write(context, packed);
-          const int rows = stage.describe(small, device_edges, step, descriptors);
-          REQUIRE(static_cast<std::size_t>(rows) * kWideBytes == expected.size());
-          const auto found = descriptors.read(expected.size());
-          int worst = 0;
-          std::size_t equal = 0;
-          for (std::size_t k = 0; k < expected.size(); ++k) {
-            worst = std::max(worst, std::abs(found[k] - expected[k]));
-            equal += found[k] == expected[k] ? 1 : 0;
-          }
-          CHECK(worst <= 1);
-          CHECK(equal > expected.size() * 98 / 100);
-        });
+    for_each_variant("wide_description", [&](opencl::Context& context, const Variants& variants) {
+      CAPTURE(width, height, step);
+      stages::WideDescription stage(context, width, height, variants);
+      opencl::Buffer<cl_uchar> pixels, descriptors;
+      opencl::Buffer<cl_float> small;
+      pixels.write(context, image.pixels);
+      stage.prepare(pixels, small);
+      stages::DeviceStereoEdges device_edges;
+      device_edges.count = count;
+      device_edges.stride = count + 3;
+      const auto stride = static_cast<std::size_t>(device_edges.stride);
+      std::vector<float> packed(6 * stride, 0.0f);
+      std::copy(edges.left_x.begin(), edges.left_x.end(), packed.begin());
+      std::copy(edges.left_y.begin(), edges.left_y.end(), packed.begin() + device_edges.stride);
+      std::copy(edges.left_direction.begin(), edges.left_direction.end(), packed.begin() + 2 * device_edges.stride);
+      device_edges.packed.write(context, packed);
+      const int rows = stage.describe(small, device_edges, step, descriptors);
+      REQUIRE(static_cast<std::size_t>(rows) * kWideBytes == expected.size());
+      const auto found = descriptors.read(expected.size());
+      int worst = 0;
+      std::size_t equal = 0;
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        worst = std::max(worst, std::abs(found[k] - expected[k]));
+        equal += found[k] == expected[k] ? 1 : 0;
+      }
+      CHECK(worst <= 1);
+      CHECK(equal > expected.size() * 98 / 100);
+    });
   }
 }

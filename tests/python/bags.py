@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy
+import quadedge
+from rosbags.highlevel import AnyReader
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
@@ -63,13 +65,47 @@ class BagWriter:
         self.write(topic, "sensor_msgs/msg/CompressedImage", header=self.header(stamp_ns), format="png",
                    data=numpy.frombuffer(Path(file).read_bytes(), numpy.uint8))
 
-    def camera_info(self, topic: str, stamp_ns: int, camera, tx: float) -> None:
-        """Writes the camera_info of a rectified camera without distortion; tx: -fx baseline [px m]."""
-        k = camera.matrix.reshape(-1)
+    def camera_info(self, topic: str, stamp_ns: int, camera, tx: float, distortion=(0,) * 5, cy: float = 0.0) -> None:
+        """Writes the camera_info of a rectified camera; tx: -fx baseline [px m], cy: how far the recorded image's
+        principal point is below the rectified one's [px].
+        """
+        k = camera.matrix.copy()
+        k[1, 2] += cy
         p = numpy.hstack([camera.matrix, [[tx], [0], [0]]]).reshape(-1)
-        matrices = {"D": numpy.zeros(5), "K": k, "R": numpy.eye(3).reshape(-1), "P": p}
+        matrices = {"D": numpy.array(distortion, float), "K": k.reshape(-1), "R": numpy.eye(3).reshape(-1), "P": p}
         if not self.is1:
             matrices = {name.lower(): value for name, value in matrices.items()}
         region = self.store.types["sensor_msgs/msg/RegionOfInterest"](0, 0, 0, 0, False)
         self.write(topic, "sensor_msgs/msg/CameraInfo", header=self.header(stamp_ns), height=camera.height,
                    width=camera.width, distortion_model="plumb_bob", binning_x=0, binning_y=0, roi=region, **matrices)
+
+    def infos(self, rig, distortion=(0,) * 5, right_cy: float = 0.0) -> None:
+        """Writes the camera_info of both cameras."""
+        right_tx = -rig.right.fx * rig.baseline
+        self.camera_info("/stereo/left/camera_info", 1, rig.left, 0.0, distortion)
+        self.camera_info("/stereo/right/camera_info", 1, rig.right, right_tx, distortion, right_cy)
+
+    def pair(self, stamp_ns: int, left: numpy.ndarray, right: numpy.ndarray, encoding: str = "",
+             topic: str = "/stereo/{}/image_raw") -> None:
+        for side, pixels in (("left", left), ("right", right)):
+            self.image(topic.format(side), stamp_ns, pixels, encoding)
+
+
+def room_recording(path: Path, rig, frames, kind: str = "mcap", topic: str = "/stereo/{}/image_raw") -> Path:
+    """A recording of frames with camera_info, each a nanosecond late: a stamp of 0 counts as none."""
+    with BagWriter(path, kind) as bag:
+        bag.infos(rig)
+        for frame in frames:
+            bag.pair(frame.stamp_ns + 1, frame.left, frame.right, topic=topic)
+    return bag.path
+
+
+def messages_of(folder: Path) -> list:
+    with AnyReader([folder]) as reader:
+        return [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+
+
+def poses(source, frames, **options) -> list:
+    """The results of tracking frames; source: a rig or a data set."""
+    with quadedge.Odometry(source, **options) as odometry:
+        return [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in frames]

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -19,10 +20,26 @@ def program() -> Path:
 
 @pytest.fixture(scope="session")
 def command(program):
-    """A function that runs the program and returns the completed process."""
+    """A function that runs the program, which has to end with a code, and returns the completed process."""
 
-    def run(*arguments) -> subprocess.CompletedProcess:
-        return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    def run(*arguments, code: int = 0) -> subprocess.CompletedProcess:
+        done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+        assert done.returncode == code, done.stderr
+        return done
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def bag_command(program):
+    """The same for python -m quadedge.bag with the program on PATH."""
+    place = {**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}
+
+    def run(*arguments, code: int = 0, **options) -> subprocess.CompletedProcess:
+        call = [sys.executable, "-m", "quadedge.bag", *map(str, arguments)]
+        done = subprocess.run(call, **{"capture_output": True, "text": True, "env": place, **options})
+        assert done.returncode == code, done.stderr
+        return done
 
     return run
 
@@ -64,8 +81,7 @@ def boarded():
 def room_folder(command, tmp_path_factory) -> Path:
     """The same room as a recording on disk."""
     folder = tmp_path_factory.mktemp("room") / "room"
-    done = command("synth", folder, "--frames", 6, "--size", "320x200", "--quiet")
-    assert done.returncode == 0, done.stderr
+    command("synth", folder, "--frames", 6, "--size", "320x200", "--quiet")
     return folder
 
 
@@ -79,6 +95,15 @@ def flight_folder() -> Path:
     if not folder.is_dir():
         pytest.skip(f"{folder}: no such recording")
     return folder
+
+
+@pytest.fixture
+def robot(room):
+    """A robot in a domain of its own whose cameras see the room."""
+    from robot import Robot
+
+    with Robot(room.rig) as made:
+        yield made
 
 
 @pytest.fixture(scope="session")

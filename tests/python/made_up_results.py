@@ -34,6 +34,12 @@ def accuracy(translation: float, open_rotation: str = "") -> dict:
     return result | ({"se3_open_rotation": open_rotation} if open_rotation else {})
 
 
+def write_report(folder: Path, report: dict, **changes) -> dict:
+    """Writes a run's report.json with these keys changed; returns it."""
+    (folder / "report.json").write_text(json.dumps(report | changes))
+    return report | changes
+
+
 def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool = False, lost: int = -1,
               breaks: bool = False, errors: dict | None = None) -> dict:
     """Writes a run along a bent or nearly straight path whose estimate drifts sideways; returns its report.
@@ -77,9 +83,7 @@ def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool 
         report["segments_text"] = f"2 segments: an unknown motion lies between frames {lost - 1} and {lost + 1}"
         parts = [accuracy(0.02) | {"segment": 0}, accuracy(0.03) | {"segment": 1, "matched_poses": 1}]
         report["accuracy"] = report["accuracy"] | {"segments": parts}
-    report["segments"] = 1 + breaks
-    (folder / "report.json").write_text(json.dumps(report))
-    return report
+    return write_report(folder, report, segments=1 + breaks)
 
 
 def write_rig(folder: Path, rows_before: float) -> dict:
@@ -90,13 +94,11 @@ def write_rig(folder: Path, rows_before: float) -> dict:
     rows = [f"{i % 3},{i // 3},,,{-2 * rows_before if i == 0 else 0},0.01,99,0.02,0.02,99" for i in range(5)]
     (folder / "rig_maps.csv").write_text("column,row,x,y,rows_before,rows_after,rows_samples,columns_before,"
                                          "columns_after,columns_samples\n" + "\n".join([*rows, "2,1,,,,,3,,,3"]) + "\n")
-    report = json.loads((folder / "report.json").read_text())
-    report["rig"] = {"rows": {"before": found(rows_before), "after": found(0.01)},
-                     "columns": {"before": found(0.02), "after": found(0.02)}, "width": 600, "height": 400,
-                     "row_correction_px": 0, "disparity_offset": {"start": {"px": 0, "sigma_px": 0.3},
-                                                                  "end": {"px": -0.125, "sigma_px": 0.02}}}
-    (folder / "report.json").write_text(json.dumps(report))
-    return report
+    rig = {"rows": {"before": found(rows_before), "after": found(0.01)},
+           "columns": {"before": found(0.02), "after": found(0.02)}, "width": 600, "height": 400,
+           "row_correction_px": 0,
+           "disparity_offset": {"start": {"px": 0, "sigma_px": 0.3}, "end": {"px": -0.125, "sigma_px": 0.02}}}
+    return write_report(folder, json.loads((folder / "report.json").read_text()), rig=rig)
 
 
 def write_batch(folder: Path, names: list[str], frames: int = 12) -> dict:

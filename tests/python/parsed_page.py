@@ -1,9 +1,16 @@
-"""Parses a report page."""
+"""Makes report pages and parses them."""
 
 import base64
 import gzip
 import json
+import re
 from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from quadedge import report
+from quadedge.report.page import LARGEST_PAGE
 
 
 class ParsedPage(HTMLParser):
@@ -101,3 +108,24 @@ class ParsedPage(HTMLParser):
         """A plot's data and layout, by the end of its name."""
         number = next(i for i, plot in enumerate(self.plots) if plot.endswith(name))
         return self.figures[number]
+
+    def traces(self, figure: str) -> dict[str, dict]:
+        """A plot's curves by their names."""
+        return {trace["name"]: trace for trace in self.figure(figure)["data"]}
+
+
+def page_of(path: Path, **options) -> ParsedPage:
+    """The page of results, which loads nothing from elsewhere and shows no value that is none."""
+    text = report.make_page(path, **options).read_text(encoding="utf-8")
+    assert len(text.encode()) < LARGEST_PAGE
+    page = ParsedPage(text)
+    assert page.outside == []
+    assert all(re.fullmatch(r"file://.*/doc/[a-z0-9-]+\.md(#[a-z0-9-]+)?", link) for link in page.links)
+    assert "default-src 'none'" in text  # so that the browser refuses network access
+    assert not {"nan", "None", "NaN", "inf", "Undefined"} & set(page.text.split())
+    return page
+
+
+def save_picture(file: Path, width: int, height: int) -> None:
+    noise = np.random.default_rng(1).integers(0, 255, (height, width, 3), dtype=np.uint8)
+    Image.fromarray(noise).save(file)

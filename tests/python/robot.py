@@ -9,10 +9,14 @@ import time
 
 import numpy
 
+import quadedge
 from quadedge.bag.calibration import rig_of
+from quadedge.estimates import of_base
+from quadedge.result_files import rotations
 from quadedge.ros2.domain import Domain
-from quadedge.ros_messages import header, message_store, stamp_ns
+from quadedge.ros_messages import BODY_FROM_OPTICAL, UNKNOWN, header, message_store, quaternion, stamp_ns
 
+SECOND = 1_000_000_000
 LEFT, RIGHT = "/stereo/left", "/stereo/right"
 OUT = {"/quadedge/odometry": "nav_msgs/msg/Odometry", "/tf": "tf2_msgs/msg/TFMessage",
        "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray", "/quadedge/edges": "sensor_msgs/msg/PointCloud2"}
@@ -35,8 +39,41 @@ def info_message(stamp: int, camera, tx: float):
         numpy.eye(3).reshape(-1), p.reshape(-1), 0, 0, types["sensor_msgs/msg/RegionOfInterest"](0, 0, 0, 0, False))
 
 
+def tracked(rig, frames, stamps, **options) -> list:
+    """The results of the same frames without topics."""
+    with quadedge.Odometry(rig, preset="fast", **options) as odometry:
+        return [odometry.track(stamp, frame.left, frame.right) for stamp, frame in zip(stamps, frames)]
+
+
+def pose_of(message) -> list[float]:
+    """Position and quaternion x y z w of an Odometry or a PoseWithCovarianceStamped."""
+    position, turn = message.pose.pose.position, message.pose.pose.orientation
+    return [position.x, position.y, position.z, turn.x, turn.y, turn.z, turn.w]
+
+
+def expected_pose(result) -> list[float]:
+    """The same of a result, without another mount of the camera."""
+    pose, _ = of_base(result.world_from_left, None, BODY_FROM_OPTICAL)
+    return [*pose[:3, 3], *quaternion(pose[:3, :3])]
+
+
+def pose_of_transform(message) -> numpy.ndarray:
+    shift, turn = message.transform.translation, message.transform.rotation
+    pose = numpy.eye(4)
+    pose[:3, :3] = rotations(numpy.array([[turn.x, turn.y, turn.z, turn.w]]))[0]
+    pose[:3, 3] = shift.x, shift.y, shift.z
+    return pose
+
+
+def is_unknown(part) -> bool:
+    """Whether the covariance of a pose or a twist says so."""
+    return numpy.array_equal(part.covariance.reshape(6, 6), UNKNOWN)
+
+
 class Robot:
-    """Publishes frames of a rig and keeps what QuadEdge publishes, by topic. rig: None without camera_info."""
+    """Publishes frames of a rig and keeps what QuadEdge publishes, by topic. rig: None without camera_info. Use as a
+    context manager.
+    """
 
     def __init__(self, rig=None, listens: bool = True):
         self.number = next(_numbers)
@@ -49,13 +86,23 @@ class Robot:
         self._subscriptions = {topic: self.domain.subscribe(topic, kind, reliable=True, depth=1000)
                                for topic, kind in OUT.items()}
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if hasattr(self, "process") and self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+
     def start(self, folder, *options: object) -> None:
-        """Starts QuadEdge and waits until it has subscribed."""
+        """Starts QuadEdge and waits until it has subscribed to the images."""
         self._words = folder / "stderr.txt"
         environment = {**os.environ, "ROS_DOMAIN_ID": str(self.number), "ROS_LOCALHOST_ONLY": "1"}
         call = [sys.executable, "-m", "quadedge.ros2", "--preset", "fast", *map(str, options)]
         with self._words.open("wb") as words:
             self.process = subprocess.Popen(call, env=environment, stderr=words)
+        if self.images:
+            self.said(f"left {LEFT}/image_raw, right {RIGHT}/image_raw")
 
     @property
     def words(self) -> str:
@@ -122,14 +169,14 @@ class Robot:
         status = self.heard["/diagnostics"][-1].status[0]
         return {pair.key: pair.value for pair in status.values} | {"level": status.level, "message": status.message}
 
+    def diagnosed(self, level: int, text: str) -> bool:
+        """Whether diagnostics of this level had this text in their message."""
+        return any(message.status[0].level == level and text in message.status[0].message
+                   for message in self.heard["/diagnostics"])
+
     def end(self) -> float:
         """Interrupts QuadEdge. Returns the seconds that it took to end."""
         start = time.monotonic()
         self.process.send_signal(signal.SIGINT)
         assert self.process.wait(30) == 0, self.words
         return time.monotonic() - start
-
-    def close(self) -> None:
-        if hasattr(self, "process") and self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()

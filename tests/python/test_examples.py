@@ -33,15 +33,10 @@ def test_own_images(flight_folder, tmp_path):
 
 def test_bag(room, frames, tmp_path):
     pytest.importorskip("rosbags", reason="rosbags is not installed: the example cannot be run")
-    from bags import BagWriter
+    from bags import room_recording
 
-    with BagWriter(tmp_path / "room", "ros2") as bag:
-        bag.camera_info("/left/camera_info", 1, room.rig.left, 0.0)
-        bag.camera_info("/right/camera_info", 1, room.rig.right, -room.rig.right.fx * room.rig.baseline)
-        for frame in frames[:3]:
-            bag.image("/left/image_raw", frame.stamp_ns + 1, frame.left)
-            bag.image("/right/image_raw", frame.stamp_ns + 1, frame.right)
-    printed = run("02_bag.py", bag.path, tmp_path / "odometry", folder=tmp_path)
+    path = room_recording(tmp_path / "room", room.rig, frames[:3], "ros2")
+    printed = run("02_bag.py", path, tmp_path / "odometry", folder=tmp_path)
     assert "3 of 3 tracked" in printed and list((tmp_path / "odometry").glob("*.mcap"))
 
 

@@ -198,7 +198,7 @@ def test_many_errors_of_ffmpeg_stop_no_camera(side_by_side, tmp_path, monkeypatc
 
 def test_result_files_are_those_of_a_run(command, room_folder, tmp_path):
     ran, own = tmp_path / "ran", tmp_path / "own"
-    assert command("run", room_folder, "-o", ran, "--preset", "fast", "--quiet").returncode == 0
+    command("run", room_folder, "-o", ran, "--preset", "fast", "--quiet")
     dataset = quadedge.open_dataset(room_folder)
     with quadedge.Odometry(dataset, preset="fast") as odometry:
         files = quadedge.ResultFiles(own, odometry, "room", "a test")

@@ -105,8 +105,7 @@ def test_invalid_maps_and_images_are_refused(walk, saved, tmp_path):
 
 
 def test_cameras_with_lens_distortion_have_to_be_given(command, tmp_path):
-    done = command("synth", tmp_path / "room", "--frames", 1, "--size", "320x200", "--lens", "radtan", "--quiet")
-    assert done.returncode == 0, done.stderr
+    command("synth", tmp_path / "room", "--frames", 1, "--size", "320x200", "--lens", "radtan", "--quiet")
     room = quadedge.open_dataset(tmp_path / "room")
     with quadedge.Odometry(room, loops=True) as odometry:
         frame = next(iter(room))

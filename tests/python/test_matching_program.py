@@ -15,9 +15,12 @@ from quadedge.matching.sources import RenderedSource
 SMALL = ("--size", "320x200", "--quiet")
 
 
-def evaluate(*arguments, **environment):
-    return subprocess.run([sys.executable, "-m", "quadedge.matching", *map(str, arguments)], capture_output=True,
+def evaluate(*arguments, code: int = 0, **environment) -> subprocess.CompletedProcess:
+    """Runs python -m quadedge.matching, which has to end with a code."""
+    done = subprocess.run([sys.executable, "-m", "quadedge.matching", *map(str, arguments)], capture_output=True,
                           text=True, env=os.environ | environment)
+    assert done.returncode == code, done.stderr
+    return done
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +29,6 @@ def evaluated(tmp_path_factory):
     folder = tmp_path_factory.mktemp("matching")
     outputs = ("--html", folder / "m.html", "--csv", folder / "csv", "--latex", folder / "tex")
     done = evaluate("room", "--frames", 3, *SMALL, *outputs)
-    assert done.returncode == 0, done.stderr
     return done, folder, json.loads((folder / "m.json").read_text())
 
 
@@ -71,19 +73,17 @@ def test_most_final_edges_are_true_and_tables_begin_with_every_edge(evaluated):
 
 def test_files_are_not_replaced_without_force(evaluated, tmp_path):
     folder = evaluated[1]
-    done = evaluate("room", "--frames", 1, *SMALL, "--html", folder / "m.html")
-    assert done.returncode == 2 and "m.json exists; use --force to replace it" in done.stderr
-    done = evaluate("room", *SMALL, "--html", tmp_path / "m.json")
-    assert done.returncode == 2 and "expected a name ending in .html" in done.stderr
+    done = evaluate("room", "--frames", 1, *SMALL, "--html", folder / "m.html", code=2)
+    assert "m.json exists; use --force to replace it" in done.stderr
+    done = evaluate("room", *SMALL, "--html", tmp_path / "m.json", code=2)
+    assert "expected a name ending in .html" in done.stderr
 
 
 def test_a_recording_gives_what_its_scene_gives(evaluated, command, tmp_path):
-    done = command("synth", tmp_path / "room", "--frames", 2, "--size", "320x200", "--quiet")
-    assert done.returncode == 0, done.stderr
+    command("synth", tmp_path / "room", "--frames", 2, "--size", "320x200", "--quiet")
     for name in ("rgb", "depth"):
         (tmp_path / "damaged" / name).mkdir(parents=True)
     done = evaluate(tmp_path, "--quiet", "--json", tmp_path / "m.json", "--stereo.max_disparity", 60)
-    assert done.returncode == 0, done.stderr
     content = json.loads((tmp_path / "m.json").read_text())
     assert [pair["name"] for pair in content["pairs"]] == ["room"] and "warning: skipped: " in done.stderr
     # Depths of both files are the rendered ones; only the noise of the poses' text differs.
@@ -106,15 +106,13 @@ def test_a_stricter_threshold_keeps_less_and_constants_are_checked():
                            (("--frames", "-1"), "--frames -1: expected 0 or more"),
                            (("--tolerance", "0"), "--tolerance: expected more than 0"),
                            (("--size", "320"), "--size 320: expected WIDTHxHEIGHT")):
-        done = evaluate("room", *words)
-        assert done.returncode == 2 and message in done.stderr, done.stderr
+        assert message in evaluate("room", *words, code=2).stderr
 
 
 def test_options_and_files_set_constants(tmp_path):
     (tmp_path / "c.toml").write_text("stereo.ncc_min = 0.6\nedges.budget = 900\n")
-    done = evaluate("room", "--frames", 1, *SMALL, "--config", tmp_path / "c.toml", "--stereo.ncc_min=0.7",
-                    "--json", tmp_path / "m.json", QUADEDGE_DEVICE="cpu")
-    assert done.returncode == 0, done.stderr
+    evaluate("room", "--frames", 1, *SMALL, "--config", tmp_path / "c.toml", "--stereo.ncc_min=0.7",
+             "--json", tmp_path / "m.json", QUADEDGE_DEVICE="cpu")
     content = json.loads((tmp_path / "m.json").read_text())
     assert content["config_changed"] == {"edges.budget": "900", "stereo.ncc_min": "0.7"}
     assert content["config"]["edges"]["budget"] == 900

@@ -7,7 +7,6 @@ import subprocess
 import sys
 
 import pytest
-from conftest import REPOSITORY
 
 _WRITES = """
 import locale, pathlib, sys
@@ -101,18 +100,3 @@ def test_python_ends_while_a_thread_tracks():
     for number in range(4):
         done = run(_ENDS.replace("{number}", str(number)))
         assert done.returncode == 0, f"{done.returncode}: {done.stderr}"
-
-
-def test_the_lint_finds_what_depends_on_the_locale():
-    sys.path.insert(0, str(REPOSITORY / "tests"))
-    try:
-        from lint_locale import findings
-    finally:
-        sys.path.pop(0)
-    for bad in ('std::snprintf(text, 9, "%.3f", x);', "return std::atof(word);", "std::snprintf(text, 9, format, x);",
-                "std::ostringstream text;\n  text << 1.5;", 'std::sscanf(line, "%d %lf", &i, &x);'):
-        assert len(findings(bad)) == 1, bad
-    for good in ('std::snprintf(text, 9, "%06d", i);', "std::strtol(word, &end, 10);", 'printed("%.3f", x);',
-                 "std::ostringstream text;\n  text.imbue(std::locale::classic());",
-                 "std::istringstream lines(text);\n  std::getline(lines, line);"):
-        assert findings(good) == [], good

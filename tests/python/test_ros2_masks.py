@@ -10,13 +10,12 @@ pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: quadedge.
 pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.ros2 cannot be tested")
 
 import quadedge  # noqa: E402
-from quadedge.estimates import of_base  # noqa: E402
 from quadedge.ros2.masks import Masks, MaskTopic  # noqa: E402
 from quadedge.ros2.pairs import LEFT, RIGHT, PairQueue  # noqa: E402
-from quadedge.ros_messages import BODY_FROM_OPTICAL, stamp_ns  # noqa: E402
-from robot import Robot, image_message  # noqa: E402
+from quadedge.ros_messages import stamp_ns  # noqa: E402
+from robot import SECOND, Robot, expected_pose, image_message, pose_of  # noqa: E402
 
-SECOND, STEP = 1_000_000_000, 50_000_000
+STEP = 50_000_000
 TOPICS = ("/people/left/image", "/people/right/image")  # which would pass for another pair of cameras
 OPTIONS = ("--left-mask", TOPICS[0], "--right-mask", TOPICS[1])
 
@@ -35,10 +34,9 @@ def walk():
 
 @pytest.fixture
 def robot(walk):
-    made = Robot(walk[3])
-    made.masks = [made.domain.advertise(topic, "sensor_msgs/msg/Image") for topic in TOPICS]
-    yield made
-    made.close()
+    with Robot(walk[3]) as made:
+        made.masks = [made.domain.advertise(topic, "sensor_msgs/msg/Image") for topic in TOPICS]
+        yield made
 
 
 def send_masks(robot, stamp: int, masks, encoding: str = "mono8") -> None:
@@ -47,13 +45,9 @@ def send_masks(robot, stamp: int, masks, encoding: str = "mono8") -> None:
             publisher.publish(image_message(stamp, mask, encoding))
 
 
-def position(message) -> list[float]:
-    point = message.pose.pose.position
-    return [point.x, point.y, point.z]
-
-
-def positions(results) -> list[list[float]]:
-    return [list(of_base(result.world_from_left, None, BODY_FROM_OPTICAL)[0][:3, 3]) for result in results]
+def assert_positions(robot, results) -> None:
+    """The published positions are those of these results."""
+    assert [pose_of(message)[:3] for message in robot.poses().values()] == [expected_pose(one)[:3] for one in results]
 
 
 def tracked(robot, walk, masks) -> list:
@@ -83,10 +77,9 @@ def play(robot, walk, masks, first: int = 0) -> None:
 def test_somebody_who_fills_half_of_the_view_is_masked(robot, walk, tmp_path):
     _, masks, truth, _ = walk
     robot.start(tmp_path, *OPTIONS, "--mask-wait", 20000)
-    robot.said("left /stereo/left/image_raw, right /stereo/right/image_raw")
     play(robot, walk, masks)
     expected = tracked(robot, walk, masks)
-    assert [position(message) for message in robot.poses().values()] == positions(expected)
+    assert_positions(robot, expected)
     assert max(numpy.linalg.norm(result.world_from_left[:3, 3] - true)
                for result, true in zip(expected, truth - truth[0])) < 0.01
     without = tracked(robot, walk, [(None, None)] * len(masks))
@@ -97,9 +90,8 @@ def test_somebody_who_fills_half_of_the_view_is_masked(robot, walk, tmp_path):
 
 
 def test_a_mask_that_comes_late(robot, walk, tmp_path):
-    frames, masks, _, _ = walk
+    masks = walk[1]
     robot.start(tmp_path, *OPTIONS[:2], "--mask-wait", 50)
-    robot.said("left /stereo/left/image_raw")
     play(robot, walk, [(None, None)])  # its pose comes without a mask
     send_masks(robot, SECOND, [masks[0][LEFT]])
     robot.said(f"warning: pairs are tracked without a mask of {TOPICS[0]}: ")
@@ -111,22 +103,19 @@ def test_a_mask_that_comes_late(robot, walk, tmp_path):
 
     robot.until(is_late, "a late mask")
     assert robot.diagnostics()["pairs without a left mask"] == "1"
-    assert any(message.status[0].level == 1 and TOPICS[0] in message.status[0].message
-               for message in robot.heard["/diagnostics"])
+    assert robot.diagnosed(1, TOPICS[0])
     for _ in range(5):  # one that comes before its images is kept for them
         send_masks(robot, SECOND + STEP, [masks[1][LEFT]])
         robot.listen(0.2)
     play(robot, walk, [(None, None)], first=1)
     robot.until(lambda: robot.diagnostics()["pairs tracked"] == "2", "diagnostics")
     assert robot.diagnostics()["pairs without a left mask"] == "1"
-    expected = tracked(robot, walk, [(None, None), (masks[1][LEFT], None)])
-    assert [position(message) for message in robot.poses().values()] == positions(expected)
+    assert_positions(robot, tracked(robot, walk, [(None, None), (masks[1][LEFT], None)]))
 
 
 def test_masks_of_another_size_or_encoding_are_named_and_left_out(robot, walk, tmp_path):
     masks = walk[1]
     robot.start(tmp_path, *OPTIONS, "--mask-wait", 20000)
-    robot.said("left /stereo/left/image_raw")
     small = (masks[0][LEFT][:199], masks[0][RIGHT])
     play(robot, walk, [small])
     robot.said(f"warning: {TOPICS[0]}: found a mask of 320 x 199 pixels, expected 320 x 200, the size of its image; "
@@ -146,17 +135,14 @@ def test_masks_of_another_size_or_encoding_are_named_and_left_out(robot, walk, t
     robot.until(lambda: robot.diagnostics()["right masks refused"] == "1", "diagnostics")
     values = robot.diagnostics()
     assert values["left masks refused"] == values["pairs without a left mask"] == "1"
-    assert any(message.status[0].level == 1 and "320 x 199" in message.status[0].message
-               for message in robot.heard["/diagnostics"])
-    expected = tracked(robot, walk, [(None, masks[0][RIGHT]), (masks[1][LEFT], None)])
-    assert [position(message) for message in robot.poses().values()] == positions(expected)
+    assert robot.diagnosed(1, "320 x 199")
+    assert_positions(robot, tracked(robot, walk, [(None, masks[0][RIGHT]), (masks[1][LEFT], None)]))
 
 
 def test_pairs_do_not_wait_for_ever_for_masks_that_nobody_publishes(walk, tmp_path):
-    robot, stamps = Robot(walk[3]), itertools.count(SECOND, STEP)
-    try:
+    stamps = itertools.count(SECOND, STEP)
+    with Robot(walk[3]) as robot:
         robot.start(tmp_path, *OPTIONS[:2], "--mask-wait", 50)
-        robot.said("left /stereo/left/image_raw")
         frames = itertools.cycle([*walk[0], *walk[0][::-1]])
 
         def says(text: str) -> bool:
@@ -176,11 +162,6 @@ def test_pairs_do_not_wait_for_ever_for_masks_that_nobody_publishes(walk, tmp_pa
             return says(f"masks of {TOPICS[0]} come again")
 
         robot.until(comes_again, "an end of the silence")
-    finally:
-        robot.close()
-
-
-# Parts.
 
 
 def test_the_newest_pair_with_its_masks_goes_first_and_others_wait_for_a_while():

@@ -31,16 +31,18 @@ def entities(file: Path) -> set[str]:
     return set(re.findall(r" - (/\S+) - data columns", rerun_command("rrd", "print", file)))
 
 
-def view(*arguments, python=sys.executable, env=None) -> subprocess.CompletedProcess:
+def view(*arguments, code: int = 0, python=sys.executable, env=None) -> subprocess.CompletedProcess:
+    """Runs python -m quadedge.view, which has to end with a code."""
     call = [python, "-m", "quadedge.view", *map(str, arguments)]
-    return subprocess.run(call, capture_output=True, text=True, env=env)
+    done = subprocess.run(call, capture_output=True, text=True, env=env)
+    assert done.returncode == code, done.stdout + done.stderr
+    return done
 
 
 @pytest.fixture(scope="module")
 def results(command, room_folder, tmp_path_factory):
     folder = tmp_path_factory.mktemp("results") / "room"
-    done = command("run", room_folder, "-o", folder, "--quiet")
-    assert done.returncode == 0, done.stderr
+    command("run", room_folder, "-o", folder, "--quiet")
     return folder
 
 
@@ -51,31 +53,27 @@ def test_results_of_a_program_that_tracks_live(room, frames, tmp_path):
             files.add(odometry.track(frame.stamp_ns, frame.left, frame.right))
         files.finish()
     done = view(tmp_path / "live", "--save", tmp_path / "live.rrd")
-    assert done.returncode == 0 and "frames     6" in done.stdout, done.stderr
+    assert "frames     6" in done.stdout
     assert "images and edges are not shown: the images came from a camera or another program" in done.stderr
     rerun_command("rrd", "verify", tmp_path / "live.rrd")
 
 
 def test_results_from_the_shell(results, tmp_path):
     file = tmp_path / "room.rrd"
-    call = [sys.executable, "-m", "quadedge.view", results, "--save", file]
-    done = subprocess.run(call, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert "frames     6" in done.stdout
+    assert "frames     6" in view(results, "--save", file).stdout
     rerun_command("rrd", "verify", file)
     expected = {"/world/path", "/world/key_rigs", "/world/edges", "/world/key_edges", "/world/camera/left/image",
                 "/world/camera/right/image", "/world/camera/left/edges", "/world/camera/left/quads", "/counts/inliers",
                 "/times/latency"}  # fmt: skip
     assert expected <= entities(file)
-    again = subprocess.run(call, capture_output=True, text=True)
-    assert again.returncode == 2 and "the file exists" in again.stderr
+    assert "the file exists" in view(results, "--save", file, code=2).stderr
 
 
 @pytest.mark.parametrize("kind", ["images", "video"])
 def test_results_of_own_cameras(command, room_folder, tmp_path, kind):
     """Images in folders, and a video with both views in each frame."""
     calibration = tmp_path / "rig.yaml"
-    assert command("check", room_folder, "--write-calibration", calibration).returncode == 0
+    command("check", room_folder, "--write-calibration", calibration)
     if kind == "video":
         joined = ["ffmpeg", "-loglevel", "error", "-framerate", "20", "-pattern_type", "glob", "-i",
                   room_folder / "rgb" / "*.png", "-framerate", "20", "-pattern_type", "glob", "-i",
@@ -85,42 +83,39 @@ def test_results_of_own_cameras(command, room_folder, tmp_path, kind):
         source = ["--video", tmp_path / "both.mkv", "--split", "left-right"]
     else:
         source = ["--left", room_folder / "rgb", "--right", room_folder / "rgb2", "--fps", "20"]
-    done = command("run", *source, "--calibration", calibration, "-o", tmp_path / "out", "--quiet")
-    assert done.returncode == 0, done.stderr
-    shown = view(tmp_path / "out", "--save", tmp_path / "own.rrd")
-    assert shown.returncode == 0, shown.stderr
+    command("run", *source, "--calibration", calibration, "-o", tmp_path / "out", "--quiet")
+    view(tmp_path / "out", "--save", tmp_path / "own.rrd")
     assert {"/world/camera/left/image", "/world/camera/left/quads"} <= entities(tmp_path / "own.rrd")
-    moved = view(tmp_path / "out", "--save", tmp_path / "moved.rrd", "--data", room_folder)
-    assert moved.returncode == 2 and "--data" in moved.stderr
+    moved = view(tmp_path / "out", "--save", tmp_path / "moved.rrd", "--data", room_folder, code=2)
+    assert "--data" in moved.stderr
     assert not list(tmp_path.glob("moved*"))
 
 
 def test_rendered_images_cannot_be_shown_again(command, tmp_path):
-    done = command("demo", "--frames", 4, "--size", "320x200", "-o", tmp_path / "out", "--quiet")
-    assert done.returncode == 0, done.stderr
+    command("demo", "--frames", 4, "--size", "320x200", "-o", tmp_path / "out", "--quiet")
     shown = view(tmp_path / "out", "--save", tmp_path / "demo.rrd")
-    assert shown.returncode == 0 and "images and edges are not shown: the images were rendered" in shown.stderr
+    assert "images and edges are not shown: the images were rendered" in shown.stderr
     assert "/world/path" in entities(tmp_path / "demo.rrd")
 
 
 def test_a_failure_leaves_no_file(results, tmp_path):
-    done = view(results, "--save", tmp_path / "x.rrd", "--device", "toaster")
-    assert done.returncode == 4 and "no OpenCL device matches 'toaster'" in done.stderr
+    done = view(results, "--save", tmp_path / "x.rrd", "--device", "toaster", code=4)
+    assert "no OpenCL device matches 'toaster'" in done.stderr
     assert list(tmp_path.iterdir()) == []
 
 
 def test_no_display_and_no_viewer_are_one_sentence(results, tmp_path):
     place = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY", "CI")}
-    done = view(results, "--no-images", env=place)
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    done = view(results, "--no-images", env=place, code=2)
+    assert done.stderr.count("\n") == 1
     assert "found no display" in done.stderr and "--save F.rrd" in done.stderr
     # A Python whose folder has no program rerun, and an empty PATH.
     python = tmp_path / "python"
     python.symlink_to(sys.executable)
     packages = os.pathsep.join(path for path in sys.path if path)
-    done = view(results, "--no-images", python=python,
+    done = view(results, "--no-images", python=python, code=2,
                 env={**place, "DISPLAY": ":99", "PATH": "", "PYTHONPATH": packages})
-    assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+    assert done.stderr.count("\n") == 1, done.stderr
     assert "rerun's viewer cannot be started" in done.stderr
 
 
@@ -158,9 +153,8 @@ def test_live(room, tmp_path):
 
 
 def test_invalid_results_are_refused(tmp_path, results):
-    done = subprocess.run([sys.executable, "-m", "quadedge.view", tmp_path, "--save", tmp_path / "x.rrd"],
-                          capture_output=True, text=True)
-    assert done.returncode == 3 and "expected a results folder of `quadedge run`" in done.stderr
+    done = view(tmp_path, "--save", tmp_path / "x.rrd", code=3)
+    assert "expected a results folder of `quadedge run`" in done.stderr
     assert not (tmp_path / "x.rrd").exists()
     import shutil
 

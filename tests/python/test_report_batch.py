@@ -1,0 +1,187 @@
+"""The pages of batches and of matching evaluations match the result files."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from made_up_results import accuracy, write_batch, write_matching
+from parsed_page import ParsedPage, page_of, save_picture
+
+from quadedge import report
+from quadedge.report import numbers
+
+ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses coincide)"
+THIN = "\u2009"
+
+
+def comparison(tmp_path: Path, batch: Path, names: list[str]) -> Path:
+    """One better peer, and a baseline with half the error."""
+    entries = []
+    for name in names:
+        folder = batch / "sequences" / name
+        system = {"name": "Other & <Co>", "file": str(folder / "groundtruth.txt"), "accuracy": accuracy(0.01),
+                  "per_pose": {"stamp_s": [0, 0.1], "ape_rotation_deg": [0, 0], "ape_translation_m": [0, 0.01],
+                               "rpe_rotation_deg": [None, 0], "rpe_translation_m": [None, 0.01]}}
+        entries.append({"name": name, "systems": [system], "notes": ["a peer had no file"],
+                        "baseline": {"frames": 12, "frames_tracked": 10, "accuracy": accuracy(0.025),
+                                     "latency_ms": {"median": 20.0, "p90": 22.0, "p99": 22.0, "max": 22.0,
+                                                    "first": 20.0}}})
+    file = tmp_path / "comparison.json"
+    file.write_text(json.dumps({"sequences": entries, "baseline": "yesterday", "peers": []}))
+    return file
+
+
+def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
+    write_batch(tmp_path / "batch", ["street", "hall", "yard"])
+    page = page_of(tmp_path / "batch")
+    # 5 cm and 10 cm: each sequence has the unit of its size.
+    assert page.row(ORIGIN_TABLE, "street")[4:6] == [f"50.00{THIN}mm", f"25.00{THIN}mm"]
+    assert page.row(ORIGIN_TABLE, "yard")[4:6] == [f"0.1500{THIN}m", f"0.07500{THIN}m"]
+    assert page.tables[ORIGIN_TABLE][0][-1] == "RPE translation [mm]"
+    assert page.row(ORIGIN_TABLE, "all sequences, poses weighted equally")[4] == f"0.1000{THIN}m"
+    assert page.bold == []  # nothing to compare with
+    assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
+    assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"
+    assert page.title == "Batch report: batch" and page.tiles["Sequences"] == "3 of 3 done"
+    assert page.tiles["Drift at the end"].startswith("1.2 % median of 3 sequences")
+    assert sum(plot.endswith("latency") for plot in page.plots) == 3
+
+
+def test_comparison_names_the_own_row_and_prints_the_best_bold(tmp_path):
+    names = ["street", "hall"]
+    write_batch(tmp_path / "batch", names)
+    page = page_of(tmp_path / "batch", comparison=comparison(tmp_path, tmp_path / "batch", names),
+                   output=tmp_path / "page.html")
+    own, other = page.tables[ORIGIN_TABLE][2:4]
+    assert own[:2] == ["street", "QuadEdge"] and other[:2] == ["", "Other & <Co>"]
+    assert own[5] == f"50.00{THIN}mm (+25.00)"
+    assert f"10.00{THIN}mm" in page.bold and f"50.00{THIN}mm" not in page.bold
+    assert len(page.bold) == 2 * 2 * 3  # APE translation, mean and std, of both alignments, each sequence and over all
+    fewer = json.loads((tmp_path / "comparison.json").read_text())
+    fewer["sequences"][1]["systems"] = []  # over different data than our row: neither better nor worse
+    (tmp_path / "fewer.json").write_text(json.dumps(fewer))
+    again = page_of(tmp_path / "batch", comparison=tmp_path / "fewer.json", output=tmp_path / "fewer.html")
+    assert len(again.bold) == 2 * 2  # of the other sequence
+    assert "Other & <Co>, 2 sequences" in [row[1] for row in page.tables[ORIGIN_TABLE]]
+    assert "(+2)" in page.row("Tracked frames and latency", "street")[2]
+    assert page.text.count("a peer had no file") == 2
+    assert len(page.traces("street_from_above")["Other & <Co>"]["x"]) == 12
+    assert page.facts["Baseline"].startswith("yesterday")
+
+
+@pytest.mark.parametrize("damaged", ["report.json", "frames.csv", "trajectory.txt", "groundtruth.txt", "errors.csv",
+                                     "poses.csv"])
+def test_one_bad_member_does_not_prevent_the_page(tmp_path, damaged):
+    write_batch(tmp_path / "batch", ["bad", "good"])
+    file = tmp_path / "batch/sequences/bad" / damaged
+    lines = file.read_text().splitlines(keepends=True)
+    file.write_text("".join(lines[: len(lines) // 2]) + lines[len(lines) // 2][:3])
+    page = page_of(tmp_path / "batch")
+    assert f"sequences/bad/{damaged}" in page.text and "damaged" in page.text
+    assert [plot for plot in page.plots if "good_latency" in plot]
+    assert not [plot for plot in page.plots if "figure-bad" in plot]
+
+
+def test_a_failed_member_has_a_reason_and_no_figures(tmp_path):
+    summary = write_batch(tmp_path / "batch", ["good"])
+    summary["sequences"].append({"name": "broken", "status": "failed", "exit_code": 3, "path": "b", "format": "kitti",
+                                 "message": "calib.txt: <nothing> & so on", "jobs": 1})
+    (tmp_path / "batch/summary.json").write_text(json.dumps(summary))
+    page = page_of(tmp_path / "batch")
+    assert "failed: calib.txt: <nothing> & so on" in page.facts["broken"]
+    assert page.row("Tracked frames and latency", "broken")[1] == "failed"
+    assert page.row(ORIGIN_TABLE, "broken")[1:] == [numbers.DASH] * 9
+
+
+def test_a_whole_benchmark_stays_below_six_megabytes(tmp_path):
+    names = [f"sequence_{number}" for number in range(24)]
+    write_batch(tmp_path / "batch", names, frames=100)
+    save_picture(tmp_path / "noise.jpg", 480, 300)
+    for name in names:
+        for frame in (20, 40, 60, 80):
+            os.link(tmp_path / "noise.jpg", tmp_path / "batch/sequences" / name / "pictures" /
+                    f"thumbnail_{frame:06d}.jpg")
+    page = page_of(tmp_path / "batch")
+    assert sum(plot.endswith("_latency") for plot in page.plots) == 24
+    assert "thinned" in page.text
+
+
+def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off(tmp_path):
+    save_picture(tmp_path / "all.png", 1900, 600)
+    write_matching(tmp_path / "m.json", ["room", "yard"], 6,
+                   [{"name": "room", "file": str(tmp_path / "all.png"), "caption": "room: all"}])
+    page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
+    table = page.tables["Table 1: stereo"]
+    assert table[0][1:] == ["paired: 1\u202f000 edges", "all: 1\u202f300 edges"]
+    assert table[4][1:] == ["SIFT", *["off"] * 12]
+    assert table[2][2] == f"100.00{THIN}\u00b1{THIN}1.00" and table[2][3] == "0.0070"
+    assert page.row("What is left at the end", "pooled")[2] == "48\u202f299"
+    assert page.row("What is left at the end", "room")[7:9] == ["96.00", "70.00"]
+    assert [row[3].split(THIN)[0] for row in page.tables["Quads"][1:]] == ["90.00", "60.00"]
+    names = page.figure("filters_stereo")["data"][0]["x"]
+    assert names == ["baseline", "epipolar proximity", "NCC", "best"]  # no disabled filters
+    assert list(page.traces("filters_stereo")) == ["recall, paired", "precision, paired", "recall, all",
+                                                   "precision, all"]
+    # 250 of 300 values lie within the shown range of the cue, in bins of equal height.
+    cumulative = page.traces("cue_stereo_1_cumulative")
+    assert list(cumulative) == ["veridical, paired", "other, paired", "veridical, all", "other, all"]
+    assert max(cumulative["veridical, paired"]["y"]) == pytest.approx(100 * 250 / 300, rel=1e-4)
+    within = page.figure("disparity_error_within")["data"][0]["y"]
+    assert within[0] == 0 and within[-1] == pytest.approx(100 * 250 / 300, rel=1e-4)
+    motions = page.figure("motions_of_pairs_rotation")
+    assert len(motions["data"]) == 3 and len(motions["data"][0]["x"]) == 12
+    assert len({trace["marker"]["symbol"] for trace in motions["data"]}) == 3
+    assert "rotation -0.75, translation undefined" in page.text
+    assert page.pictures == 1
+    counts = [plot for plot in page.plots if plot.startswith("figure-counts")]
+    assert len(counts) == 8
+    for plot in [plot for plot in counts if plot.endswith("_distribution")]:
+        # Every image is in one bin of a histogram: heights by bins add up to the number of images.
+        for trace in page.figure(plot.removeprefix("figure-"))["data"]:
+            assert sum(trace["y"][1:-1:2]) == len(page.figure("counts_edges")["data"][0]["y"])
+
+
+def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame(tmp_path):
+    write_matching(tmp_path / "m.json", ["room"], 9)
+    page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
+    assert not [plot for plot in page.plots if "counts" in plot or "motions" in plot]
+    assert "(Figure 2): needs at least 10 frames" in page.text and "(Figure 7): needs at least 10 frames" in page.text
+    assert page.row("Counts of a frame", "edges, left")[1] == "9"
+
+
+def test_pages_of_the_program(program, tmp_path):
+    environment = os.environ | {"QUADEDGE_PYTHON": sys.executable, "XDG_CACHE_HOME": str(tmp_path / "cache"),
+                                "PYTHONPATH": str(Path(report.__file__).parents[2])}
+
+    def run(*arguments):
+        return subprocess.run([program, *map(str, arguments)], check=True, env=environment, capture_output=True)
+
+    run("synth", tmp_path / "data/room", "--frames", 11, "--size", "240x150", "--quiet")
+    run("batch", tmp_path / "data", "-o", tmp_path / "batch", "--quiet", "--stereo.ncc_min", 0.55)
+    page = ParsedPage((tmp_path / "batch/report.html").read_text())
+    summary = json.loads((tmp_path / "batch/summary.json").read_text())
+    for source in (summary, json.loads((tmp_path / "batch/sequences/room/report.json").read_text())):
+        assert source["config_changed"]["stereo.ncc_min"] == "0.55"
+        assert {"version", "commit", "date", "command", "device" if source is not summary else "input"} <= set(source)
+    assert summary["command"].startswith("quadedge batch")
+    assert page.facts["Command"].startswith("quadedge run")  # of the sequence
+    summary_tables = (tmp_path / "batch/summary.md").read_text()
+    assert "SE(3)-aligned" in summary_tables and "\n| room | done | 11 of 11 (100.0 %) |" in summary_tables
+    mean = summary["sequences"][0]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"]
+    assert numbers.significant(1000 * mean) in page.row(ORIGIN_TABLE, "room")[4]
+    assert len(page.plots) >= 10
+    run("report", tmp_path / "batch", "--baseline", tmp_path / "batch", "-o", tmp_path / "c.html", "--csv",
+        tmp_path / "c")
+    compared = ParsedPage((tmp_path / "c.html").read_text())
+    assert "(=)" in compared.row(ORIGIN_TABLE, "room")[5] and (tmp_path / "c/errors_se3_aligned.csv").is_file()
+    run("report", tmp_path / "batch/sequences/room")
+    assert ParsedPage((tmp_path / "batch/sequences/room/report.html").read_text()).facts["Device"]
+    installed = {name: value for name, value in environment.items() if name != "PYTHONPATH"}
+    subprocess.run([sys.executable, "-m", "quadedge.matching", tmp_path / "data/room", "--frames", "2", "--quiet",
+                    "--html", tmp_path / "m.html"], check=True, env=installed)
+    matching = ParsedPage((tmp_path / "m.html").read_text())
+    assert matching.tables["Table 1: stereo"][6][2] == "off" and matching.pictures == 3
+    assert "Table 3" in " ".join(matching.tables)
