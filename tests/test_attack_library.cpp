@@ -122,8 +122,9 @@ const std::vector<LibraryAttack>& library_attacks() {
        "a mask of 160 x 100 with 0 values"},
       {"a mask with pixels and no size", [](C c) { c.rig.right_mask.hidden.resize(16000), c.track(); },
        LibraryAttack::data, "a mask of 0 x 0"},
-      {"an undistortion table without y", [](C c) { c.distort(), c.rig.left_undistortion.source_y.clear(), c.track(); },
-       LibraryAttack::data, "table of 160 x 100 with 0 values"},
+      {"an undistortion table without y",
+       [](C c) { c.distort(), c.rig.left_undistortion.source_y.change().clear(), c.track(); }, LibraryAttack::data,
+       "table of 160 x 100 with 0 values"},
       {"an undistortion table of negative size",
        [](C c) { c.distort(), c.rig.left_undistortion.width = -160, c.track(); }, LibraryAttack::data, "table of -160"},
       {"an undistortion table of recorded images of negative size",
@@ -131,7 +132,8 @@ const std::vector<LibraryAttack>& library_attacks() {
        "recorded images of -1"},
       {"an undistortion table with NaN",
        [](C c) {
-         c.distort(), c.rig.right_undistortion.source_x[7] = std::numeric_limits<float>::quiet_NaN(), c.track();
+         c.distort(), c.rig.right_undistortion.source_x.change()[7] = std::numeric_limits<float>::quiet_NaN(),
+                      c.track();
        },
        LibraryAttack::data, "NaN"},
       {"a constant that is nearly zero", [](C c) { c.config.pose.disparity_offset_sigma = 1e-160, c.track(); },

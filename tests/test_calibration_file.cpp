@@ -311,7 +311,7 @@ TEST_CASE("calibration: corners of OpenCV's chessboard pairs lie on their epipol
   check_same({opencv.left.model, opencv.left.camera, {}}, {ros.left.model, ros.left.camera, {}});
   CHECK((opencv.right_from_left.matrix() - ros.right_from_left.matrix()).cwiseAbs().maxCoeff() < 2e-9);
   const StereoRig rig = make_rig(opencv), other = make_rig(ros);
-  CHECK(rig.left_undistortion.source_x == other.left_undistortion.source_x);
+  CHECK(rig.left_undistortion.source_x.values() == other.left_undistortion.source_x.values());
   const Eigen::Matrix3d turn = rig.right_from_left.linear();
   const Eigen::Vector3d t = rig.right_from_left.translation();
   Eigen::Matrix3d cross;

@@ -20,8 +20,8 @@ cv::Mat grey(const std::string& file, const UndistortionTable& table) {
   const Image image = read_grey_image(file);
   cv::Mat pixels = cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())).clone();
   if (table.empty()) return pixels;
-  const cv::Mat x(table.height, table.width, CV_32F, const_cast<float*>(table.source_x.data()));
-  const cv::Mat y(table.height, table.width, CV_32F, const_cast<float*>(table.source_y.data()));
+  const cv::Mat x(table.height, table.width, CV_32F, const_cast<float*>(table.source_x.values().data()));
+  const cv::Mat y(table.height, table.width, CV_32F, const_cast<float*>(table.source_y.values().data()));
   cv::remap(pixels, pixels, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return pixels;
 }

@@ -43,8 +43,8 @@ TEST_CASE("equal scale: an undistortion table is rescaled, and other rigs stay u
   table.height = 81;
   for (int y = 0; y < 81; ++y) {
     for (int x = 0; x < 400; ++x) {
-      table.source_x.push_back(static_cast<float>(3 * x + y));
-      table.source_y.push_back(static_cast<float>(2 * y));
+      table.source_x.change().push_back(static_cast<float>(3 * x + y));
+      table.source_y.change().push_back(static_cast<float>(2 * y));
     }
   }
   const StereoRig equal = with_equal_scales(rig);

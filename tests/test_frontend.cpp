@@ -215,6 +215,8 @@ TEST_CASE("frontend: a rig's depths are those of the calibration and the angle t
   CHECK(depths(scene.rig, 0.07) == far);
   CHECK(depths(scene.rig, 0.5).size() < far.size());  // edges nearer to the epipolar lines have no depth
   CHECK(depths(scene.rig, 0.07) == far);
+  frame_edges->release_measurements();
+  CHECK(depths(scene.rig, 0.07) == far);
   const auto* memory = frame_edges.get();
   frame_edges = nullptr;
   frame_edges = frontend->process(scene.frame(1));

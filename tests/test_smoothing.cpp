@@ -84,8 +84,8 @@ TEST_CASE("smoothing: the noise of recorded images is known from that of undisto
   UndistortionTable table{600, 440, {}, {}};
   for (int y = 0; y < table.height; ++y) {
     for (int x = 0; x < table.width; ++x) {  // all fractions of a pixel occur
-      table.source_x.push_back(static_cast<float>(x) * 1.02F + 0.3F);
-      table.source_y.push_back(static_cast<float>(y) * 1.013F + 0.2F);
+      table.source_x.change().push_back(static_cast<float>(x) * 1.02F + 0.3F);
+      table.source_y.change().push_back(static_cast<float>(y) * 1.013F + 0.2F);
     }
   }
   reference::EdgeThreshold before{EdgesConfig{}}, after{EdgesConfig{}};

@@ -24,8 +24,8 @@ UndistortionTable shift_table(int width, int height, float dx, float dy) {
   UndistortionTable table{width, height, {}, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      table.source_x.push_back(static_cast<float>(x) + dx);
-      table.source_y.push_back(static_cast<float>(y) + dy);
+      table.source_x.change().push_back(static_cast<float>(x) + dx);
+      table.source_y.change().push_back(static_cast<float>(y) + dy);
     }
   }
   return table;

@@ -82,8 +82,8 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
   items_ = (pixels_ + pixels - 1) / pixels;
   kernel_ = {context, variant_.program(context, image_defines(max_value)), "undistort"};
   corners_.emplace(context, max_value);
-  source_x_.write(context, table.source_x);
-  source_y_.write(context, table.source_y);
+  source_x_.write(context, table.source_x.values());
+  source_y_.write(context, table.source_y.values());
 }
 
 void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target) {

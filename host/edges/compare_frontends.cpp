@@ -119,8 +119,8 @@ UndistortionTable mild_distortion(const Image& image) {
     for (int x = 0; x < image.width; ++x) {
       const float dx = static_cast<float>(x) - middle_x, dy = static_cast<float>(y) - middle_y;
       const float scale = 1 + kBend * (dx * dx + dy * dy);
-      table.source_x.push_back(middle_x + dx * scale);
-      table.source_y.push_back(middle_y + dy * scale);
+      table.source_x.change().push_back(middle_x + dx * scale);
+      table.source_y.change().push_back(middle_y + dy * scale);
     }
   }
   return table;

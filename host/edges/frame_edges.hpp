@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "geometry/measured_edges.hpp"
@@ -40,11 +41,25 @@ class FrameEdges {
         used.right.cy, min_epipolar_angle,
         Eigen::Map<const Eigen::Matrix<double, 16, 1>>(used.right_from_left.matrix().data());
     if (arguments != measured_with_) {
+      if (measured_.capacity() == 0 && !spare_->empty()) {
+        measured_ = std::move(spare_->back());
+        spare_->pop_back();
+      }
       pose::measure_edges(used, edges, min_epipolar_angle, measured_);
       measured_with_ = arguments;
     }
     return measured_;
   }
+  /// Leaves the memory of the measurements, a third of a kilobyte per edge, to another frame of the pool. They are made
+  /// again when they are asked for.
+  void release_measurements() const {
+    if (measured_.capacity() == 0) return;
+    measured_with_ = never();
+    spare_->push_back(std::exchange(measured_, {}));
+  }
+  using SpareMeasurements = std::vector<pose::MeasuredEdges>;
+  /// Shares what release_measurements() leaves.
+  void share(std::shared_ptr<SpareMeasurements> spare) { spare_ = std::move(spare); }
   /// The rig with which the frame was measured. A later frame may know more of the offset; the displacement is its own.
   const RigEstimate& rig() const { return rig_; }
   /// Once that is known: when the frame's motion is.
@@ -65,6 +80,7 @@ class FrameEdges {
   mutable RigEstimate rig_;
   mutable pose::MeasuredEdges measured_;
   mutable Arguments measured_with_ = never();
+  std::shared_ptr<SpareMeasurements> spare_ = std::make_shared<SpareMeasurements>();
 };
 
 /// Keeps a frame's edges; their memory is reused when the last handle is released. Must not outlive the device.
@@ -105,10 +121,12 @@ class FrameEdgesPool {
     for (std::size_t i = 0; i < frames_.size(); ++i)
       if (i != except && frames_[i].use_count() == 1) return i;
     frames_.push_back(std::make_shared<T>(arguments...));
+    frames_.back()->share(spare_);
     return frames_.size() - 1;
   }
 
   std::vector<std::shared_ptr<T>> frames_;
+  std::shared_ptr<FrameEdges::SpareMeasurements> spare_ = std::make_shared<FrameEdges::SpareMeasurements>();
   std::size_t current_ = 0;
   int frame_ = -1;
 };

@@ -54,8 +54,7 @@ Eigen::Vector2d on_the_rim(const LensMapping& mapping, const Eigen::Vector3d& ra
 void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& table, PixelMask& mask) {
   const LensMapping mapping(lens);
   const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-  table = {view.width,        view.height,       std::vector<float>(pixels), std::vector<float>(pixels),
-           lens.camera.width, lens.camera.height};
+  std::vector<float> source_x(pixels), source_y(pixels);
   mask = {view.width, view.height, std::vector<std::uint8_t>(pixels)};
   std::size_t at = 0;
   for (int y = 0; y < view.height; ++y) {
@@ -63,13 +62,14 @@ void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& t
       const Eigen::Vector3d ray = view.ray(Eigen::Vector2d(x, y));
       const auto seen = mapping.project(ray);
       const Eigen::Vector2d place = seen ? *seen : on_the_rim(mapping, ray);
-      table.source_x[at] = static_cast<float>(place.x());
-      table.source_y[at] = static_cast<float>(place.y());
+      source_x[at] = static_cast<float>(place.x());
+      source_y[at] = static_cast<float>(place.y());
       const bool recorded = seen && place.x() >= 0 && place.y() >= 0 && place.x() <= lens.camera.width - 1 &&
                             place.y() <= lens.camera.height - 1;
       mask.hidden[at] = recorded ? 0 : 1;
     }
   }
+  table = {view.width, view.height, std::move(source_x), std::move(source_y), lens.camera.width, lens.camera.height};
   if (std::count(mask.hidden.begin(), mask.hidden.end(), 1) == 0) mask = {};
 }
 

@@ -43,10 +43,11 @@ bool fits(int width, int height, const std::vector<T>& values, const PinholeCame
 }
 
 void check_table(const UndistortionTable& table, const PinholeCamera& camera, const std::string& where) {
-  for (const std::vector<float>* values : {&table.source_x, &table.source_y}) {
-    if (!fits(table.width, table.height, *values, camera))
-      refuse(where, "an undistortion table", table.width, table.height, values->size(), camera);
-    if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); }))
+  for (const SharedFloats& shared : {table.source_x, table.source_y}) {
+    const std::vector<float>& values = shared.values();
+    if (!fits(table.width, table.height, values, camera))
+      refuse(where, "an undistortion table", table.width, table.height, values.size(), camera);
+    if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
       throw DataError(where + ": found an undistortion table with NaN or infinity, expected finite numbers");
   }
   if (table.recorded_width < 0 || table.recorded_height < 0)

@@ -83,8 +83,8 @@ void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
       const double from_x = (x + 0.5) * factor - 0.5, from_y = (y + 0.5) * factor - 0.5;
       const Eigen::Array2f from =
           table.empty() ? Eigen::Array2d(from_x, from_y).cast<float>().eval() : source(table, from_x, from_y);
-      smaller.source_x.push_back(from.x());
-      smaller.source_y.push_back(from.y());
+      smaller.source_x.change().push_back(from.x());
+      smaller.source_y.change().push_back(from.y());
     }
   }
   table = std::move(smaller);

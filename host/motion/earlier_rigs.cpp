@@ -18,6 +18,7 @@ void EarlierRigs::remember(const KeyRig& rig, double inverse_depth) {
   if (find(rig.frame_edges()) != nullptr) return;  // was returned to
   if (!kept_.empty() && difference(kept_.back(), rig.world_from_left()) < kSameView) return;
   kept_.push_back({rig, inverse_depth});
+  rig.frame_edges()->release_measurements();  // searched again only after a loss
   if (kept_.size() <= kEarlierRigs) return;
   std::size_t most_similar = 0;
   double smallest = std::numeric_limits<double>::infinity();

@@ -17,7 +17,7 @@ std::size_t first_counted(std::size_t frames) { return frames > 1 ? 1 : 0; }
 
 }  // namespace
 
-LatencySummary latency_summary(const std::vector<FrameRecord>& frames) {
+LatencySummary latency_summary(const std::deque<FrameRecord>& frames) {
   std::vector<double> values;
   for (const FrameRecord& frame : frames) values.push_back(frame.result.timing.latency_ms);
   return latency_summary(values);
@@ -59,13 +59,13 @@ std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>
   return summary;
 }
 
-std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames) {
+std::vector<std::vector<StageTime>> stage_times(const std::deque<FrameRecord>& frames) {
   std::vector<std::vector<StageTime>> times;
   for (const auto& frame : frames) times.push_back(frame.result.timing.stages);
   return times;
 }
 
-std::string lost_reasons(const std::vector<FrameRecord>& frames) {
+std::string lost_reasons(const std::deque<FrameRecord>& frames) {
   std::map<FrameStatus, int> counts;
   for (const auto& frame : frames) ++counts[frame.result.status];
   return lost_reasons(counts);
@@ -77,7 +77,7 @@ std::string joined(const std::vector<Warning>& warnings) {
   return text;
 }
 
-std::string segments_text(const std::vector<FrameRecord>& frames) {
+std::string segments_text(const std::deque<FrameRecord>& frames) {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> breaks;
   std::optional<std::size_t> last;
@@ -94,7 +94,7 @@ std::string segments_text(const std::vector<FrameRecord>& frames) {
   return text + (named < breaks.size() ? ", and at " + std::to_string(breaks.size() - named) + " more places" : "");
 }
 
-double path_length_m(const std::vector<FrameRecord>& frames) {
+double path_length_m(const std::deque<FrameRecord>& frames) {
   double length = 0;
   const FrameResult* last = nullptr;
   for (const auto& frame : frames) {
@@ -116,7 +116,7 @@ std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts)
           {"inliers", counts.inliers}};
 }
 
-std::vector<std::pair<std::string, double>> count_medians(const std::vector<FrameRecord>& frames) {
+std::vector<std::pair<std::string, double>> count_medians(const std::deque<FrameRecord>& frames) {
   std::vector<std::pair<std::string, double>> medians;
   for (const auto& [name, unused] : named_counts({})) {
     (void)unused;

@@ -2,6 +2,7 @@
 /// \file run_record.hpp  All results of one run, before they become files.
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -71,9 +72,9 @@ struct RunRecord {
   DeviceTrust self_test;
   Config config;                                ///< effective
   std::map<std::string, std::string> variants;  ///< stage -> chosen kernel variant
-  std::vector<FrameRecord> frames;
-  double start_ms = 0;         ///< opening the device and building the pipeline, before the first frame
-  double kernel_build_ms = 0;  ///< the part of it that builds kernels
+  std::deque<FrameRecord> frames;  ///< a deque, since a vector takes up to three times their memory while it grows
+  double start_ms = 0;             ///< opening the device and building the pipeline, before the first frame
+  double kernel_build_ms = 0;      ///< the part of it that builds kernels
   double host_peak_mb = 0, device_peak_mb = 0;
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
   std::vector<std::vector<StageTime>> kernel_times;
@@ -92,7 +93,7 @@ struct RunRecord {
   }
 };
 
-LatencySummary latency_summary(const std::vector<FrameRecord>& frames);
+LatencySummary latency_summary(const std::deque<FrameRecord>& frames);
 /// Of latencies in the order of the frames [ms].
 LatencySummary latency_summary(std::vector<double> values);
 
@@ -104,10 +105,10 @@ struct StageSummary {
 std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>>& frames);
 
 /// The host-side stage times of every frame.
-std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames);
+std::vector<std::vector<StageTime>> stage_times(const std::deque<FrameRecord>& frames);
 
 /// Why frames were lost: "5 no consensus, 2 too few quads"; empty if there are none.
-std::string lost_reasons(const std::vector<FrameRecord>& frames);
+std::string lost_reasons(const std::deque<FrameRecord>& frames);
 /// The same from the number of frames of each status.
 template <class Status>
 std::string lost_reasons(const std::map<Status, int>& counts) {
@@ -126,13 +127,13 @@ std::string joined(const std::vector<Warning>& warnings);
 
 /// The segments of a run, and the tracked frames with an unknown motion between them: "3 segments: an unknown motion
 /// lies between frames 33 and 35, ..."; empty for a single segment.
-std::string segments_text(const std::vector<FrameRecord>& frames);
+std::string segments_text(const std::deque<FrameRecord>& frames);
 
 /// Length of the estimated path, from each tracked frame to the next of the same segment [m].
-double path_length_m(const std::vector<FrameRecord>& frames);
+double path_length_m(const std::deque<FrameRecord>& frames);
 
 /// Medians of the counts over all frames but the first, in the order of FrameCounts.
-std::vector<std::pair<std::string, double>> count_medians(const std::vector<FrameRecord>& frames);
+std::vector<std::pair<std::string, double>> count_medians(const std::deque<FrameRecord>& frames);
 
 /// Name and value of every count of a frame, in the order of FrameCounts.
 std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts);

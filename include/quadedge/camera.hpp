@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quadedge {
@@ -40,12 +43,33 @@ struct PinholeCamera {
   }
 };
 
+/// Numbers whose copies share their memory until one of them is changed. Has no moved-from state.
+class SharedFloats {
+ public:
+  SharedFloats(std::vector<float> values = {})  // NOLINT(google-explicit-constructor): as a vector is assigned
+      : values_(std::make_shared<std::vector<float>>(std::move(values))) {}
+  SharedFloats(const SharedFloats&) = default;
+  SharedFloats& operator=(const SharedFloats&) = default;
+  ~SharedFloats() = default;
+  const std::vector<float>& values() const { return *values_; }
+  float operator[](std::size_t i) const { return (*values_)[i]; }
+  std::size_t size() const { return values_->size(); }
+  bool empty() const { return values_->empty(); }
+  /// The same, to be changed; copies keep what they have.
+  std::vector<float>& change() {
+    if (values_.use_count() > 1) values_ = std::make_shared<std::vector<float>>(*values_);
+    return *values_;
+  }
+
+ private:
+  std::shared_ptr<std::vector<float>> values_;
+};
+
 /// For every pixel of the pinhole image, the position in the recorded image with the same viewing direction [px, with
 /// sub-pixel precision]. Positions outside the recorded image take the value of its border.
 struct UndistortionTable {
   int width = 0, height = 0;                    ///< size of the pinhole image
-  std::vector<float> source_x;                  ///< height x width, row-major
-  std::vector<float> source_y;                  ///< height x width, row-major
+  SharedFloats source_x, source_y;              ///< height x width each, row-major
   int recorded_width = 0, recorded_height = 0;  ///< size of the recorded image; 0: images of any size are accepted
   bool empty() const { return source_x.empty(); }
 };

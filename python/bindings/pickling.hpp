@@ -137,6 +137,13 @@ struct Packed<std::vector<T>, std::enable_if_t<std::is_arithmetic_v<T>>> {
     unpack_array(packed, values.data(), values.size());
   }
 };
+template <>
+struct Packed<SharedFloats> {
+  static nb::object pack(const SharedFloats& shared) { return Packed<std::vector<float>>::pack(shared.values()); }
+  static void unpack(nb::handle packed, SharedFloats& shared) {
+    Packed<std::vector<float>>::unpack(packed, shared.change());
+  }
+};
 template <class T>
 struct Packed<std::vector<T>, std::enable_if_t<std::is_class_v<T>>> {
   static nb::object pack(const std::vector<T>& values) {
