@@ -11,6 +11,7 @@
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
+#include "common/printed.hpp"
 #include "data/atomic_file.hpp"
 #include "geometry/disparity_range.hpp"
 #include "output/output_folder.hpp"
@@ -105,11 +106,8 @@ class CompareCommand : public Command {
   std::vector<std::string> chosen_stages() const {
     auto stages = bench::stages_with_variants();
     if (stage_.empty()) return stages;
-    if (std::find(stages.begin(), stages.end(), stage_) == stages.end()) {
-      std::string names;
-      for (const auto& name : stages) names += " " + name;
-      throw UsageError("--stage " + stage_ + ": no such stage with variants; there are:" + names);
-    }
+    if (std::find(stages.begin(), stages.end(), stage_) == stages.end())
+      throw UsageError("--stage " + stage_ + ": no such stage with variants; there are: " + joined(stages, " "));
     return {stage_};
   }
 

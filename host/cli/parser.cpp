@@ -11,6 +11,7 @@
 
 #include "cli/console.hpp"
 #include "common/nearest_word.hpp"
+#include "common/printed.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
 #include "output/config_toml.hpp"
@@ -85,7 +86,7 @@ class ParserOptions : public Options {
     set_from_file([&value, allowed](const data::TomlEntry& entry, bool keep) {
       std::string word;
       data::assign(entry, word);
-      if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) data::refuse(entry, joined(allowed));
+      if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) data::refuse(entry, joined(allowed, "|"));
       if (!keep) value = word;
     });
   }
@@ -124,7 +125,7 @@ class ParserOptions : public Options {
             "number of edges: fast uses half as many as default, dense all of them, for maps; paper: the paper's own "
             "method, for comparison")
         ->check(CLI::IsMember(data::preset_names()).description(""))
-        ->type_name(joined(data::preset_names()) + "=default")
+        ->type_name(joined(data::preset_names(), "|") + "=default")
         ->group(group_);
     last_ = app_.add_option("--config", config_file_,
                             "TOML file with options, named as here; the command line overrides it")
@@ -171,12 +172,6 @@ class ParserOptions : public Options {
     SetFromFile set;
   };
 
-  static std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : "|") + word;
-    return text;
-  }
-
   template <class T>
   CLI::Option* add(const std::string& names, T& value, const std::string& help) {
     last_ = app_.add_option(names, value, help)->capture_default_str()->group(group_);
@@ -187,7 +182,9 @@ class ParserOptions : public Options {
   void add_choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
                   const std::string& help) {
     CLI::Validator member = CLI::IsMember(allowed);
-    add(names, value, help)->check(member.description(""))->type_name(joined(allowed));  // the type name lists them
+    add(names, value, help)
+        ->check(member.description(""))
+        ->type_name(joined(allowed, "|"));  // the type name lists them
   }
 
   /// The option declared last takes values of its type from the file.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/printed.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -81,9 +82,7 @@ std::string Constant::allowed() const {
   const Config config;
   const ConfigField kind = read_only(*this, config);
   if (std::holds_alternative<bool*>(kind)) return "true, false";
-  std::string words;
-  for (const auto& choice : choices) words += (words.empty() ? "" : ", ") + choice;
-  if (!words.empty()) return words;
+  if (!choices.empty()) return joined(choices);
   const bool bounded = std::isfinite(high) && !(std::holds_alternative<int*>(kind) && high == kLargestInt);
   return bounded ? bound(low) + " to " + bound(high) : "at least " + bound(low);
 }

@@ -38,4 +38,10 @@ std::string printed(const char* format, ...) {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
 }  // namespace quadedge

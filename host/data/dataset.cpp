@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/printed.hpp"
 #include "data/calibrations/forms.hpp"
 #include "data/image_file.hpp"
 #include "data/image_list.hpp"
@@ -15,19 +16,13 @@ namespace quadedge {
 namespace data {
 namespace {
 
-std::string format_names() {
-  std::string list;
-  for (const auto& name : dataset_formats()) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 const Layout& choose(const fs::path& folder, const std::string& format) {
   if (!fs::exists(folder)) fail(folder.string(), "no such folder", "a recorded sequence or pair");
   if (!fs::is_directory(folder)) fail(folder.string(), "a file", "the folder of a recorded sequence or pair");
   for (const auto& layout : layouts()) {
     if (format == "auto" ? layout.recognise(folder) : layout.name == format) return layout;
   }
-  if (format != "auto") throw UsageError("--format " + format + ": expected auto, " + format_names());
+  if (format != "auto") throw UsageError("--format " + format + ": expected auto, " + joined(dataset_formats()));
   std::vector<std::string> entries;
   for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path().filename().string());
   std::sort(entries.begin(), entries.end());
@@ -37,7 +32,7 @@ const Layout& choose(const fs::path& folder, const std::string& format) {
   if (entries.size() > kShown) found += ", ...";
   fail(folder.string(), entries.empty() ? "an empty folder" : found,
        "the folder of one recording (your own images: --left, --right and --calibration) in one of the layouts " +
-           format_names());
+           joined(dataset_formats()));
 }
 
 /// Limits the frames to the half-open range given by the user.
@@ -106,6 +101,8 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
   const Layout& layout = choose(path, options.format);
   Dataset dataset = layout.read(path, options, findings);
   dataset.format = layout.name;
+  if (dataset.path.empty()) dataset.path = path;
+  if (dataset.name.empty()) dataset.name = folder_name(path);
   if (!dataset.frames.empty()) {
     findings.attempt([&] { apply_users_cameras(dataset, options); });
     dataset.rig.max_value = max_value_of(dataset.frames.front().left);

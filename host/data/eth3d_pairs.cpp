@@ -98,7 +98,6 @@ bool is_eth3d_stereo_pairs(const fs::path& folder) { return fs::is_directory(pai
 Dataset read_eth3d_stereo_pairs(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   const fs::path pairs = pairs_folder(folder);
   Dataset dataset;
-  dataset.path = folder.string();
   dataset.name = folder_name(pairs / "..");
   const auto names = pair_names(pairs);
   const auto stamps = stamps_of_names(names, pairs.string());
@@ -157,7 +156,7 @@ bool is_eth3d_two_view(const fs::path& folder) {
 }
 
 Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findings& findings) {
-  Dataset dataset = still_pair(folder, (folder / "im0.png").string(), (folder / "im1.png").string(), findings);
+  Dataset dataset = still_pair((folder / "im0.png").string(), (folder / "im1.png").string(), findings);
   dataset.disparity_truth = truth_of(folder);
   double max_disparity = kMaxDisparity;
   findings.attempt([&] {
@@ -169,9 +168,8 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     }
     set_sizes_from_first_frame(dataset);
     const PinholeCamera left = dataset.rig.left;
-    dataset.rig = rectified_rig(left.width > kWideColumns ? kFocalWide : kFocalNarrow, (left.width - 1) / 2.0,
-                                (left.height - 1) / 2.0, (left.width - 1) / 2.0, kTwoViewBaseline);
-    set_sizes_from_first_frame(dataset);
+    set_rectified_rig(dataset.rig, left.width > kWideColumns ? kFocalWide : kFocalNarrow, (left.width - 1) / 2.0,
+                      (left.height - 1) / 2.0, (left.width - 1) / 2.0, kTwoViewBaseline);
     dataset.notes.push_back("no calib.txt: nominal calibration (f " + printed("%f", dataset.rig.left.fx) +
                             " px, baseline 0.06 m); matches are valid, depths and poses are nominal");
   });

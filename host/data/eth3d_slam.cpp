@@ -100,8 +100,6 @@ bool is_eth3d_slam(const fs::path& folder) {
 
 Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, Findings& findings) {
   Dataset dataset;
-  dataset.path = folder.string();
-  dataset.name = folder_name(folder);
   const fs::path lenses = folder / "calibration.yaml";
   // A user's calibration replaces these files; if they exist, they still determine which camera is the left one.
   const bool has_lenses = fs::exists(lenses);

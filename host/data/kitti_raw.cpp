@@ -31,8 +31,7 @@ std::string calibration_beside(const fs::path& drive, const char* name) {
 
 Eigen::Isometry3d read_transform(const std::string& file) {
   const YamlMap map(file, "R and T of KITTI's calibrations");
-  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.linear() = map.rotation("R");
+  Eigen::Isometry3d transform(map.rotation("R"));
   transform.translation() = map.vector("T");
   return transform;
 }

@@ -139,8 +139,7 @@ fs::path sequence_in(const fs::path& folder, bool (*is_recording)(const fs::path
   std::sort(names.begin(), names.end());
   if (wanted.empty() && names.size() == 1) return folder / names[0];
   if (std::find(names.begin(), names.end(), wanted) != names.end()) return folder / wanted;
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  const std::string list = joined(names);
   if (!wanted.empty())
     throw UsageError(folder.string() + " has no sequence " + in_quotes(wanted) + "; there are " + list);
   throw UsageError(folder.string() + " holds the sequences " + list + ": give the folder of one, such as " +
@@ -206,24 +205,20 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::strin
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, double baseline) {
-  StereoRig rig;
+void set_rectified_rig(StereoRig& rig, double focal, double cx, double cy, double right_cx, double baseline) {
   rig.left.fx = rig.left.fy = rig.right.fx = rig.right.fy = focal;
   rig.left.cx = cx;
   rig.right.cx = right_cx;
   rig.left.cy = rig.right.cy = cy;
   rig.right_from_left.translation() << -baseline, 0, 0;
-  return rig;
 }
 
 fs::path whole_path(const fs::path& folder) { return fs::absolute(folder / ".").lexically_normal().parent_path(); }
 
 std::string folder_name(const fs::path& folder) { return whole_path(folder).filename().string(); }
 
-Dataset still_pair(const fs::path& folder, const std::string& left, const std::string& right, Findings& findings) {
+Dataset still_pair(const std::string& left, const std::string& right, Findings& findings) {
   Dataset dataset;
-  dataset.path = folder.string();
-  dataset.name = folder_name(folder);
   add_frame(dataset, 0, left, right, findings);
   return dataset;
 }

@@ -38,7 +38,8 @@ struct Layout {
   std::string name;
   /// Whether the folder has this layout. Considers names only, so that damaged datasets are recognised and reported.
   bool (*recognise)(const fs::path& folder);
-  /// Fills everything but `format`. \throws DataError, UsageError.
+  /// Fills everything but `format`, and `path` and `name` where they are not the folder's. \throws DataError,
+  /// UsageError.
   Dataset (*read)(const fs::path& folder, const DatasetOptions& options, Findings& findings);
   /// Whether the folder itself is a recording of many frames (not a folder of such folders). Considers names only; null
   /// for still pairs.
@@ -141,8 +142,9 @@ std::string unreadable_place(const std::string& path, const fs::filesystem_error
 /// The rotation nearest to a matrix read from a file. \throws DataError if it deviates by more than rounding (1e-3)
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file);
 
-/// Rig of a rectified pair: equal focal lengths, right camera `baseline` metres to the right.
-StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, double baseline);
+/// The cameras of a rectified pair, but not their sizes: equal focal lengths, the right one `baseline` metres to the
+/// right.
+void set_rectified_rig(StereoRig& rig, double focal, double cx, double cy, double right_cx, double baseline);
 
 /// The absolute path of a folder, without "." and "..", and without a slash at its end.
 fs::path whole_path(const fs::path& folder);
@@ -150,7 +152,7 @@ fs::path whole_path(const fs::path& folder);
 std::string folder_name(const fs::path& folder);
 
 /// A dataset of one still pair.
-Dataset still_pair(const fs::path& folder, const std::string& left, const std::string& right, Findings& findings);
+Dataset still_pair(const std::string& left, const std::string& right, Findings& findings);
 
 /// calib.txt of Middlebury 2014 and ETH3D two-view: cam0=[f 0 cx; 0 f cy; 0 0 1], cam1, baseline in mm, width, height,
 /// ndisp.

@@ -41,14 +41,13 @@ void set_reduced_rig(Dataset& dataset, int full_rows, double offset) {
   const PinholeCamera left = dataset.rig.left;
   const double reduction = std::max(1.0, std::round(static_cast<double>(full_rows) / std::max(left.height, 1)));
   const double cx = (left.width - 1) / 2.0, cy = (left.height - 1) / 2.0;
-  dataset.rig = rectified_rig(kFullFocal / reduction, cx, cy, cx + offset / reduction, kBaseline);
-  set_sizes_from_first_frame(dataset);
+  set_rectified_rig(dataset.rig, kFullFocal / reduction, cx, cy, cx + offset / reduction, kBaseline);
   dataset.rig.max_disparity = (kLargestGrey + offset) / reduction;
   dataset.disparity_truth_scale = 1 / reduction;
 }
 
 Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
-  Dataset dataset = still_pair(folder, image_with_stem(folder, "view1"), image_with_stem(folder, "view5"), findings);
+  Dataset dataset = still_pair(image_with_stem(folder, "view1"), image_with_stem(folder, "view5"), findings);
   findings.attempt([&] {
     double offset = 0;
     const std::string file = (folder / "dmin.txt").string();
@@ -71,7 +70,7 @@ Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
 bool is_middlebury_2003(const fs::path& folder) { return has(folder, "im2") || has(folder, "im6"); }
 
 Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions&, Findings& findings) {
-  Dataset dataset = still_pair(folder, image_with_stem(folder, "im2"), image_with_stem(folder, "im6"), findings);
+  Dataset dataset = still_pair(image_with_stem(folder, "im2"), image_with_stem(folder, "im6"), findings);
   findings.attempt([&] { set_reduced_rig(dataset, kFullRows2003, 0); });
   dataset.disparity_truth = if_there(image_with_stem(folder, "disp2"));
   dataset.notes.push_back(
@@ -95,7 +94,7 @@ bool is_middlebury_2006(const fs::path& folder) {
 Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   if (!has(folder, "aloeL")) return read_2005_or_2006(folder, findings);
   // The scene Aloe under its file names in the OpenCV samples.
-  Dataset dataset = still_pair(folder, image_with_stem(folder, "aloeL"), image_with_stem(folder, "aloeR"), findings);
+  Dataset dataset = still_pair(image_with_stem(folder, "aloeL"), image_with_stem(folder, "aloeR"), findings);
   findings.attempt([&] { set_reduced_rig(dataset, kFullRows2006, 0); });
   dataset.disparity_truth = if_there(image_with_stem(folder, "aloeGT"));
   dataset.notes.push_back("no dmin.txt: disparity offset assumed to be zero, depths are nominal");
@@ -107,7 +106,7 @@ bool is_middlebury_2014(const fs::path& folder) {
 }
 
 Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions&, Findings& findings) {
-  Dataset dataset = still_pair(folder, (folder / "im0.png").string(), (folder / "im1.png").string(), findings);
+  Dataset dataset = still_pair((folder / "im0.png").string(), (folder / "im1.png").string(), findings);
   dataset.disparity_truth = if_there((folder / "disp0.pfm").string());
   findings.attempt([&] {
     const std::string file = (folder / "calib.txt").string();

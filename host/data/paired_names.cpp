@@ -67,8 +67,6 @@ bool is_paired_names(const fs::path& folder) { return !find_pairs(folder).names.
 
 Dataset read_paired_names(const fs::path& folder, const DatasetOptions& options, Findings& findings) {
   Dataset dataset;
-  dataset.path = folder.string();
-  dataset.name = folder_name(folder);
   const Pairs pairs = find_pairs(folder);
   if (!pairs.unpaired.empty())
     findings.error(pairs.unpaired, "a left image alone", "the right image of the same name beside it");

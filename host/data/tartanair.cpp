@@ -29,8 +29,7 @@ Eigen::Isometry3d read_pose(const Line& line, const std::string& file) {
     fail(file, line.number, "a quaternion of length " + std::to_string(turn.norm()), "a unit quaternion qx qy qz qw");
   Eigen::Matrix3d body_from_camera;
   body_from_camera << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = turn.normalized().toRotationMatrix() * body_from_camera;
+  Eigen::Isometry3d pose(Eigen::Matrix3d(turn.normalized().toRotationMatrix() * body_from_camera));
   pose.translation() << v[0], v[1], v[2];
   return pose;
 }
@@ -41,8 +40,6 @@ bool is_tartanair(const fs::path& folder) { return version_of(folder) != nullptr
 
 Dataset read_tartanair(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   Dataset dataset;
-  dataset.path = folder.string();
-  dataset.name = folder_name(folder);
   const Names* names = version_of(folder);
   if (names == nullptr) {
     findings.error(folder.string(), "no image_left and image_right", "TartanAir's layout");
@@ -63,8 +60,7 @@ Dataset read_tartanair(const fs::path& folder, const DatasetOptions&, Findings& 
   set_sizes_from_first_frame(dataset);
   const PinholeCamera size = dataset.rig.left;
   const double focal_length = 0.5 * size.width;  // a field of view of 90 degrees, also of resized images
-  dataset.rig = rectified_rig(focal_length, 0.5 * size.width, 0.5 * size.height, 0.5 * size.width, kBaseline);
-  set_sizes_from_first_frame(dataset);
+  set_rectified_rig(dataset.rig, focal_length, 0.5 * size.width, 0.5 * size.height, 0.5 * size.width, kBaseline);
   dataset.rig.max_disparity = focal_length * kBaseline / kNearestDepth;
   const fs::path truth = folder / names->poses;
   if (fs::exists(truth)) {

@@ -20,15 +20,13 @@ bool is_viso2_quad(const fs::path& folder) { return fs::exists(image_with_stem(f
 
 Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   Dataset dataset;
-  dataset.path = folder.string();
-  dataset.name = folder_name(folder);
   std::int64_t stamp = 0;
   for (const char* which : {"p", "c"}) {
     add_frame(dataset, stamp, image_with_stem(folder, std::string("I1") + which),
               image_with_stem(folder, std::string("I2") + which), findings);
     stamp += kPeriodNs;
   }
-  dataset.rig = rectified_rig(kFocal, kCentreX, kCentreY, kCentreX, kQuadBaseline);
+  set_rectified_rig(dataset.rig, kFocal, kCentreX, kCentreY, kCentreX, kQuadBaseline);
   findings.attempt([&] { set_sizes_from_first_frame(dataset); });
   dataset.rig.max_disparity = kFocal * kQuadBaseline / kNearestQuadDepth;
   dataset.notes.push_back("calibration of the libviso2 demo; nominal times 0.1 s apart");

@@ -51,8 +51,7 @@ inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector) {
 }
 
 inline Eigen::Isometry3d rounded_transform(const Eigen::Isometry3d& transform) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear() = rotation_by(rounded_rotation(transform));
+  Eigen::Isometry3d result(rotation_by(rounded_rotation(transform)));
   result.translation() = rounded(transform.translation());
   return result;
 }

@@ -3,16 +3,6 @@
 
 namespace quadedge::pose {
 
-namespace {
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
-}  // namespace
-
 Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform) {
   Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();
   result.topLeftCorner<3, 3>() = transform.linear();

@@ -17,6 +17,13 @@ struct RelativePose {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
+/// The matrix whose product with a vector is v x that vector.
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
 /// Maps a left perturbation before `transform` (rotation, translation) to the perturbation after it.
 Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform);
 

@@ -18,16 +18,10 @@ constexpr double kSettled = 1e-6;   ///< relative decrease of the cost at which 
 constexpr int kMostHalvings = 8;    ///< of a step that increases the cost
 constexpr double kMinSigma = 1e-9;  ///< of a calibration error that is assumed to be exact
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
 /// Inverse of the left Jacobian of SO(3): the change of log(R) by a small rotation on the left of R.
 Eigen::Matrix3d inverse_left_jacobian(const Eigen::Vector3d& rotation) {
   const double angle = rotation.norm();
-  const Eigen::Matrix3d cross = cross_matrix(rotation);
+  const Eigen::Matrix3d cross = pose::cross_matrix(rotation);
   const double second =
       angle < 1e-4 ? 1.0 / 12 : 1 / (angle * angle) - (1 + std::cos(angle)) / (2 * angle * std::sin(angle));
   return Eigen::Matrix3d::Identity() - 0.5 * cross + second * cross * cross;
@@ -107,7 +101,7 @@ PoseGraph::Linearised PoseGraph::linearise(const GraphEdge& edge) const {
   Block change = Block::Zero();
   change.topLeftCorner<3, 3>() = inverse_left_jacobian(turn);
   change.bottomRightCorner<3, 3>().setIdentity();
-  change.bottomLeftCorner<3, 3>() = -cross_matrix(difference.translation());
+  change.bottomLeftCorner<3, 3>() = -pose::cross_matrix(difference.translation());
   result.by_from = change * pose::adjoint(predicted);
   result.by_to = -change;
   return result;

@@ -11,6 +11,7 @@
 #include "common/numeric.hpp"
 #include "geometry/calibration.hpp"
 #include "geometry/lens_mapping.hpp"
+#include "geometry/uncertain_pose.hpp"
 
 namespace quadedge::rig {
 namespace {
@@ -29,12 +30,6 @@ constexpr int kMotion = 6, kRows = 2 * kViews;
 using Rows = Eigen::Matrix<double, kRows, 1>;
 using ByPoint = Eigen::Matrix<double, kRows, 3>;
 using ByRest = Eigen::Matrix<double, kRows, Eigen::Dynamic, 0, kRows, kMotion + 32>;  // motion, then unknowns
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
 
 Side side_of(int view) { return view % 2 == 0 ? Side::left : Side::right; }
 
@@ -150,7 +145,8 @@ struct PairAdjustment::Terms {
       by_parts << point.beside, Eigen::Vector3d::Zero();
       Eigen::Matrix<double, 3, kMotion> by_motion = Eigen::Matrix<double, 3, kMotion>::Zero();
       if (view >= kLeftSecond) {
-        by_motion << -cross(motion.linear() * point.ray), point.inverse_depth * Eigen::Matrix3d::Identity();
+        by_motion << -pose::cross_matrix(motion.linear() * point.ray),
+            point.inverse_depth * Eigen::Matrix3d::Identity();
         by_parts = (motion.linear() * by_parts).eval();
         by_parts.col(2) = motion.translation();
       }
@@ -167,7 +163,7 @@ struct PairAdjustment::Terms {
       if (side == Side::left) continue;
       const int first = cameras.unknowns.first_rotation();
       const Eigen::Vector3d turned = at - point.inverse_depth * cameras.baseline;
-      by_rig.middleCols<3>(first) -= by_place * cross(turned) * cameras.unknowns.rotation_axes();
+      by_rig.middleCols<3>(first) -= by_place * pose::cross_matrix(turned) * cameras.unknowns.rotation_axes();
       by_rig.middleCols<2>(first + 3) += by_place * cameras.baseline_slope * point.inverse_depth;
     }
   }

@@ -27,9 +27,7 @@ void require(bool allowed, const char* name, double value, const char* range) {
 
 void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  std::string allowed;
-  for (const std::string& word : known) allowed += (allowed.empty() ? "" : ", ") + word;
-  throw UsageError("synthetic sequence: unknown " + what + " '" + name + "', allowed: " + allowed);
+  throw UsageError("synthetic sequence: unknown " + what + " '" + name + "', allowed: " + joined(known));
 }
 
 void check(const SyntheticOptions& options) {

@@ -42,8 +42,7 @@ Eigen::Isometry3d transform_from(const nb::object& object, const std::string& na
                     nb::cast<std::string>(nb::str(nb::float_(deviation))) +
                     "), expected a rotation and a translation above the row 0 0 0 1");
   }
-  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.linear() = rotation;
+  Eigen::Isometry3d transform(rotation);
   transform.translation() = matrix.topRightCorner<3, 1>();
   return transform;
 }

@@ -31,6 +31,12 @@ ArrayView<T> view_of(const std::vector<T>& values) {
   return ArrayView<T>(values.data(), {values.size()});
 }
 
+/// For a property of Self that is a vector of it: (N,) over its memory. `Of`: Self, or a base of it.
+template <class Self, class T, class Of>
+auto view_of(std::vector<T> Of::*values) {
+  return [values](const Self& self) { return view_of(self.*values); };
+}
+
 /// (rows, columns) over a matrix of fixed or dynamic size; strides express Eigen's column-major order.
 template <class Matrix>
 ArrayView<double> view_of_matrix(const Matrix& matrix) {
@@ -59,6 +65,12 @@ nb::ndarray<nb::numpy, double> copy_of_matrix(const Matrix& matrix) {
 
 /// Pairs (x, y) as an (N, 2) array that owns its memory.
 nb::ndarray<nb::numpy, float> pairs_of(const std::vector<float>& x, const std::vector<float>& y);
+
+/// For a property of Self that pairs two vectors of it. `Of`: Self, or a base of it.
+template <class Self, class Of>
+auto pairs_of(std::vector<float> Of::*x, std::vector<float> Of::*y) {
+  return [x, y](const Self& self) { return pairs_of(self.*x, self.*y); };
+}
 
 /// A rigid transform from a 4 x 4 array. \param name  for messages. \throws DataError for another shape, a last row
 /// other than 0 0 0 1, and a matrix that is not orthonormal.

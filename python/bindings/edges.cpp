@@ -14,16 +14,12 @@ namespace {
 void bind_edge_set(nb::module_& module) {
   nb::class_<EdgeSet>(module, "Edges", "Third-order edges of one image in scan order. All arrays are (N,) float32.")
       .def("__len__", &EdgeSet::size)
-      .def_prop_ro(
-          "x", [](const EdgeSet& self) { return view_of(self.x); }, kView, "Position, to the right [px].")
-      .def_prop_ro(
-          "y", [](const EdgeSet& self) { return view_of(self.y); }, kView, "Position, downwards [px].")
-      .def_prop_ro(
-          "direction", [](const EdgeSet& self) { return view_of(self.direction); }, kView,
-          "Direction of the tangent [rad], in (-pi, pi]; the bright side lies towards (-sin, cos).")
-      .def_prop_ro(
-          "strength", [](const EdgeSet& self) { return view_of(self.strength); }, kView,
-          "Gradient magnitude at the edge [grey levels per px].")
+      .def_prop_ro("x", view_of<EdgeSet>(&EdgeSet::x), kView, "Position, to the right [px].")
+      .def_prop_ro("y", view_of<EdgeSet>(&EdgeSet::y), kView, "Position, downwards [px].")
+      .def_prop_ro("direction", view_of<EdgeSet>(&EdgeSet::direction), kView,
+                   "Direction of the tangent [rad], in (-pi, pi]; the bright side lies towards (-sin, cos).")
+      .def_prop_ro("strength", view_of<EdgeSet>(&EdgeSet::strength), kView,
+                   "Gradient magnitude at the edge [grey levels per px].")
       .def("__repr__", [](const EdgeSet& self) { return "<" + std::to_string(self.size()) + " Edges>"; });
 }
 
@@ -33,62 +29,48 @@ void bind_stereo_edges(nb::module_& module) {
       module, "StereoEdges",
       "N edges matched between the left and right image, in scan order of the left image. Image positions\n"
       "refer to the pinhole images of ``Odometry.rig``.")
-      .def("__len__", [](const Self& self) { return self.edges.size(); })
+      .def("__len__", &Self::size)
       .def_prop_ro(
           "xyz", [](const Self& self) { return view_of_columns(self.points.position); }, kView,
           "(N, 3) float64: position in the left camera frame (x right, y down, z forward) [m]; NaN without a depth.")
       .def_prop_ro(
           "direction", [](const Self& self) { return view_of_columns(self.points.tangent); }, kView,
           "(N, 3) float64: unit tangent in the left camera frame; NaN where ``xyz`` is.")
-      .def_prop_ro(
-          "left", [](const Self& self) { return pairs_of(self.edges.left_x, self.edges.left_y); }, kOwned,
-          "(N, 2) float32: detected position in the left image [px]; a copy.")
-      .def_prop_ro(
-          "right", [](const Self& self) { return pairs_of(self.edges.right_x, self.edges.right_y); }, kOwned,
-          "(N, 2) float32: refined position in the right image [px]; a copy.")
-      .def_prop_ro(
-          "left_index", [](const Self& self) { return view_of(self.edges.left_index); }, kView,
-          "(N,) int32: index of the left edge.")
-      .def_prop_ro(
-          "right_index", [](const Self& self) { return view_of(self.edges.right_index); }, kView,
-          "(N,) int32: index of the right edge; neighbours may share it.")
-      .def_prop_ro(
-          "left_direction", [](const Self& self) { return view_of(self.edges.left_direction); }, kView,
-          "(N,) float32: direction of the tangent in the left image [rad].")
-      .def_prop_ro(
-          "right_direction", [](const Self& self) { return view_of(self.edges.right_direction); }, kView,
-          "(N,) float32: direction of the tangent in the right image [rad].")
-      .def_prop_ro(
-          "ncc", [](const Self& self) { return view_of(self.edges.ncc); }, kView,
-          "(N,) float32: normalised cross-correlation of the patches, at most 1.")
-      .def("__repr__", [](const Self& self) { return "<" + std::to_string(self.edges.size()) + " StereoEdges>"; });
+      .def_prop_ro("left", pairs_of<Self>(&Self::left_x, &Self::left_y), kOwned,
+                   "(N, 2) float32: detected position in the left image [px]; a copy.")
+      .def_prop_ro("right", pairs_of<Self>(&Self::right_x, &Self::right_y), kOwned,
+                   "(N, 2) float32: refined position in the right image [px]; a copy.")
+      .def_prop_ro("left_index", view_of<Self>(&Self::left_index), kView, "(N,) int32: index of the left edge.")
+      .def_prop_ro("right_index", view_of<Self>(&Self::right_index), kView,
+                   "(N,) int32: index of the right edge; neighbours may share it.")
+      .def_prop_ro("left_direction", view_of<Self>(&Self::left_direction), kView,
+                   "(N,) float32: direction of the tangent in the left image [rad].")
+      .def_prop_ro("right_direction", view_of<Self>(&Self::right_direction), kView,
+                   "(N,) float32: direction of the tangent in the right image [rad].")
+      .def_prop_ro("ncc", view_of<Self>(&Self::ncc), kView,
+                   "(N,) float32: normalised cross-correlation of the patches, at most 1.")
+      .def("__repr__", [](const Self& self) { return "<" + std::to_string(self.size()) + " StereoEdges>"; });
 }
 
 void bind_quads(nb::module_& module) {
   nb::class_<Quads>(module, "Quads", "M matches between the stereo edges of two frames.")
-      .def("__len__", [](const Quads& self) { return self.matches.size(); })
-      .def_prop_ro(
-          "previous", [](const Quads& self) { return view_of(self.matches.previous); }, kView,
-          "(M,) int32: indices into the stereo edges of the earlier frame.")
-      .def_prop_ro(
-          "current", [](const Quads& self) { return view_of(self.matches.current); }, kView,
-          "(M,) int32: indices into the stereo edges of this frame.")
-      .def_prop_ro(
-          "left", [](const Quads& self) { return pairs_of(self.matches.left_x, self.matches.left_y); }, kOwned,
-          "(M, 2) float32: position in the left image [px]; a copy.")
-      .def_prop_ro(
-          "right", [](const Quads& self) { return pairs_of(self.matches.right_x, self.matches.right_y); }, kOwned,
-          "(M, 2) float32: position in the right image [px]; a copy.")
-      .def_prop_ro(
-          "competing_clusters", [](const Quads& self) { return view_of(self.matches.competing_clusters); }, kView,
-          "(M,) int32: further clusters of the earlier edge's candidates; 0: unambiguous.")
+      .def("__len__", &Quads::size)
+      .def_prop_ro("previous", view_of<Quads>(&Quads::previous), kView,
+                   "(M,) int32: indices into the stereo edges of the earlier frame.")
+      .def_prop_ro("current", view_of<Quads>(&Quads::current), kView,
+                   "(M,) int32: indices into the stereo edges of this frame.")
+      .def_prop_ro("left", pairs_of<Quads>(&Quads::left_x, &Quads::left_y), kOwned,
+                   "(M, 2) float32: position in the left image [px]; a copy.")
+      .def_prop_ro("right", pairs_of<Quads>(&Quads::right_x, &Quads::right_y), kOwned,
+                   "(M, 2) float32: position in the right image [px]; a copy.")
+      .def_prop_ro("competing_clusters", view_of<Quads>(&Quads::competing_clusters), kView,
+                   "(M,) int32: further clusters of the earlier edge's candidates; 0: unambiguous.")
       .def_prop_ro(
           "inlier", [](const Quads& self) { return ArrayView<bool>(self.inlier.data(), {self.inlier.size()}); }, kView,
           "(M,) bool: True if the quad agrees with the estimated motion.")
-      .def_prop_ro(
-          "ncc", [](const Quads& self) { return view_of(self.matches.ncc); }, kView,
-          "(M,) float32: normalised cross-correlation of the patches, at most 1.")
-      .def("__repr__", [](const Quads& self) { return "<" + std::to_string(self.matches.size()) + " Quads>"; });
+      .def_prop_ro("ncc", view_of<Quads>(&Quads::ncc), kView,
+                   "(M,) float32: normalised cross-correlation of the patches, at most 1.")
+      .def("__repr__", [](const Quads& self) { return "<" + std::to_string(self.size()) + " Quads>"; });
 }
 
 EdgeSet detect(nb::handle image, nb::handle device, const std::string& preset, nb::handle config, int max_value) {
@@ -107,7 +89,7 @@ StereoEdgesInSpace match(nb::handle left, nb::handle right, nb::handle source, n
     StereoOdometry odometry(rig, chosen, constants);
     odometry.track({0, left_image.view(), right_image.view()});
     StereoEdgesInSpace found{odometry.details().stereo, {}};
-    found.points = edge_points(found.edges, odometry.rig());
+    found.points = edge_points(found, odometry.rig());
     return found;
   });
 }

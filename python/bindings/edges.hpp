@@ -7,14 +7,12 @@
 
 namespace quadedge::python {
 
-struct StereoEdgesInSpace {
-  StereoEdges edges;
+struct StereoEdgesInSpace : StereoEdges {
   EdgePoints points;
 };
 
 /// Matches between the stereo edges of two frames.
-struct Quads {
-  TemporalMatches matches;
+struct Quads : TemporalMatches {
   std::vector<std::uint8_t> inlier;
 };
 

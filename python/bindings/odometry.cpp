@@ -28,10 +28,8 @@ namespace {
 struct MappedResult : FrameResult {
   std::optional<Eigen::Isometry3d> map_from_odometry;
 };
-template <class Self>
-auto members(Self& self, const MappedResult&) {
-  return std::tuple_cat(quadedge::python::members(self, static_cast<const FrameResult&>(self)),
-                        std::tie(self.map_from_odometry));
+auto members(MappedResult& self) {
+  return std::tuple_cat(quadedge::python::members(static_cast<FrameResult&>(self)), std::tie(self.map_from_odometry));
 }
 
 /// The edges and quads of one frame.

@@ -20,68 +20,44 @@ namespace quadedge::python {
 
 constexpr const char* kOtherVersion = "pickle: found a structure of another version of quadedge, expected this one";
 
-// The members of a structure, in a fixed order. Works for const and mutable ones.
-template <class Self>
-auto members(Self& self, const PinholeCamera&) {
+// The members of a structure, in a fixed order.
+inline auto members(PinholeCamera& self) {
   return std::tie(self.fx, self.fy, self.cx, self.cy, self.width, self.height);
 }
-template <class Self>
-auto members(Self& self, const UndistortionTable&) {
+inline auto members(UndistortionTable& self) {
   return std::tie(self.width, self.height, self.source_x, self.source_y, self.recorded_width, self.recorded_height);
 }
-template <class Self>
-auto members(Self& self, const PixelMask&) {
-  return std::tie(self.width, self.height, self.hidden);
-}
-template <class Self>
-auto members(Self& self, const StereoRig&) {
+inline auto members(PixelMask& self) { return std::tie(self.width, self.height, self.hidden); }
+inline auto members(StereoRig& self) {
   return std::tie(self.left, self.right, self.right_from_left.matrix(), self.left_undistortion, self.right_undistortion,
                   self.left_mask, self.right_mask, self.max_value, self.max_disparity);
 }
-template <class Self>
-auto members(Self& self, const FrameCounts&) {
+inline auto members(FrameCounts& self) {
   return std::tie(self.edges_left, self.edges_right, self.stereo_edges, self.temporal_left, self.temporal_right,
                   self.quads, self.inliers);
 }
-template <class Self>
-auto members(Self& self, const RigEvidence&) {
+inline auto members(RigEvidence& self) {
   return std::tie(self.matched_ratio, self.epipolar_residual, self.epipolar_offset, self.epipolar_slope_x,
                   self.epipolar_slope_y, self.epipolar_samples, self.epipolar_correction, self.found_ratio,
                   self.searched_residual, self.on_line_ratio, self.negative_ratio, self.beyond_ratio);
 }
-template <class Self>
-auto members(Self& self, const StageTime&) {
-  return std::tie(self.stage, self.ms);
-}
-template <class Self>
-auto members(Self& self, const Eigen::Isometry3d&) {
-  return std::tie(self.matrix());
-}
-template <class Self>
-auto members(Self& self, const Warning&) {
-  return std::tie(self.kind, self.text);
-}
-template <class Self>
-auto members(Self& self, const FrameTiming&) {
-  return std::tie(self.stages, self.kernels, self.latency_ms);
-}
-template <class Self>
-auto members(Self& self, const FrameDiagnostics&) {
+inline auto members(StageTime& self) { return std::tie(self.stage, self.ms); }
+inline auto members(Eigen::Isometry3d& self) { return std::tie(self.matrix()); }
+inline auto members(Warning& self) { return std::tie(self.kind, self.text); }
+inline auto members(FrameTiming& self) { return std::tie(self.stages, self.kernels, self.latency_ms); }
+inline auto members(FrameDiagnostics& self) {
   return std::tie(self.edge_threshold, self.disparity_range, self.overflow, self.base_frame, self.search,
                   self.moving_ratio, self.moving_cells, self.moving_box, self.rig_evidence,
                   self.covariance_in_reference, self.rig_sensitivity);
 }
-template <class Self>
-auto members(Self& self, const RectificationError&) {
+inline auto members(RectificationError& self) {
   return std::tie(self.offset, self.slope_x, self.slope_y, self.bend_xx, self.bend_xy, self.bend_yy);
 }
-template <class Self>
-auto members(Self& self, const RigEstimate&) {
+inline auto members(RigEstimate& self) {
   return std::tie(self.rows, self.disparity_offset, self.disparity_offset_sigma, self.disparity_offset_shared,
                   self.displacement, self.displacement_sigma);
 }
-template <class Self>
-auto members(Self& self, const FrameResult&) {
+inline auto members(FrameResult& self) {
   return std::tie(self.stamp_ns, self.status, self.segment, self.world_from_left, self.predicted_world_from_left,
                   self.covariance, self.current_from_reference, self.relative_covariance, self.reference_frame,
                   self.new_key_rig, self.rig, self.ambiguous_motion, self.counts, self.message, self.warnings,
@@ -106,14 +82,13 @@ template <class T, class = void>
 struct Packed {  // a structure: a tuple of its packed members
   static nb::object pack(const T& value) {
     return std::apply(
-        [](const auto&... member) {
-          return nb::make_tuple(
-              Packed<std::remove_const_t<std::remove_reference_t<decltype(member)>>>::pack(member)...);
+        [](auto&... member) {
+          return nb::make_tuple(Packed<std::remove_reference_t<decltype(member)>>::pack(member)...);
         },
-        members(value, value));
+        members(const_cast<T&>(value)));  // which are only read
   }
   static void unpack(nb::handle packed, T& value) {
-    const auto all = members(value, value);
+    const auto all = members(value);
     const auto state = nb::cast<nb::tuple>(packed);
     constexpr std::size_t kCount = std::tuple_size_v<std::remove_const_t<decltype(all)>>;
     if (state.size() != kCount) throw DataError(kOtherVersion);

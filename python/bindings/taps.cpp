@@ -44,31 +44,27 @@ void bind_filters(nb::module_& module) {
 
 void bind_candidates(nb::module_& module) {
   using Self = CandidateLists;
-  const auto array = [](auto Self::*values) { return [values](const Self& self) { return view_of(self.*values); }; };
   nb::class_<Self>(module, "Candidates",
                    "Candidates in compressed rows: row i consists of ``first[i]`` .. ``first[i + 1] - 1`` of the flat\n"
                    "arrays.")
       .def(
           "__len__", [](const Self& self) { return self.target.size(); }, "Number of all candidates.")
-      .def_prop_ro("first", array(&Self::first), kView, "(rows + 1,) int32.")
-      .def_prop_ro("target", array(&Self::target), kView, "(C,) int32: index of the other edge.")
-      .def_prop_ro("x", array(&Self::x), kView,
+      .def_prop_ro("first", view_of<Self>(&Self::first), kView, "(rows + 1,) int32.")
+      .def_prop_ro("target", view_of<Self>(&Self::target), kView, "(C,) int32: index of the other edge.")
+      .def_prop_ro("x", view_of<Self>(&Self::x), kView,
                    "(C,) float32: refined position [px]; (0,) where candidates lie at their targets.")
-      .def_prop_ro("y", array(&Self::y), kView, "(C,) float32: as ``x``.")
-      .def_prop_ro("cue", array(&Self::cue), kView,
+      .def_prop_ro("y", view_of<Self>(&Self::y), kView, "(C,) float32: as ``x``.")
+      .def_prop_ro("cue", view_of<Self>(&Self::cue), kView,
                    "(C,) float32: the NCC or SIFT distance that the next filter compares with its threshold; (0,) if\n"
                    "it compares positions or directions.");
 }
 
 void bind_search(nb::module_& module) {
   nb::class_<EdgePositions>(module, "EdgePositions", "Positions in one image; NaN: none. All arrays are (N,) float32.")
-      .def_prop_ro(
-          "x", [](const EdgePositions& self) { return view_of(self.x); }, kView, "[px]")
-      .def_prop_ro(
-          "y", [](const EdgePositions& self) { return view_of(self.y); }, kView, "[px]")
-      .def_prop_ro(
-          "direction", [](const EdgePositions& self) { return view_of(self.direction); }, kView,
-          "Direction of the tangent [rad].");
+      .def_prop_ro("x", view_of<EdgePositions>(&EdgePositions::x), kView, "[px]")
+      .def_prop_ro("y", view_of<EdgePositions>(&EdgePositions::y), kView, "[px]")
+      .def_prop_ro("direction", view_of<EdgePositions>(&EdgePositions::direction), kView,
+                   "Direction of the tangent [rad].");
   using Self = ObservedSearch;
   nb::class_<Self>(module, "Search", "A search for the stereo edges of an earlier frame, the base, in this frame.")
       .def_ro("number", &Self::number,

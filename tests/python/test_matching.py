@@ -12,7 +12,7 @@ from quadedge.matching.cues import DRAWN_OTHERS, Histogram, Judge, make_cues
 from quadedge.matching.document import rank_correlation, summary
 from quadedge.matching.draws import Draws
 from quadedge.matching.observer import FrameMatching, MatchingObserver, MatchingResult, add_cues
-from quadedge.matching.quad_pairs import OrientedPairs, check_constraints, measure_pairs, motion_errors
+from quadedge.matching.quad_pairs import check_constraints, measure_pairs, motion_errors
 from quadedge.matching.surfaces import TruePositions
 
 
@@ -242,10 +242,8 @@ def test_constraints_hold_for_pairs_that_moved_alike_and_each_fails_for_its_own_
     along, across, up = numpy.eye(3)
 
     def check(now_second=(2, 0, 0), tangent=across, second=up, before_tangents=(across, up)):
-        before = OrientedPairs(*(numpy.array([v], float) for v in ((0, 0, 3), before_tangents[0], (1, 0, 3),
-                                                                   before_tangents[1])))
-        now = OrientedPairs(*(numpy.array([v], float) for v in ((0, 0, 3), tangent, numpy.add((-1, 0, 3), now_second),
-                                                                second)))
+        before = numpy.array([[(0, 0, 3)], [before_tangents[0]], [(1, 0, 3)], [before_tangents[1]]], float)
+        now = numpy.array([[(0, 0, 3)], [tangent], [numpy.add((-1, 0, 3), now_second)], [second]], float)
         values, passed, swapped = check_constraints(before, now)
         return values[:, 0], passed[:, 0].tolist(), swapped[0]
 

@@ -39,8 +39,7 @@ std::map<int, Eigen::Isometry3d> reachable(const Cameras& cameras, int socket) {
     if (next < 0 || transforms.count(next) > 0) break;
     constexpr double kMetres = 0.01;  // per unit of the file
     const YamlMap translation = extrinsics.map("translation");
-    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-    step.linear() = extrinsics.rotation("rotationMatrix");
+    Eigen::Isometry3d step(extrinsics.rotation("rotationMatrix"));
     step.translation() =
         kMetres * Eigen::Vector3d(translation.number("x"), translation.number("y"), translation.number("z"));
     transforms[next] = step * transforms.at(camera->first);

@@ -43,8 +43,7 @@ StatedLens edex_lens(const YamlMap& camera) {
 /// The same transform between frames with y down and z forward.
 Eigen::Isometry3d with_turned_axes(const Eigen::Isometry3d& transform) {
   const Eigen::DiagonalMatrix<double, 3> turn(1, -1, -1);
-  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
-  turned.linear() = turn * transform.linear() * turn;
+  Eigen::Isometry3d turned(Eigen::Matrix3d(turn * transform.linear() * turn));
   turned.translation() = turn * transform.translation();
   return turned;
 }

@@ -24,8 +24,7 @@ StatedLens read_recording(const YamlMap& cameras, const std::string& number) {
 }
 
 Eigen::Isometry3d camera_from_reference(const YamlMap& cameras, const std::string& number) {
-  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.linear() = cameras.rotation("R_" + number);
+  Eigen::Isometry3d transform(cameras.rotation("R_" + number));
   transform.translation() = cameras.vector("T_" + number);
   return transform;
 }

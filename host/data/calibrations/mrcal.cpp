@@ -32,8 +32,7 @@ Eigen::Isometry3d camera_from_reference(const YamlMap& camera) {
   const auto rt = camera.numbers(key, 6);
   if (has_older_name && camera.numbers("extrinsics") != rt)
     camera.complain("extrinsics", "other numbers", "those of rt_cam_ref");
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = rotation_of_vector({rt[0], rt[1], rt[2]}, camera.file() + " (" + key + ")");
+  Eigen::Isometry3d pose(rotation_of_vector({rt[0], rt[1], rt[2]}, camera.file() + " (" + key + ")"));
   pose.translation() << rt[3], rt[4], rt[5];
   return pose;
 }

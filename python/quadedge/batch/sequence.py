@@ -8,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -52,9 +51,8 @@ def run(name: str) -> None:
     """Runs the sequence in a folder of its own, which becomes sequences/NAME in one step when it is over."""
     plan = json.loads(Path("batch.json").read_text(encoding="utf-8"))
     sequence = next(entry for entry in plan["sequences"] if entry["name"] == name)
-    Path("unfinished").mkdir(exist_ok=True)
-    folder = Path(tempfile.mkdtemp(dir="unfinished", prefix=f"{name}.")).absolute()
-    folder.chmod(0o777 & ~_umask())
+    folder = Path("unfinished", f"{name}.{os.getpid()}").absolute()
+    folder.mkdir(parents=True)
     command = [plan["program"], "run", "--output", str(folder), *plan["options"], *sequence["words"]]
     with open(folder / "log.txt", "wb") as log:
         process = subprocess.run(command, cwd=plan["directory"], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
@@ -70,12 +68,6 @@ def run(name: str) -> None:
     except OSError as problem:
         raise DataError(f"{place}: the finished folder cannot be put here: {problem.strerror}") from None
     print(f"{name}: {outcome(place, name, plan)}", file=sys.stderr, flush=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _failure(code: int, folder: Path) -> str:

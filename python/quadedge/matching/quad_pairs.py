@@ -1,4 +1,8 @@
-"""Pairs of quads under the constraints of the paper's Equation 9: Table 3, Figures 6 and 7."""
+"""Pairs of quads under the constraints of the paper's Equation 9: Table 3, Figures 6 and 7.
+
+N pairs of points with tangents are arrays (4, N, 3): the first point, its tangent, the second point, its tangent, in
+the left camera frame of their time [m].
+"""
 
 from dataclasses import dataclass
 
@@ -15,30 +19,6 @@ MOST_MOTIONS, FEWEST_MOTIONS = 2000, 50
 
 
 @dataclass
-class OrientedPairs:
-    """N pairs of points with tangents: (N, 3) each, in the left camera frame of their time [m]."""
-
-    first: np.ndarray
-    first_tangent: np.ndarray
-    second: np.ndarray
-    second_tangent: np.ndarray
-
-    @classmethod
-    def of(cls, points: np.ndarray, tangents: np.ndarray, a: np.ndarray, b: np.ndarray) -> "OrientedPairs":
-        return cls(points[a], tangents[a], points[b], tangents[b])
-
-    def swapped(self, where: np.ndarray) -> "OrientedPairs":
-        """With the roles of the points exchanged there."""
-        where = where[:, None]
-        return OrientedPairs(*(np.where(where, other, own) for own, other in (
-            (self.first, self.second), (self.first_tangent, self.second_tangent), (self.second, self.first),
-            (self.second_tangent, self.first_tangent))))
-
-    def chosen(self, rows) -> "OrientedPairs":
-        return OrientedPairs(self.first[rows], self.first_tangent[rows], self.second[rows], self.second_tangent[rows])
-
-
-@dataclass
 class PairMeasurement:
     """Of one frame, after each of CONSTRAINTS: pairs and veridical ones, and the median errors of the motions that
     single pairs give, (rotation [deg], translation [m]); NaN of too few."""
@@ -52,18 +32,18 @@ def _dot(a, b):
     return (a * b).sum(axis=-1)
 
 
-def _shape(pairs: OrientedPairs):
+def _shape(pairs: np.ndarray):
     """Length of D, its cosines with T1 and T2, T1 . T2, and det(D / |D|, T1, T2)."""
-    d = pairs.second - pairs.first
+    first, first_tangent, second, second_tangent = pairs
+    d = second - first
     length = np.sqrt(_dot(d, d))
     with np.errstate(divide="ignore", invalid="ignore"):
         unit = d / length[:, None]
-    return (length, _dot(unit, pairs.first_tangent), _dot(unit, pairs.second_tangent),
-            _dot(pairs.first_tangent, pairs.second_tangent),
-            _dot(unit, np.cross(pairs.first_tangent, pairs.second_tangent)))
+    return (length, _dot(unit, first_tangent), _dot(unit, second_tangent), _dot(first_tangent, second_tangent),
+            _dot(unit, np.cross(first_tangent, second_tangent)))
 
 
-def check_constraints(before: OrientedPairs, now: OrientedPairs):
+def check_constraints(before: np.ndarray, now: np.ndarray):
     """The quantities (5, N) that the first five constraints compare with their thresholds; whether each of the six
     holds (6, N); and whether the fifth does only with the roles of the quads exchanged (N,)."""
     length, first, second, tangents, determinant = _shape(before)
@@ -85,24 +65,24 @@ def check_constraints(before: OrientedPairs, now: OrientedPairs):
     return np.where(apart, values, np.nan), passed, ~crosses[0] & crosses[1]
 
 
-def _frames(pairs: OrientedPairs) -> tuple[np.ndarray, np.ndarray]:
+def _frames(pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Orthonormal frames [D / |D|, part of T1 across it, their product] as columns, and whether they exist."""
-    d = pairs.second - pairs.first
+    d, tangent = pairs[2] - pairs[0], pairs[1]
     with np.errstate(divide="ignore", invalid="ignore"):
         first = d / np.sqrt(_dot(d, d))[:, None]
-        cosine = _dot(first, pairs.first_tangent)
-        across = pairs.first_tangent - cosine[:, None] * first
+        cosine = _dot(first, tangent)
+        across = tangent - cosine[:, None] * first
         across /= np.sqrt(_dot(across, across))[:, None]
     return np.stack([first, across, np.cross(first, across)], axis=-1), np.abs(cosine) < 1
 
 
-def motion_of_pairs(before: OrientedPairs, now: OrientedPairs) -> np.ndarray:
+def motion_of_pairs(before: np.ndarray, now: np.ndarray) -> np.ndarray:
     """(N, 4, 4): the motions that map pairs to pairs (Proposition 2), midpoint to midpoint; NaN where there is none."""
     (frames, exists), (frames_now, exists_now) = _frames(before), _frames(now)
     motions = np.zeros((len(frames), 4, 4))
     motions[:, 3, 3] = 1
     motions[:, :3, :3] = frames_now @ frames.transpose(0, 2, 1)
-    middle, middle_now = 0.5 * (before.first + before.second), 0.5 * (now.first + now.second)
+    middle, middle_now = (0.5 * (pairs[0] + pairs[2]) for pairs in (before, now))
     motions[:, :3, 3] = middle_now - np.einsum("nij,nj->ni", motions[:, :3, :3], middle)
     motions[~(exists & exists_now)] = np.nan
     return motions
@@ -138,10 +118,10 @@ def measure_pairs(before, now, veridical: np.ndarray, seed: int, now_from_before
     drawn = Draws(seed).indices(2 * DRAWN_PAIRS, len(veridical)).reshape(-1, 2)
     a, b = drawn[drawn[:, 0] != drawn[:, 1]].T
     both = veridical[a] & veridical[b]
-    pairs_before, pairs_now = OrientedPairs.of(*before, a, b), OrientedPairs.of(*now, a, b)
-    values, passed, swapped = check_constraints(pairs_before, pairs_now)
-    pairs_before, pairs_now = pairs_before.swapped(swapped), pairs_now.swapped(swapped)
-    solvable = _frames(pairs_before)[1] & _frames(pairs_now)[1]
+    pairs = [np.stack([points[a], tangents[a], points[b], tangents[b]]) for points, tangents in (before, now)]
+    values, passed, swapped = check_constraints(*pairs)
+    pairs = [np.where(swapped[:, None], each[[2, 3, 0, 1]], each) for each in pairs]
+    solvable = _frames(pairs[0])[1] & _frames(pairs[1])[1]
     left = np.ones(len(a), bool)
     for order in range(len(CONSTRAINTS)):
         if order:
@@ -152,6 +132,6 @@ def measure_pairs(before, now, veridical: np.ndarray, seed: int, now_from_before
             cue.of["veridical"].add(values[order, left & both])
             cue.of["other"].add(values[order, left & ~both])
         rows = np.nonzero(left & solvable)[0][:MOST_MOTIONS]
-        motions = motion_of_pairs(pairs_before.chosen(rows), pairs_now.chosen(rows))
+        motions = motion_of_pairs(*(each[:, rows] for each in pairs))
         measured.errors[order] = _median(motion_errors(motions, now_from_before))
     return measured

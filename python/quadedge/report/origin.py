@@ -24,15 +24,3 @@ def origin(content: dict, device: str, recording: str) -> list[tuple[str, str]]:
             ("Device", device or DASH),
             ("Configuration", changed_constants(content)),
             ("Command", content.get("command") or DASH)]
-
-
-def configuration_rows(content: dict) -> list[tuple[str, str, bool]]:
-    """Key and value of every configuration entry, and whether it differs from the default."""
-    changed = content.get("config_changed", {})
-    rows = []
-    for section, values in content.get("config", {}).items():
-        entries = values.items() if isinstance(values, dict) else [("", values)]
-        for name, value in entries:
-            key = f"{section}.{name}" if name else section
-            rows.append((key, str(value).lower() if isinstance(value, bool) else str(value), key in changed))
-    return rows

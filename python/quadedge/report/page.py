@@ -8,7 +8,6 @@ import io
 import json
 import os
 import re
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import metadata, resources
@@ -215,16 +214,12 @@ def to_html(page: Page) -> str:
 
 def write_atomically(file: Path, text: str) -> None:
     """Writes a file completely or not at all."""
-    handle, temporary = tempfile.mkstemp(dir=file.parent or Path("."), prefix=f".{file.name}.")
+    temporary = file.with_name(f".{file.name}.{os.getpid()}")
     try:
-        with open(handle, "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, file)
+        temporary.write_text(text, encoding="utf-8", errors="replace")
+        temporary.replace(file)
     except BaseException:
-        os.unlink(temporary)
+        temporary.unlink(missing_ok=True)
         raise
 
 

@@ -2,7 +2,6 @@
 
 from .error_tables import ERRORS, ErrorRow, unit_of
 from .numbers import count, length_unit, significant
-from .origin import configuration_rows
 from .results import Run
 from .table import Cell, Table
 
@@ -141,8 +140,12 @@ def stage_table(report: dict) -> Table:
 
 def configuration_table(content: dict) -> Table:
     table = Table("configuration", "Every constant; bold: not the default", ["constant", "value"], text_columns=2)
-    for key, value, changed in configuration_rows(content):
-        table.add(Cell(key, bold=changed), Cell(value, bold=changed))
+    changed = content.get("config_changed", {})
+    for section, values in content.get("config", {}).items():
+        for name, value in values.items() if isinstance(values, dict) else [("", values)]:
+            key = f"{section}.{name}" if name else section
+            text = str(value).lower() if isinstance(value, bool) else str(value)
+            table.add(Cell(key, bold=key in changed), Cell(text, bold=key in changed))
     return table
 
 
