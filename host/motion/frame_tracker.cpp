@@ -290,8 +290,6 @@ void FrameTracker::judge_lenses(const MotionStep& step) {
 void FrameTracker::report(const MotionStep& step, FrameResult& result) {
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
-  judge_lenses(step);
-  adopt_rig(step);
   result.rig = current_->rig();
   if (const auto large =
           rig::judge_disparity_offset(result.rig.disparity_offset, step.rig.disparity_offset + step.motion.offset,
@@ -339,6 +337,8 @@ void FrameTracker::locate(const MotionStep& step, FrameResult& result) {
   fitness.rotation = Eigen::AngleAxisd(current_from_key.transform.linear()).angle();
   fitness.frames = current_->frame - state_.key.frame();
 
+  judge_lenses(step);
+  adopt_rig(step);
   report(step, result);
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
@@ -366,8 +366,8 @@ void FrameTracker::locate(const MotionStep& step, FrameResult& result) {
   }
 }
 
-/// Replaces the keyframe, which is kept for a loss; `keeps`: so will be the new one. \param inverse_depth mean of what
-/// is seen from nearly there [1/m]
+/// Replaces the keyframe, which is kept for a loss if it was set so. \param inverse_depth mean of what is seen from
+/// nearly there [1/m] \param keeps whether the new one will be kept when it is replaced
 void FrameTracker::set_key(frontend::FrameEdgesHandle frame_edges, const pose::UncertainPose& pose,
                            double inverse_depth, bool keeps) {
   if (std::exchange(keeps_key_, keeps)) earlier_.remember(state_.key, inverse_depth);
