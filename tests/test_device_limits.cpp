@@ -20,7 +20,7 @@ FrontendOutput run_limited(const RenderedScene& scene, const opencl::DeviceLimit
 
 }  // namespace
 
-TEST_CASE("limits: with small groups or without local memory other variants give the same bytes", "[opencl]") {
+TEST_CASE("limits: with small groups or without local memory other variants give the same bytes", "[opencl][device]") {
   const RenderedScene scene("room", 161, 97, 2);
   opencl::DeviceLimits as_gpu, small_groups, no_local;
   as_gpu.type = small_groups.type = no_local.type = "gpu";

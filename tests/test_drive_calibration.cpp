@@ -280,7 +280,7 @@ TEST_CASE("calibrate: files, judgement and errors", "[cli]") {
   check_error({"calibrate", small_sequence(), "--most-frames", "1"}, 2);
 }
 
-TEST_CASE("calibrate: the rig of KITTI's raw drives is off, that of MH_01 stays as given", "[cli][real]") {
+TEST_CASE("calibrate: the rig of KITTI's raw drives is off, that of MH_01 stays as given", "[cli][real][long]") {
   const TemporaryFolder folder;
   for (const auto& [name, verdict] : {std::pair("kitti_raw_0926", "the calibration is off"),
                                       std::pair("euroc_mh_01_easy", "the calibration is as good as given")}) {

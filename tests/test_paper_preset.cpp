@@ -22,7 +22,8 @@ TEST_CASE("paper preset: each of its lines changes a default, and none has anoth
   }
 }
 
-TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, and refuses loops", "[paper][cli]") {
+TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, and refuses loops",
+          "[paper][cli][device]") {
   const TemporaryFolder folder;
   const auto track = [&](const std::vector<std::string>& options) {
     std::vector<std::string> call = {"run",      small_sequence(), "-o",      folder / "out",

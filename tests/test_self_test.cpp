@@ -32,7 +32,7 @@ TEST_CASE("self-test: every stage of the reference finds something to compare", 
   }
 }
 
-TEST_CASE("self-test: every device passes, with the kernels for CPUs and for GPUs", "[selftest]") {
+TEST_CASE("self-test: every device passes, with the kernels for CPUs and for GPUs", "[selftest][device]") {
   opencl::DeviceLimits limits;
   limits.type = GENERATE(as<std::string>(), "cpu", "gpu");
   Device device = opencl::open_limited(GENERATE(from_range(all_devices())), kept_programs(), limits);
@@ -74,7 +74,8 @@ TEST_CASE("self-test: a driver that ends long loops early is reported, although 
   CHECK_THAT(result.difference, Contains("1000000 rounds"));
 }
 
-TEST_CASE("self-test: a faulty device is refused with the stage's name, and --trust continues", "[selftest][cli]") {
+TEST_CASE("self-test: a faulty device is refused with the stage's name, and --trust continues",
+          "[selftest][cli][device]") {
   const TemporaryFolder folder;
   // Hardly any similarity passes the filter.
   copy_kernels(folder / "kernels", "candidate_filters.cl", "similarity < limits.ncc_min", "similarity < 0.99f");
@@ -109,7 +110,7 @@ TEST_CASE("self-test: the verdict is cached and shown by `devices`, and a damage
 }
 
 TEST_CASE("self-test: `auto` goes on to the next device with a warning, a device named by hand ends the run",
-          "[selftest][cli]") {
+          "[selftest][cli][device]") {
   const TemporaryFolder folder;
   // PoCL offers two devices, and the verdict on the first one is changed to a failure.
   const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "' POCL_DEVICES='pthread basic'";

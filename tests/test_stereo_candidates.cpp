@@ -276,7 +276,7 @@ TEST_CASE("stereo candidates: with a rectification error they lie around the cor
 }
 
 TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",
-          "[stereo][matching][device][oclgrind][uncounted]") {
+          "[stereo][matching][device][oclgrind]") {
   StereoConfig config;
   config.min_depth = 0.7;
   const StereoRig rig = crooked_rig();

@@ -78,7 +78,8 @@ Config checked(const places::SavedPlaces& map, const StereoRig& rig, const Confi
   places::check_map_config(config);
   const auto settings = places::descriptor_settings(config);
   const auto& its = map.settings;
-  for (const auto& [key, value] : settings) {
+  for (const auto& [name, value] : settings) {
+    const auto& key = name;  // C++17 has no captures of structured bindings
     const auto same = std::find_if(its.begin(), its.end(), [&](const auto& setting) { return setting.first == key; });
     if (same == its.end()) throw UsageError("the map does not state its " + key + ": expected " + value);
     if (same->second != value)
