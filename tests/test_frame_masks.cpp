@@ -135,8 +135,7 @@ TEST_CASE("frame masks: masks that hide nothing change nothing, and the referenc
   }
 }
 
-TEST_CASE("frame masks: one of another size or depth is an error, and the next frame is tracked",
-          "[odometry][device]") {
+TEST_CASE("frame masks: one of another size or depth is an error, and the next frame is tracked", "[odometry]") {
   Device device("reference");
   StereoOdometry odometry(walk().walked.rig(), device);
   StereoFrame frame = walk().pairs[0].view();
