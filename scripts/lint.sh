@@ -21,7 +21,7 @@ if [ ! -x "$python" ]; then
   python3 -c 'import lizard' 2>/dev/null || checks="includes lines twins references"
 fi
 if [ -n "$all" ] && [ -n "$fix" ]; then
-  "$python" tests/lint_tidy.py . build --fix || status=1
+  "$python" tests/lint_tidy.py . build --all --fix || status=1
 fi
 if [ -n "$fix" ]; then
   git ls-files -z '*.cpp' '*.hpp' '*.cl' | xargs -0 clang-format -i
@@ -35,6 +35,6 @@ fi
 
 if [ -n "$all" ]; then
   tests/lint_kernels.sh . build/tests/list_programs || status=1
-  [ -n "$fix" ] || "$python" tests/lint_tidy.py . build || status=1
+  [ -n "$fix" ] || "$python" tests/lint_tidy.py . build --all || status=1
 fi
 exit $status

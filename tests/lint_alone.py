@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Reads every source of host/ by itself, as a build without QUADEDGE_UNITY does, which no other test is.
+"""Reads sources of host/ by themselves, as a build without QUADEDGE_UNITY does, which no other test is: those that
+changed since the last release, or include what has; with --all, or a history without the release, every source.
 
-    lint_alone.py REPOSITORY BUILD
+    lint_alone.py REPOSITORY BUILD [--all]
 
 BUILD/alone is configured for it. clang reads each file as if it were to be included elsewhere, after the target's
 precompiled header: what a file uses has to be declared, but templates of Eigen are not instantiated, which would take
@@ -15,6 +16,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+from changed_files import changed_since_release, included_by
 
 
 def precompile(unit: dict, result: str) -> subprocess.CompletedProcess:
@@ -41,7 +44,7 @@ def error(unit: dict) -> str:
 
 
 def main() -> int:
-    repository, build = Path(sys.argv[1]), Path(sys.argv[2]) / "alone"
+    repository, build = Path(sys.argv[1]).resolve(), Path(sys.argv[2]) / "alone"
     subprocess.run(["cmake", "-S", repository, "-B", build, "-G", "Ninja", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"],
                    check=True, stdout=subprocess.DEVNULL)
     rows = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
@@ -50,6 +53,9 @@ def main() -> int:
             precompile(row, "").check_returncode()
     units = [row for row in rows if Path(row["file"]).is_relative_to(repository / "host")]
     assert len(units) > 100, f"found {len(units)} sources of host/, expected all"
+    changed = None if "--all" in sys.argv else changed_since_release(repository)
+    if changed is not None:
+        units = [row for row in units if included_by(Path(row["file"]), repository) & changed]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = [text for text in pool.map(error, units) if text]
     print("\n".join(found) or f"{len(units)} files: fine")

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over host/, one translation unit of the build at a time.
+"""Runs clang-tidy over what changed in host/ since the last release, one translation unit of the build at a time.
 
-    lint_tidy.py REPOSITORY BUILD [--fix] [--jobs N] [FOLDER...]
+    lint_tidy.py REPOSITORY BUILD [--all] [--fix] [--jobs N] [FOLDER...]
 
 BUILD holds compile_commands.json, best of a build with QUADEDGE_UNITY: most of the time goes into included files.
-FOLDER is, for example, host/motion; without one, all of host/ is checked. clang-tidy is the one next to the running
-Python (tests/requirements.txt): newer than Debian's, it skips system headers and takes a quarter of the time.
+FOLDER is, for example, host/motion; without one, it is host/. A header that changed is checked with a source that
+includes it. --all, a change of .clang-tidy and a history without the release check every source. clang-tidy is the one
+next to the running Python (tests/requirements.txt): newer than Debian's, it skips system headers and takes a quarter of
+the time.
 """
 
 import argparse
@@ -17,6 +19,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+from changed_files import changed_since_release, included_by
 
 
 def flags_of(command: str) -> list[str]:
@@ -35,24 +39,51 @@ def sources_of(unit: Path) -> list[Path]:
     return [Path(name) for name in together] if unit.match("Unity/unity_*_cxx.cxx") else [unit]
 
 
+def sources_to_check(repository: Path, sources: list[Path]) -> set[Path]:
+    """The sources that changed, and for each other file that changed the first source that includes it."""
+    changed = changed_since_release(repository)
+    if changed is None or repository / ".clang-tidy" in changed:
+        return set(sources)
+    checked = {source for source in sources if source in changed}
+    covered = set().union(*(included_by(source, repository) for source in checked))
+    for source in sources:
+        missed = (included_by(source, repository) & changed) - covered
+        if missed:
+            checked.add(source)
+            covered |= missed
+    return checked
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("repository", type=lambda text: Path(text).resolve())
     parser.add_argument("build", type=lambda text: Path(text).resolve())
     parser.add_argument("folders", nargs="*", default=["host"])
+    parser.add_argument("--all", action="store_true", help="check what has not changed, too")
     parser.add_argument("--fix", action="store_true", help="let clang-tidy change the files")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     folders = [options.repository / folder for folder in options.folders]
-    tasks = {}
+    units = {}
     for row in json.loads((options.build / "compile_commands.json").read_text(encoding="utf-8")):
         sources = sources_of(Path(row["file"])) if Path(row["file"]).is_file() else []
         if any(source.is_relative_to(folder) for source in sources for folder in folders):
-            call = [str(Path(sys.executable).with_name("clang-tidy")), "--quiet",
-                    f"--config-file={options.repository / '.clang-tidy'}", row["file"]]
-            tasks[row["file"]] = len(sources), call + ["--fix"] * options.fix + ["--"] + flags_of(row["command"])
-    checked = sum(count for count, _ in tasks.values())
-    assert checked > 100 or options.folders != ["host"], f"found {checked} sources of host/, expected all"
+            units[Path(row["file"])] = sources, flags_of(row["command"])
+    known = [source for unit in sorted(units) for source in units[unit][0]]
+    assert len(known) > 100 or options.folders != ["host"], f"found {len(known)} sources of host/, expected all"
+    wanted = set(known) if options.all else sources_to_check(options.repository, known)
+    tasks = {}
+    for unit, (sources, flags) in units.items():
+        kept = [source for source in sources if source in wanted]
+        if not kept:
+            continue
+        if kept != sources:
+            unit = options.build / "tidy" / unit.name
+            unit.parent.mkdir(exist_ok=True)
+            unit.write_text("".join(f'#include "{source}"\n' for source in kept), encoding="utf-8")
+        call = [str(Path(sys.executable).with_name("clang-tidy")), "--quiet",
+                f"--config-file={options.repository / '.clang-tidy'}", str(unit)]
+        tasks[str(unit)] = len(kept), call + ["--fix"] * options.fix + ["--"] + flags
 
     def run(name: str) -> tuple[str, subprocess.CompletedProcess]:
         return name, subprocess.run(tasks[name][1], capture_output=True, text=True, check=False)
