@@ -26,26 +26,44 @@ struct Loaded {
   bool timed = true;
 };
 
-/// Sets the segments of the poses of all frames of a run, if they are beside its frames.csv: KITTI's format has none.
-void set_segments(Trajectory& poses, const std::string& frames_csv) {
-  if (!std::filesystem::is_regular_file(frames_csv)) return;
+/// Sets the segments of the frames of a run, and removes those that were lost, whose rows are predictions, if its
+/// frames.csv is beside the KITTI file, which says neither. \returns how many were removed before `from_frame`
+int read_frames(Trajectory& rows, const std::string& file, std::size_t from_frame) {
+  const std::string frames_csv = std::filesystem::path(file).replace_filename("frames.csv").string();
+  if (!std::filesystem::is_regular_file(frames_csv)) return 0;
   const auto lines = data::data_lines(frames_csv);
-  if (lines.size() != poses.size() + 1) return;
-  const auto names = data::split(lines[0].text, ",");
-  const auto column = static_cast<std::size_t>(std::find(names.begin(), names.end(), "segment") - names.begin());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  const auto names = data::split(lines.empty() ? "" : lines[0].text, ",");
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::size_t status = column("status"), segment = column("segment");
+  if (status >= names.size() || segment >= names.size()) return 0;
+  if (lines.size() != rows.size() + 1)
+    data::fail(frames_csv, data::counted(lines.size() - 1, "frame"),
+               "one for each of the " + data::counted(rows.size(), "row") + " of " + file);
+  Trajectory tracked;
+  int lost_before = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto cells = data::split(lines[i + 1].text, ",");
-    if (column >= cells.size()) return;
-    poses[i].segment = data::parse_whole(cells[column], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
+    if (std::max(status, segment) >= cells.size())
+      data::fail(frames_csv, lines[i + 1].number, data::in_quotes(lines[i + 1].text), "a row that is not cut off");
+    rows[i].segment = data::parse_whole(cells[segment], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
+    const bool is_lost = cells[status].compare(0, 4, "lost") == 0;
+    if (!is_lost) tracked.push_back(rows[i]);
+    if (is_lost && i < from_frame) ++lost_before;
   }
+  rows = std::move(tracked);
+  return lost_before;
 }
 
 Loaded load_file(const std::string& path) {
   Loaded loaded;
   loaded.poses = read_trajectory(path);
   const std::string first = data::table_lines(path).front().text;
-  loaded.timed = first.find(',') != std::string::npos || data::split(first).size() == 8;
-  if (!loaded.timed) set_segments(loaded.poses, std::filesystem::path(path).replace_filename("frames.csv").string());
+  const bool is_csv = first.find(',') != std::string::npos;
+  loaded.timed = is_csv || data::split(first).size() == 8;
+  if (is_csv && std::filesystem::path(path).filename() != "data.csv")
+    note("warning: " + path + ": taken for the left camera's poses; a data.csv beside cam0/ is converted by its T_BS");
   return loaded;
 }
 
@@ -107,12 +125,18 @@ class EvaluateTrajectoryCommand : public Command {
       row_numbers = !estimate.timed && !file.timed;
       if (estimate.timed && !file.timed) give_stamps(file.poses, stamps_of(estimate.poses), truth_, estimate_);
       if (!estimate.timed && file.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
+      if (row_numbers && estimate.poses.size() != file.poses.size())
+        data::fail(estimate_, data::counted(estimate.poses.size(), "row"),
+                   std::to_string(file.poses.size()) + " as in " + truth_ +
+                       ": rows without time stamps belong together by their numbers");
       truth = std::move(file.poses);
       frames = stamps_of(truth);
     }
+    int from_pose = from_frame_;
+    if (!estimate.timed) from_pose -= read_frames(estimate.poses, estimate_, static_cast<std::size_t>(from_frame_));
     // Row numbers are one "nanosecond" apart: only equal ones belong together.
     const std::int64_t tolerance = row_numbers ? 0 : kStampToleranceNs;
-    TrajectoryEvaluation result = evaluate_trajectory(estimate.poses, truth, from_frame_, tolerance, lengths());
+    TrajectoryEvaluation result = evaluate_trajectory(estimate.poses, truth, from_pose, tolerance, lengths());
     if (row_numbers) result.rpe_interval_s = NAN;
     std::printf("estimate   %s\ntruth      %s\n", estimate_.c_str(), truth_.c_str());
     print_evaluation(result);
