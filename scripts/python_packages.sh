@@ -3,19 +3,16 @@
 
 # install_python VENV [OPTION OF PIP...]: into an environment that has scikit-build-core and nanobind.
 install_python() {
-  local venv="$1"
-  shift
-  "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository[batch]" \
-    -C cmake.source-dir=python -C build-dir="$repository/build/python" -C cmake.define.quadedge_DIR="$repository/build" \
-    "$@" && touch "$venv/quadedge.stamp"
+  "$1/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository[batch]" \
+    -C cmake.source-dir=python -C build-dir="$repository/build/python" \
+    -C cmake.define.quadedge_DIR="$repository/build" "${@:2}" && touch "$1/quadedge.stamp"
 }
 
 # prepare_python VENV: creates the environment with what pages, `quadedge batch` and `python -m quadedge.matching` need,
 # unless it has all that and is as new as the sources. Needs the network the first time.
 prepare_python() {
-  local sources=("$repository"/{python,pyproject.toml,build/quadedge})
-  [ -e "$1/quadedge.stamp" ] &&
-    [ -z "$(find "${sources[@]}" -type f -newer "$1/quadedge.stamp" ! -name '*.pyc')" ] && return 0
+  local sources=("$repository"/{python,pyproject.toml,build/quadedge}) stamp="$1/quadedge.stamp"
+  [ -e "$stamp" ] && [ -z "$(find "${sources[@]}" -type f -newer "$stamp" ! -name '*.pyc')" ] && return 0
   echo "Installing the Python package into $1"
   { [ -x "$1/bin/pip" ] || python3 -m venv "$1"; } &&
     "$1/bin/python" -c 'import sys, tomllib

@@ -32,7 +32,8 @@ export PATH=/usr/bin:/bin
 "$clone/build/quadedge" report run
 "$clone/build/quadedge" batch recordings -o batch --device reference
 "$clone/build/quadedge" report batch
-"$clone/build/venv/bin/python" -m quadedge.matching room --frames 1 --size 160x100 --device reference --html matching.html
+"$clone/build/venv/bin/python" -m quadedge.matching room --frames 1 --size 160x100 --device reference \
+  --html matching.html
 for page in run/report.html batch/report.html matching.html; do
   [ -s $page ] || { echo "$page is missing" >&2; exit 1; }
 done

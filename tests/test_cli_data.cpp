@@ -123,7 +123,7 @@ TEST_CASE("evaluate trajectory: the rows of lost frames beside frames.csv are no
   later.insert(later.end(), {"--from-frame", "3"});
   CHECK_THAT(run_well(later).out, Contains("3 of 5 estimated poses") && Contains("2 right, 0 wrong, 0 lost of 2"));
   write_text(folder / "run/frames.csv", frames.substr(0, frames.rfind("5,0")));
-  check_error(evaluate, 3, {"frames.csv", "5 frames", "6 rows"});
+  check_error(evaluate, 3, {"frames.csv", "5 frames", "6 as in"});
 }
 
 TEST_CASE(
@@ -147,7 +147,7 @@ TEST_CASE(
              Contains("path 0.000 m, end drift -\n"));
   CHECK_THAT(read_text(folder / "e.json"), Contains("\"end_drift_percent\": null"));
   check_error({"evaluate", "trajectory", folder / "third", folder / "rows"}, 3, {"third", "3 rows", "9", "rows"});
-  check_error({"evaluate", "trajectory", folder / "rows", folder / "third"}, 3, {"9 rows", "3 as in"});
+  check_error({"evaluate", "trajectory", folder / "rows", folder / "third"}, 3, {"9 rows", "expected 3"});
   check_error({"evaluate", "trajectory", folder / "rows", folder / "commas"}, 3,
               {"commas:1", "12 columns with commas"});
 }

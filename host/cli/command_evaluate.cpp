@@ -32,25 +32,19 @@ int read_frames(Trajectory& rows, const std::string& file, std::size_t from_fram
   const std::string frames_csv = std::filesystem::path(file).replace_filename("frames.csv").string();
   if (!std::filesystem::is_regular_file(frames_csv)) return 0;
   const auto lines = data::data_lines(frames_csv);
-  const auto names = data::split(lines.empty() ? "" : lines[0].text, ",");
-  const auto column = [&](const char* name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
-  const std::size_t status = column("status"), segment = column("segment");
-  if (status >= names.size() || segment >= names.size()) return 0;
+  if (lines.empty() || lines[0].text.rfind("frame,stamp_s,status,segment", 0) != 0) return 0;
   if (lines.size() != rows.size() + 1)
-    data::fail(frames_csv, data::counted(lines.size() - 1, "frame"),
-               "one for each of the " + data::counted(rows.size(), "row") + " of " + file);
+    data::fail(frames_csv, data::counted(lines.size() - 1, "frame"), std::to_string(rows.size()) + " as in " + file);
   Trajectory tracked;
   int lost_before = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto cells = data::split(lines[i + 1].text, ",");
-    if (std::max(status, segment) >= cells.size())
-      data::fail(frames_csv, lines[i + 1].number, data::in_quotes(lines[i + 1].text), "a row that is not cut off");
-    rows[i].segment = data::parse_whole(cells[segment], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
-    const bool is_lost = cells[status].compare(0, 4, "lost") == 0;
-    if (!is_lost) tracked.push_back(rows[i]);
-    if (is_lost && i < from_frame) ++lost_before;
+    auto cells = data::split(lines[i + 1].text, ",");
+    cells.resize(4);  // of a row that was cut off, the segment is no number
+    rows[i].segment = data::parse_whole(cells[3], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
+    if (cells[2].rfind("lost", 0) != 0)
+      tracked.push_back(rows[i]);
+    else if (i < from_frame)
+      ++lost_before;
   }
   rows = std::move(tracked);
   return lost_before;
@@ -67,7 +61,7 @@ Loaded load_file(const std::string& path) {
   return loaded;
 }
 
-/// Gives the rows of a KITTI file the stamps of as many timed poses.
+/// Gives the rows of a KITTI file the stamps of as many other poses.
 void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file,
                  const std::string& timed_file) {
   if (rows.size() != stamps.size()) {
@@ -124,11 +118,7 @@ class EvaluateTrajectoryCommand : public Command {
       Loaded file = load_file(truth_);
       row_numbers = !estimate.timed && !file.timed;
       if (estimate.timed && !file.timed) give_stamps(file.poses, stamps_of(estimate.poses), truth_, estimate_);
-      if (!estimate.timed && file.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
-      if (row_numbers && estimate.poses.size() != file.poses.size())
-        data::fail(estimate_, data::counted(estimate.poses.size(), "row"),
-                   std::to_string(file.poses.size()) + " as in " + truth_ +
-                       ": rows without time stamps belong together by their numbers");
+      if (!estimate.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
       truth = std::move(file.poses);
       frames = stamps_of(truth);
     }

@@ -69,13 +69,11 @@ class Session:
         self._last, self.frames = None, 0
 
     def begin_files(self, output: str, name: str) -> None:
-        """Keeps the results of a source from here on. Raises UsageError or DataError for a folder that has results or
-        cannot be written.
-        """
+        """Keeps results from here on. Raises UsageError or DataError for a folder with results or that is not writable."""
         from . import ResultFiles
 
-        self._files = ResultFiles(output, self.odometry, name, " ".join(sys.argv), self._options.force)
-        self._output = output
+        self._files, self._output = ResultFiles(output, self.odometry, name, " ".join(sys.argv),
+                                                self._options.force), output
 
     def track(self, stamp_ns: int, left: numpy.ndarray, right: numpy.ndarray):
         """The FrameResult of a pair, kept. Raises what Odometry.track() and keep() raise."""

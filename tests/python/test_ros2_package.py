@@ -18,13 +18,18 @@ PACKAGE = Path(__file__).parents[2] / "ros2"
 def installed(tmp_path_factory) -> Path:
     """The folder into which colcon has installed the package."""
     work = tmp_path_factory.mktemp("colcon")
-    subprocess.run([sys.executable, "-m", "colcon", "--log-base", work / "log", "build", "--base-paths", PACKAGE,
-                    "--build-base", work / "build", "--install-base", work / "install"], check=True, cwd=work)  # fmt: skip
-    return work / "install/quadedge_ros2"
+    subprocess.run([sys.executable, "-m", "colcon", "build", "--base-paths", PACKAGE], check=True, cwd=work)
+    return work / "install"
+
+
+def started(installed: Path, *words: object) -> list:
+    """A command line that starts the node as `ros2 run` does after sourcing the workspace."""
+    node = '. "$0/setup.sh" && exec "$0/quadedge_ros2/lib/quadedge_ros2/quadedge" "$@"'
+    return ["sh", "-c", node, installed, "--ros-args", *words]
 
 
 def test_what_ros_looks_for_is_installed(installed):
-    share = installed / "share"
+    share = installed / "quadedge_ros2/share"
     assert (share / "ament_index/resource_index/packages/quadedge_ros2").is_file()
     for file in ("package.xml", "launch/quadedge.launch.py", "config/quadedge.yaml"):
         assert (share / "quadedge_ros2" / file).read_bytes() == (PACKAGE / file).read_bytes()
@@ -34,8 +39,8 @@ def test_it_tracks_with_parameters_of_a_file_and_remaps(installed, robot, frames
     parameters = tmp_path / "robot.yaml"
     parameters.write_text("quadedge:\n  ros__parameters:\n    preset: fast\n    base_frame: robot\n    no_tf: true\n"
                           "    remap: ['/diagnostics:=/health']\n")
-    robot.program = [installed / "lib/quadedge_ros2/quadedge", "--ros-args", "--params-file", parameters, "-r",
-                     "__node:=quadedge", "-p", "odom_frame:=start", "--"]
+    robot.program = started(installed, "--params-file", parameters, "-r", "__node:=quadedge", "-p",
+                            "odom_frame:=start", "--")
     robot.start(tmp_path)
     robot.play(frames[:2], SECOND)
     messages = robot.poses()
@@ -53,6 +58,5 @@ def test_it_tracks_with_parameters_of_a_file_and_remaps(installed, robot, frames
     (["--enclave", "/a"], "found --enclave after --ros-args"),
 ])  # fmt: skip
 def test_what_it_does_not_know_is_refused(words, message, installed):
-    done = subprocess.run([installed / "lib/quadedge_ros2/quadedge", "--ros-args", *words], capture_output=True,
-                          text=True, timeout=60)
+    done = subprocess.run(started(installed, *words), capture_output=True, text=True, timeout=60)
     assert done.returncode == 2 and message in done.stderr and "Traceback" not in done.stderr, done.stderr
