@@ -69,9 +69,8 @@ class Session:
         self._last, self.frames = None, 0
 
     def begin_files(self, output: str, name: str) -> None:
-        """Keeps results from here on. Raises UsageError or DataError for a folder with results or that is not writable."""
+        """Keeps results from here on. Raises UsageError or DataError for a folder that has some or is not writable."""
         from . import ResultFiles
-
         self._files, self._output = ResultFiles(output, self.odometry, name, " ".join(sys.argv),
                                                 self._options.force), output
 
@@ -101,8 +100,7 @@ class Session:
         self._files = None
 
     def close(self) -> None:
-        """Finishes the results and releases the device. Raises DataError for results that cannot be written; the
-        device is released in any case."""
+        """Finishes the results; releases the device in any case. Raises DataError if results cannot be written."""
         try:
             if self._files:
                 self._files.finish()
