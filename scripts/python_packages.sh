@@ -1,22 +1,23 @@
-# The Python part of the package in a virtual environment, without building anything. Sourced by run.sh and test.sh,
-# which set `repository`.
+# The Python package in a virtual environment, from the library that is built already; only its bindings are compiled.
+# Sourced by run.sh and test.sh, which set `repository`.
 
-# see_sources VENV: its Python imports `quadedge` from python/, without the compiled module, which pages do not need.
-see_sources() {
-  local packages
-  packages="$("$1/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')"
-  echo "$repository/python" >"$packages/quadedge_sources.pth"
+# install_python VENV [OPTION OF PIP...]: into an environment that has scikit-build-core and nanobind.
+install_python() {
+  "$1/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository[batch]" \
+    -C cmake.source-dir=python -C build-dir="$repository/build/python" \
+    -C cmake.define.quadedge_DIR="$repository/build" "${@:2}" && touch "$1/quadedge.stamp"
 }
 
-# install_for_pages VENV: creates the environment with the packages that pages need according to pyproject.toml, unless
-# it has them. Fails without network.
-install_for_pages() {
-  "$1/bin/python" -c 'import quadedge.report' 2>/dev/null && return 0
-  echo "Installing the Python packages for report pages into $1"
-  python3 -m venv "$1" &&
+# prepare_python VENV: creates the environment with what pages, `quadedge batch` and `python -m quadedge.matching` need,
+# unless it has all that and is as new as the sources. Needs the network the first time.
+prepare_python() {
+  local sources=("$repository"/{python,pyproject.toml,build/quadedge}) stamp="$1/quadedge.stamp"
+  [ -e "$stamp" ] && [ -z "$(find "${sources[@]}" -type f -newer "$stamp" ! -name '*.pyc')" ] && return 0
+  echo "Installing the Python package into $1"
+  { [ -x "$1/bin/pip" ] || python3 -m venv "$1"; } &&
     "$1/bin/python" -c 'import sys, tomllib
-print("\n".join(tomllib.load(open(sys.argv[1], "rb"))["project"]["dependencies"]))' \
-      "$repository/pyproject.toml" >"$1/pages.txt" &&
-    "$1/bin/pip" install --quiet --disable-pip-version-check --requirement "$1/pages.txt" &&
-    see_sources "$1"
+print("\n".join(tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"]))' \
+      "$repository/pyproject.toml" >"$1/requires.txt" &&
+    "$1/bin/pip" install --quiet --disable-pip-version-check --requirement "$1/requires.txt" &&
+    install_python "$1"
 }

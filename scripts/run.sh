@@ -6,10 +6,15 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
 . "$repository/scripts/python_packages.sh"
 
-install_missing $build_packages python3-venv
+[ -x "$repository/build/quadedge" ] || cat <<'END'
+On Debian 12, this installs the packages that are missing (apt-get, with sudo if you are not root: 0.35 GB beside a
+compiler, 1.4 GB on an empty machine), builds build/quadedge, installs the Python package into build/venv (PACKAGES MB
+from PyPI), and tracks a recording. The first call needs MINUTES; later ones build what has changed.
+END
+install_missing $build_packages $python_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON
 cmake --build "$repository/build" --target quadedge_program
-install_for_pages "$repository/build/venv" || echo "There will be no pages." >&2
+prepare_python "$repository/build/venv" || echo "There will be no pages, batches or evaluations of matches." >&2
 
 if [ $# -eq 0 ]; then
   "$repository/build/quadedge" demo --output quadedge_demo --force

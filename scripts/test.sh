@@ -19,6 +19,7 @@ while :; do
 done
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
+. "$repository/scripts/python_packages.sh"
 
 install_missing $build_packages $python_packages $test_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON \
@@ -35,10 +36,7 @@ if ! cmp -s "$requirements" "$venv/requirements.txt"; then
   cp "$requirements" "$venv/requirements.txt"
 fi
 
-# The Python package, from the library that is built already; only its bindings are compiled.
-"$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository" \
-  -C cmake.source-dir=python -C build-dir="$repository/build/python" -C cmake.define.quadedge_DIR="$repository/build" \
-  -C cmake.define.QUADEDGE_WARNINGS_AS_ERRORS=ON
+install_python "$venv" -C cmake.define.QUADEDGE_WARNINGS_AS_ERRORS=ON
 
 if $all_runtimes; then "$repository/tests/run_other_runtime.sh" "$repository/build"; fi
 

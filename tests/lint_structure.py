@@ -18,14 +18,14 @@ LONGEST_LINE = 120
 LONGEST_FUNCTION = 60
 CODE = {".cpp", ".hpp", ".cl", ".py", ".sh", ".cmake", ".toml", ".txt"}
 SOURCES = (".cpp", ".hpp", ".cl", ".inc", ".py", ".sh")
-SIZED = {"host", "include", "kernels", "python", "bench", "scripts", "tests"}
+SIZED = {"host", "include", "kernels", "python", "bench", "ros2", "scripts", "tests"}
 # Most lines of source per folder. Whoever raises a limit says why in the commit.
 MOST_LINES = {
     "bench": 550,
     "host/benchmark": 970,
-    "host/cli": 4810,
+    "host/cli": 4830,
     "host/common": 940,
-    "host/data": 6080,
+    "host/data": 6095,
     "host/data/calibrations": 2150,
     "host/device": 4700,
     "host/edges": 3210,
@@ -40,8 +40,9 @@ MOST_LINES = {
     "include": 2265,
     "kernels": 6450,
     "python": 11440,
+    "ros2": 115,
     "scripts": 3125,
-    "tests": 34800,
+    "tests": 34940,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")

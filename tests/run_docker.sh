@@ -13,5 +13,6 @@ done
 "$engine" build --tag quadedge-test:source --target source "$repository"
 "$engine" build --tag quadedge-test "$repository"
 "$engine" run --rm quadedge-test demo --size 320x200 --frames 2
+"$engine" run --rm --entrypoint python quadedge-test -c 'import quadedge; assert quadedge.devices()'
 "$engine" run --rm quadedge-test:source scripts/run.sh --help
 "$engine" image rm quadedge-test quadedge-test:source >/dev/null

@@ -4,10 +4,12 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "damaged_sequence.hpp"
+#include "dataset_files.hpp"
 #include "program.hpp"
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using dataset_files::write_text;
 namespace fs = std::filesystem;
 
 TEST_CASE("synth: writes a sequence that passes check", "[cli]") {
@@ -99,6 +101,77 @@ TEST_CASE("evaluate trajectory: KITTI rows are matched by number, or with timed 
               {"quadedge: ", "short.txt", "3 rows", "5"});
   CHECK_THAT(run_well({"evaluate", "trajectory", folder / "rows.txt", folder / "rows.txt", "--from-frame", "2"}).out,
              Contains("3 of "));
+}
+
+TEST_CASE("evaluate trajectory: the rows of lost frames beside frames.csv are no estimates", "[cli]") {
+  // Steps of 1 m; frame 2 is lost, and its row is off by 5 m. Frame numbers count it all the same.
+  const TemporaryFolder folder;
+  std::string truth, rows, frames = "frame,stamp_s,status,segment\n";
+  for (int k = 0; k < 6; ++k) {
+    truth += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";
+    rows += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k == 2 ? 7 : k) + "\n";
+    frames += std::to_string(k) + ",0," + (k == 0 ? "first" : k == 2 ? "lost_no_consensus" : "tracked") + ",0\n";
+  }
+  write_text(folder / "truth.txt", truth);
+  write_text(folder / "run/trajectory_kitti.txt", rows);
+  write_text(folder / "run/frames.csv", frames);
+  const std::vector<std::string> evaluate = {"evaluate", "trajectory", folder / "run/trajectory_kitti.txt",
+                                             folder / "truth.txt", "--steps"};
+  CHECK_THAT(run_well(evaluate).out, Contains("5 of 5 estimated poses") && Contains("3 right, 0 wrong, 2 lost of 5") &&
+                                         Contains("RPE translation [m]       0.0000000"));
+  auto later = evaluate;
+  later.insert(later.end(), {"--from-frame", "3"});
+  CHECK_THAT(run_well(later).out, Contains("3 of 5 estimated poses") && Contains("2 right, 0 wrong, 0 lost of 2"));
+  write_text(folder / "run/frames.csv", frames.substr(0, frames.rfind("5,0")));
+  check_error(evaluate, 3, {"frames.csv", "5 frames", "6 as in"});
+}
+
+TEST_CASE(
+    "evaluate trajectory: a truth that stands has no drift, and KITTI files of other lengths or with commas are "
+    "refused",
+    "[cli]") {
+  const TemporaryFolder folder;
+  std::string line, still, rows, every_third, commas;
+  for (int k = 0; k < 9; ++k) {
+    line += std::to_string(k) + " 0 0 " + std::to_string(k) + " 0 0 0 1\n";
+    still += std::to_string(k) + " 0 0 0 0 0 0 1\n";
+    const std::string row = "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";
+    rows += row;
+    if (k % 3 == 0) every_third += row;
+    for (const char c : row) commas += c == ' ' ? ',' : c;
+  }
+  for (const auto& [name, text] :
+       {std::pair("line", line), {"still", still}, {"rows", rows}, {"third", every_third}, {"commas", commas}})
+    write_text(folder / name, text);
+  CHECK_THAT(run_well({"evaluate", "trajectory", folder / "line", folder / "still", "--json", folder / "e.json"}).out,
+             Contains("path 0.000 m, end drift -\n"));
+  CHECK_THAT(read_text(folder / "e.json"), Contains("\"end_drift_percent\": null"));
+  check_error({"evaluate", "trajectory", folder / "third", folder / "rows"}, 3, {"third", "3 rows", "9", "rows"});
+  check_error({"evaluate", "trajectory", folder / "rows", folder / "third"}, 3, {"9 rows", "expected 3"});
+  check_error({"evaluate", "trajectory", folder / "rows", folder / "commas"}, 3,
+              {"commas:1", "12 columns with commas"});
+}
+
+TEST_CASE("evaluate trajectory: EuRoC's data.csv has poses of the body, of which T_BS makes the left camera's",
+          "[cli]") {
+  // The body turns about z by quarters; the camera looks along the body's x axis, 1 m ahead of its origin.
+  const TemporaryFolder folder;
+  write_text(folder / "mav0/mocap0/data.csv",
+             "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []\n"
+             "1000000000,0,0,0,1,0,0,0\n2000000000,0,0,0,0.70710678,0,0,0.70710678\n3000000000,0,0,0,0,0,0,1\n");
+  write_text(folder / "left.txt",  // axes x: right, y: down, z: ahead
+             "1 1 0 0 -0.5 0.5 -0.5 0.5\n2 0 1 0 -0.70710678 0 0 0.70710678\n3 -1 0 0 -0.5 -0.5 0.5 0.5\n");
+  const std::vector<std::string> evaluate = {"evaluate", "trajectory", folder / "left.txt",
+                                             folder / "mav0/mocap0/data.csv"};
+  check_error(evaluate, 3, {"data.csv", "poses of the body", "cam0/sensor.yaml", "T_BS"});
+  write_text(folder / "mav0/cam0/sensor.yaml",
+             "T_BS:\n  cols: 4\n  rows: 4\n  data: [0, 0, 1, 1, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1]\n");
+  CHECK_THAT(run_well(evaluate).out,
+             Contains("APE translation [m]       0.0000000    0.0000000    0.0000000    0.0000000"));
+  // Another name says nothing of the frame.
+  fs::copy(folder / "mav0/mocap0/data.csv", folder / "body.csv");
+  const auto other = run_well({"evaluate", "trajectory", folder / "left.txt", folder / "body.csv"});
+  CHECK_THAT(other.err, Contains("body.csv: taken for the left camera's poses"));
 }
 
 TEST_CASE("check: --quiet leaves the warnings of a tree, each with its recording", "[cli]") {

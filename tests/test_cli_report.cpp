@@ -34,7 +34,7 @@ const std::string kNoPython = "QUADEDGE_PYTHON=/absent/python";
 
 /// Whether the text is the single line that explains how to get a report.
 bool tells_how_to_install(const std::string& text) {
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.find("pip install") != std::string::npos &&
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.find("scripts/run.sh") != std::string::npos &&
          text.find("/absent/python") != std::string::npos && text.find("QUADEDGE_PYTHON") != std::string::npos;
 }
 

@@ -82,9 +82,11 @@ class BatchCommand : public Command {
     }
     const auto python = find_python("quadedge.batch");
     if (python.found.empty()) {
-      print_error("batch needs Snakemake 9, and " + python.tried +
-                  " has no module quadedge.batch with it; `pip install 'quadedge[batch]'`, or `pip install "
-                  "'snakemake>=9'` in the virtual environment of a clone, and set QUADEDGE_PYTHON to its Python");
+      print_error(
+          "batch needs Snakemake 9, and " + python.tried +
+          " has no module quadedge.batch with it; scripts/run.sh in a clone of QuadEdge installs both beside its "
+          "program; elsewhere `pip install 'snakemake>=9'` beside the Python package, and set QUADEDGE_PYTHON "
+          "to that Python");
       return static_cast<int>(ExitCode::usage);
     }
     if (snakemake_.empty()) method_.open_device();  // a missing device ends the batch here, not in every run

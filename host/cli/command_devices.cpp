@@ -37,9 +37,9 @@ class DevicesCommand : public Command {
                 "plain C++ on one core, without OpenCL; slow");
     if (devices.empty()) {
       std::printf(
-          "\nno OpenCL device was found: `pip install \"quadedge[cpu]\"` (x86-64) or, on Debian, `apt-get install\n"
-          "pocl-opencl-icd ocl-icd-libopencl1` installs one for CPUs, and a GPU needs its vendor's driver; `clinfo\n"
-          "-l` lists devices\n");
+          "\nno OpenCL device was found: `pip install intel-opencl-rt intel-cmplr-lib-rt` beside the Python package\n"
+          "(x86-64) or, on Debian, `apt-get install pocl-opencl-icd ocl-icd-libopencl1` installs one for CPUs, and a\n"
+          "GPU needs its vendor's driver; `clinfo -l` lists devices\n");
     }
     return 0;
   }

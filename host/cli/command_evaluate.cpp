@@ -26,30 +26,42 @@ struct Loaded {
   bool timed = true;
 };
 
-/// Sets the segments of the poses of all frames of a run, if they are beside its frames.csv: KITTI's format has none.
-void set_segments(Trajectory& poses, const std::string& frames_csv) {
-  if (!std::filesystem::is_regular_file(frames_csv)) return;
+/// Sets the segments of the frames of a run, and removes those that were lost, whose rows are predictions, if its
+/// frames.csv is beside the KITTI file, which says neither. \returns how many were removed before `from_frame`
+int read_frames(Trajectory& rows, const std::string& file, std::size_t from_frame) {
+  const std::string frames_csv = std::filesystem::path(file).replace_filename("frames.csv").string();
+  if (!std::filesystem::is_regular_file(frames_csv)) return 0;
   const auto lines = data::data_lines(frames_csv);
-  if (lines.size() != poses.size() + 1) return;
-  const auto names = data::split(lines[0].text, ",");
-  const auto column = static_cast<std::size_t>(std::find(names.begin(), names.end(), "segment") - names.begin());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto cells = data::split(lines[i + 1].text, ",");
-    if (column >= cells.size()) return;
-    poses[i].segment = data::parse_whole(cells[column], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
+  if (lines.empty() || lines[0].text.rfind("frame,stamp_s,status,segment", 0) != 0) return 0;
+  if (lines.size() != rows.size() + 1)
+    data::fail(frames_csv, data::counted(lines.size() - 1, "frame"), std::to_string(rows.size()) + " as in " + file);
+  Trajectory tracked;
+  int lost_before = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    auto cells = data::split(lines[i + 1].text, ",");
+    cells.resize(4);  // of a row that was cut off, the segment is no number
+    rows[i].segment = data::parse_whole(cells[3], frames_csv, lines[i + 1].number, "segment", 0, 1 << 30);
+    if (cells[2].rfind("lost", 0) != 0)
+      tracked.push_back(rows[i]);
+    else if (i < from_frame)
+      ++lost_before;
   }
+  rows = std::move(tracked);
+  return lost_before;
 }
 
 Loaded load_file(const std::string& path) {
   Loaded loaded;
   loaded.poses = read_trajectory(path);
   const std::string first = data::table_lines(path).front().text;
-  loaded.timed = first.find(',') != std::string::npos || data::split(first).size() == 8;
-  if (!loaded.timed) set_segments(loaded.poses, std::filesystem::path(path).replace_filename("frames.csv").string());
+  const bool is_csv = first.find(',') != std::string::npos;
+  loaded.timed = is_csv || data::split(first).size() == 8;
+  if (is_csv && std::filesystem::path(path).filename() != "data.csv")
+    note("warning: " + path + ": taken for the left camera's poses; a data.csv beside cam0/ is converted by its T_BS");
   return loaded;
 }
 
-/// Gives the rows of a KITTI file the stamps of as many timed poses.
+/// Gives the rows of a KITTI file the stamps of as many other poses.
 void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file,
                  const std::string& timed_file) {
   if (rows.size() != stamps.size()) {
@@ -106,13 +118,15 @@ class EvaluateTrajectoryCommand : public Command {
       Loaded file = load_file(truth_);
       row_numbers = !estimate.timed && !file.timed;
       if (estimate.timed && !file.timed) give_stamps(file.poses, stamps_of(estimate.poses), truth_, estimate_);
-      if (!estimate.timed && file.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
+      if (!estimate.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
       truth = std::move(file.poses);
       frames = stamps_of(truth);
     }
+    int from_pose = from_frame_;
+    if (!estimate.timed) from_pose -= read_frames(estimate.poses, estimate_, static_cast<std::size_t>(from_frame_));
     // Row numbers are one "nanosecond" apart: only equal ones belong together.
     const std::int64_t tolerance = row_numbers ? 0 : kStampToleranceNs;
-    TrajectoryEvaluation result = evaluate_trajectory(estimate.poses, truth, from_frame_, tolerance, lengths());
+    TrajectoryEvaluation result = evaluate_trajectory(estimate.poses, truth, from_pose, tolerance, lengths());
     if (row_numbers) result.rpe_interval_s = NAN;
     std::printf("estimate   %s\ntruth      %s\n", estimate_.c_str(), truth_.c_str());
     print_evaluation(result);

@@ -97,7 +97,7 @@ void print_segments(const std::vector<TrajectoryEvaluation>& segments) {
     for (const double value : {errors.ape_rotation_deg.mean, errors.ape_translation_m.mean,
                                errors.rpe_rotation_deg.mean, errors.rpe_translation_m.mean})
       std::printf(" %11s", dashed("%.6f", value).c_str());
-    std::printf(" %9s\n", dashed("%.3f", segment.matched > 1 ? segment.end_drift_percent : NAN).c_str());
+    std::printf(" %9s\n", dashed("%.3f", segment.end_drift_percent).c_str());
   }
 }
 
@@ -134,9 +134,10 @@ void print_path(const report::RunRecord& run) {
   }
   if (!run.accuracy) return;
   const PoseErrors& errors = run.accuracy->origin_aligned;
-  std::printf("error      %s and %s per frame (mean), drift %.3f %% of %.3f m; ground truth of %d frames\n",
+  std::printf("error      %s and %s per frame (mean), drift %s of %.3f m; ground truth of %d frames\n",
               length(errors.rpe_translation_m.mean).c_str(), dashed("%.2g deg", errors.rpe_rotation_deg.mean).c_str(),
-              run.accuracy->end_drift_percent, run.accuracy->path_length_m, run.accuracy->matched);
+              dashed("%.3f %%", run.accuracy->end_drift_percent).c_str(), run.accuracy->path_length_m,
+              run.accuracy->matched);
 }
 
 /// How many frames were tracked, why others were not, and where the trajectory is broken.
@@ -268,8 +269,9 @@ void print_run(const report::RunRecord& run, const std::string& output) {
 }
 
 void print_evaluation(const TrajectoryEvaluation& evaluation) {
-  std::printf("\nground truth: %d of %d estimated poses compared, path %.3f m, end drift %.3f %%\n", evaluation.matched,
-              evaluation.estimate_poses, evaluation.path_length_m, evaluation.end_drift_percent);
+  std::printf("\nground truth: %d of %d estimated poses compared, path %.3f m, end drift %s\n", evaluation.matched,
+              evaluation.estimate_poses, evaluation.path_length_m,
+              dashed("%.3f %%", evaluation.end_drift_percent).c_str());
   print_errors("origin-aligned (the first compared poses made equal)", evaluation.origin_aligned);
   print_errors("SE(3)-aligned (least squares over all positions, no scale)", evaluation.se3_aligned);
   if (std::isfinite(evaluation.se3_aligned.ape_translation_m.mean) && !evaluation.se3_open_rotation.empty())

@@ -118,9 +118,9 @@ int make_page(const std::vector<std::string>& arguments, const Interruption& int
   }
   if (python.found.empty())
     print_error("no page: " + python.tried +
-                " has no module quadedge.report; install it in a virtual environment (`python3 -m venv venv && "
-                "venv/bin/pip install .` in a clone of QuadEdge) and set " +
-                kVariable + " to its Python");
+                " has no module quadedge.report; scripts/run.sh in a clone of QuadEdge installs it beside its program; "
+                "elsewhere set " +
+                kVariable + " to a Python that has it");
   return code;
 }
 

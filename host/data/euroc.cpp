@@ -85,20 +85,22 @@ std::string camera_chain(const fs::path& folder) {
   return {};
 }
 
-/// Reads the first ground truth that the recording has: an estimate or motion capture of the body's pose. A tracked
-/// marker has a pose of its own in the body.
+/// The left camera in the frame whose poses a file of ground truth has: the body's, or that of a tracked marker, which
+/// has a pose of its own in the body.
+Eigen::Isometry3d truth_from_left(const fs::path& file, const Eigen::Isometry3d& body_from_left) {
+  const fs::path folder = file.parent_path(), sensor = folder / "sensor.yaml";
+  if (folder.filename() != "vicon0" || !fs::exists(sensor)) return body_from_left;
+  const YamlMap marker(sensor.string(), "the sensor.yaml of a marker");
+  return marker.map("T_BS").transform("data").inverse() * body_from_left;
+}
+
+/// Reads the first ground truth that the recording has: an estimate or motion capture of the body's pose.
 void find_truth(Dataset& dataset, const fs::path& folder, const Eigen::Isometry3d& body_from_left) {
   for (const char* name : {"state_groundtruth_estimate0", "mocap0", "vicon0"}) {
-    const fs::path place = folder / name, sensor = place / "sensor.yaml";
-    if (!fs::exists(place / "data.csv")) continue;
-    dataset.truth_file = (place / "data.csv").string();
-    Eigen::Isometry3d marker_from_left = body_from_left;
-    if (name == std::string("vicon0") && fs::exists(sensor)) {
-      const YamlMap marker(sensor.string(), "the sensor.yaml of a marker");
-      marker_from_left = marker.map("T_BS").transform("data").inverse() * body_from_left;
-    }
-    read_truth(dataset, marker_from_left);
-    return;
+    const fs::path file = folder / name / "data.csv";
+    if (!fs::exists(file)) continue;
+    dataset.truth_file = file.string();
+    return read_truth(dataset, truth_from_left(file, body_from_left));
   }
   if (fs::exists(folder / "leica0" / "data.csv"))
     dataset.notes.push_back(
@@ -107,6 +109,19 @@ void find_truth(Dataset& dataset, const fs::path& folder, const Eigen::Isometry3
 }
 
 }  // namespace
+
+Trajectory read_euroc_truth(const std::string& file) {
+  Trajectory poses = read_euroc_poses(file);
+  const fs::path full = fs::absolute(file), sensor = full.parent_path().parent_path() / "cam0/sensor.yaml";
+  if (!fs::exists(sensor))
+    fail(
+        file, "poses of the body and no " + sensor.string(),
+        "that file, whose T_BS gives the left camera's poses, the sequence's folder, or a TUM file of the left camera");
+  const YamlMap camera(sensor.string(), "the sensor.yaml of a camera");
+  const Eigen::Isometry3d from_left = truth_from_left(full, camera.map("T_BS").transform("data"));
+  for (StampedPose& pose : poses) pose.world_from_left = pose.world_from_left * from_left;
+  return poses;
+}
 
 bool is_euroc(const fs::path& folder) {
   return fs::is_directory(folder / "mav0") || fs::is_directory(folder / "cam0") || fs::is_directory(folder / "cam1");

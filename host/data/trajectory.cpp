@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <system_error>
 
 #include "common/printed.hpp"
@@ -200,7 +201,10 @@ Trajectory read_trajectory(const std::string& path) {
   const auto lines = data::table_lines(path);
   if (lines.empty()) data::fail(path, "no pose", std::string("rows of ") + kTumColumns + " or of " + kKittiColumns);
   if (lines[0].text.find(',') != std::string::npos) {
-    Trajectory trajectory = data::read_euroc_poses(path);
+    const std::size_t cells = data::split(lines[0].text, ", \t").size();
+    if (cells == 12) data::fail(path, lines[0].number, "12 columns with commas", "KITTI's matrices, without commas");
+    const bool is_truth = std::filesystem::path(path).filename() == "data.csv";
+    Trajectory trajectory = is_truth ? data::read_euroc_truth(path) : data::read_euroc_poses(path);
     for (std::size_t i = 1; i < trajectory.size(); ++i) {
       if (trajectory[i].stamp_ns > trajectory[i - 1].stamp_ns) continue;
       data::fail(path, lines[i].number,

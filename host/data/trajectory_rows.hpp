@@ -12,6 +12,8 @@ namespace quadedge::data {
 /// Poses of a CSV file as EuRoC, TUM-VI and VINS-Fusion write it: timestamp [ns], position, quaternion w x y z, and
 /// columns that are not used. \throws DataError
 Trajectory read_euroc_poses(const std::string& file);
+/// The same of the left camera, for a data.csv of ground truth beside cam0/sensor.yaml. \throws DataError without it
+Trajectory read_euroc_truth(const std::string& file);
 /// First line of a TUM file: a comment with column names and units.
 std::string tum_header();
 /// The comment that precedes the first pose of a segment other than the first.

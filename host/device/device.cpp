@@ -180,8 +180,9 @@ std::string no_match_message(const std::vector<FoundDevice>& devices, const std:
   if (devices.empty()) {
     const std::string faults = loader_faults();
     return "no OpenCL device was found: "
-           "`pip install \"quadedge[cpu]\"` (x86-64) or, on Debian, `apt-get install "
-           "pocl-opencl-icd ocl-icd-libopencl1` installs one for CPUs, a GPU needs its vendor's driver, and "
+           "`pip install intel-opencl-rt intel-cmplr-lib-rt` beside the Python package (x86-64) or, on Debian, "
+           "`apt-get install pocl-opencl-icd ocl-icd-libopencl1` installs one for CPUs, a GPU needs its vendor's "
+           "driver, and "
            "`--device reference` (device=\"reference\" in Python) runs without OpenCL, slowly. PoCL has no devices "
            "where it cannot write to its cache: set POCL_CACHE_DIR to a writable folder (default: $XDG_CACHE_HOME or "
            "~/.cache, pocl/kcache)" +

@@ -49,8 +49,9 @@ struct TrajectoryEvaluation {
   std::vector<SubPathErrors> sub_paths;  ///< one per length
   SubPathErrors sub_path_mean;           ///< over the sub-paths of all lengths
   int estimate_poses = 0, truth_poses = 0;
-  double path_length_m = 0;      ///< of the matched ground truth
-  double end_drift_percent = 0;  ///< end-point error after origin alignment, relative to the path length
+  double path_length_m = 0;  ///< of the matched ground truth
+  /// End-point error after origin alignment, relative to the path length; NaN where the ground truth does not move.
+  double end_drift_percent = std::numeric_limits<double>::quiet_NaN();
   /// Per matched pose, origin-aligned: timestamp, APE rotation [deg], APE translation [m], RPE (NaN for the first
   /// pose of a segment).
   struct PerPose {

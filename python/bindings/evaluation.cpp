@@ -60,7 +60,7 @@ void bind_evaluation(nb::module_& module) {
       .def_ro("rpe_interval_s", &Self::rpe_interval_s, "Median duration of the steps of RPE [s].")
       .def_ro("path_length_m", &Self::path_length_m, "Length of the matched ground truth [m].")
       .def_ro("end_drift_percent", &Self::end_drift_percent,
-              "Error of the last position relative to the path length [%].")
+              "Error of the last position relative to the path length [%]; NaN where the truth does not move.")
       .def_prop_ro("stamps_ns", column(&PerPose::stamp_ns), kView, "(N,) int64 [ns].")
       .def_prop_ro("ape_rotation_deg", column(&PerPose::ape_rotation_deg), kView, "(N,): origin-aligned.")
       .def_prop_ro("ape_translation_m", column(&PerPose::ape_translation_m), kView, "(N,): origin-aligned.")

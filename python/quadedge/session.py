@@ -58,23 +58,21 @@ def check_session_options(options: argparse.Namespace) -> None:
 
 
 class Session:
-    """An Odometry and its results. say: called with a sentence for the user.
+    """An Odometry and its results. say: called with a sentence for the user. Raises what Odometry raises."""
 
-    Raises what Odometry raises, and UsageError or DataError for a folder that has results or cannot be written.
-    """
-
-    def __init__(self, rig, name: str, options: argparse.Namespace, say, output: str | None = None):
+    def __init__(self, rig, options: argparse.Namespace, say):
         from . import Odometry
 
         self.rig = rig
         self.odometry = Odometry(rig, options.device, options.preset, options.config, loops=options.loops)
-        output, self._files = output or options.output, None
-        if output:
-            from . import ResultFiles
-
-            self._files = ResultFiles(output, self.odometry, name, " ".join(sys.argv), options.force)
-        self._output, self._loops, self._say = output, options.loops, say
+        self._files, self._output, self._options, self._say = None, "", options, say
         self._last, self.frames = None, 0
+
+    def begin_files(self, output: str, name: str) -> None:
+        """Keeps results from here on. Raises UsageError or DataError for a folder that has some or is not writable."""
+        from . import ResultFiles
+        self._files, self._output = ResultFiles(output, self.odometry, name, " ".join(sys.argv),
+                                                self._options.force), output
 
     def track(self, stamp_ns: int, left: numpy.ndarray, right: numpy.ndarray):
         """The FrameResult of a pair, kept. Raises what Odometry.track() and keep() raise."""
@@ -102,12 +100,11 @@ class Session:
         self._files = None
 
     def close(self) -> None:
-        """Finishes the results and releases the device. Raises DataError for results that cannot be written; the
-        device is released in any case."""
+        """Finishes the results; releases the device in any case. Raises DataError if results cannot be written."""
         try:
             if self._files:
                 self._files.finish()
-                if self._loops and self.frames:
+                if self._options.loops and self.frames:
                     self.odometry.map_trajectory().write_tum(Path(self._output) / "trajectory_map.txt")
                 self._say(f"results of {self.frames} frames are in {self._output}")
         finally:

@@ -78,6 +78,7 @@ class Robot:
     def __init__(self, rig=None, listens: bool = True):
         self.number = next(_numbers)
         self.rig, self.domain = rig, Domain(self.number, loopback=True)
+        self.program = [sys.executable, "-m", "quadedge.ros2", "--preset", "fast"]
         kind = "sensor_msgs/msg/Image"
         self.images = [self.domain.advertise(f"{side}/image_raw", kind) for side in (LEFT, RIGHT)] if listens else []
         self.infos = ([self.domain.advertise(f"{side}/camera_info", "sensor_msgs/msg/CameraInfo")
@@ -98,7 +99,7 @@ class Robot:
         """Starts QuadEdge and waits until it has subscribed to the images."""
         self._words = folder / "stderr.txt"
         environment = {**os.environ, "ROS_DOMAIN_ID": str(self.number), "ROS_LOCALHOST_ONLY": "1"}
-        call = [sys.executable, "-m", "quadedge.ros2", "--preset", "fast", *map(str, options)]
+        call = [*map(str, self.program), *map(str, options)]
         with self._words.open("wb") as words:
             self.process = subprocess.Popen(call, env=environment, stderr=words)
         if self.images:

@@ -154,7 +154,7 @@ def test_a_list_may_name_own_cameras(recordings, tmp_path):
 
 def test_usage_and_places(recordings, tmp_path):
     absent = run("batch", recordings, "-o", tmp_path / "out", QUADEDGE_PYTHON="/absent/python")
-    assert absent.returncode == 2 and "pip install 'quadedge[batch]'" in absent.stderr
+    assert absent.returncode == 2 and "scripts/run.sh in a clone of QuadEdge installs both" in absent.stderr
     assert not (tmp_path / "out").exists()
     assert run("batch", recordings, "other", "-o", tmp_path / "out").returncode == 2
     unknown = run("batch", recordings, "-o", tmp_path / "out", "--", "--colour", "red")

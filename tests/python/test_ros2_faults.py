@@ -137,6 +137,19 @@ def test_stamps_that_go_back_start_again_where_it_was_and_move_no_map(robot, fra
     assert [len((tmp_path / out / "frames.csv").read_text().splitlines()) for out in ("out", "out_2")] == [7, 2]
 
 
+def test_results_that_cannot_be_written_stop_no_odometry(robot, frames, tmp_path):
+    folder = tmp_path / "disk"
+    robot.start(tmp_path, "-o", folder / "out")
+    robot.play(frames[:3], 100 * SECOND)
+    folder.rename(tmp_path / "gone")  # neither the end of these results nor the folder of the next can be written
+    folder.touch()
+    robot.play(frames[3:], SECOND)
+    robot.said("the odometry goes on, and results of the last session are incomplete")
+    robot.said("the odometry goes on without results")
+    assert robot.diagnostics()["pairs refused"] == "0"
+    robot.end()
+
+
 def test_stamps_that_go_back_a_little(robot, frames, tmp_path):
     robot.start(tmp_path)
     stamp = robot.play(frames, 10 * SECOND)

@@ -51,8 +51,10 @@ def _run(options: argparse.Namespace) -> None:
     camera = open_camera(options.kind, **{name: given[name] for name in _OPTIONS if given.get(name)})
     with suppress(KeyboardInterrupt), ExitStack() as closing:
         closing.callback(camera.close)
-        session = Session(camera.rig, camera.name, options, say)
+        session = Session(camera.rig, options, say)
         closing.callback(session.close)  # whatever becomes of the others
+        if options.output:
+            session.begin_files(options.output, camera.name)
         viewer = None
         if options.view or options.web or options.save:
             from ..view import Viewer

@@ -140,7 +140,7 @@ def _over_all(parts: list[dict], statistics_of) -> dict:
     return {alignment: {error: statistics_of(alignment, error) for error in ERRORS} for alignment in ALIGNMENTS} | {
         "matched_poses": sum(part["matched_poses"] for part in parts),
         "rpe_steps": sum(part.get("rpe_steps", part["matched_poses"] - 1) for part in parts),
-        "path_length_m": path, "end_drift_percent": drift / path if path else 0}
+        "path_length_m": path, "end_drift_percent": drift / path if path else None}
 
 
 def latency_of(rows: list[Row]) -> dict:

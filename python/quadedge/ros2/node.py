@@ -186,7 +186,10 @@ class Node:
             return
         if keep_pose and self._options.save_map:
             self._keep_map(f"{self._options.save_map}.{self._sessions}")
-        self._end_session()
+        try:
+            self._end_session()
+        except DataError as error:  # a full disk does not stop a robot
+            self._say(f"warning: {error}; the odometry goes on, and results of the last session are incomplete")
         if keep_pose:
             self._place.restart(why)
         self._state.restart(why)
@@ -202,9 +205,9 @@ class Node:
             self._say(f"warning: the map until then is lost: {error}")
 
     def _end_session(self) -> None:
-        if self._session:
-            self._session.close()
-        self._session, self._before = None, [None, None]
+        session, self._session, self._before = self._session, None, [None, None]
+        if session:
+            session.close()
 
     def _rig(self, maximum: int):
         """The rig from --calibration or camera_info. Raises DataError."""
@@ -225,11 +228,16 @@ class Node:
                           "the camera counts as the base, looking forward (--base-from-camera states another mount)")
             self._find_mount()
         self._sessions += 1
-        output = f"{options.output}_{self._sessions}" if options.output and self._sessions > 1 else None
-        while output and not options.force and Path(output).exists():  # of an earlier start
+        output = f"{options.output}_{self._sessions}" if options.output and self._sessions > 1 else options.output
+        while self._sessions > 1 and output and not options.force and Path(output).exists():  # of an earlier start
             self._sessions += 1
             output = f"{options.output}_{self._sessions}"
-        self._session = Session(rig, f"domain {self._domain.number}: {self._topics.left}", options, self._say, output)
+        self._session = Session(rig, options, self._say)
+        if output:
+            try:
+                self._session.begin_files(output, f"domain {self._domain.number}: {self._topics.left}")
+            except Error as error:
+                self._say(f"warning: {error}; the odometry goes on without results")
         self._say(f"tracking {rig.left.width} x {rig.left.height} px on {self._session.odometry.device.name}")
 
     # What goes out.
