@@ -147,8 +147,8 @@ def _summary() -> dict:
                             for order, name in enumerate(CONSTRAINTS)]}
 
 
-def write_matching(file: Path, names: list[str], frames: int, drawings: list[dict] = ()) -> dict:
-    """Writes the output of `python -m quadedge.matching --json` for the named data sets of `frames` frames each."""
+def made_up_matching(names: list[str], frames: int) -> dict:
+    """What `python -m quadedge.matching --json` writes of the named data sets of `frames` frames each."""
     histogram = {"below": 0, "bins": [10] * 25 + [0] * 75, "above": 50}
     cue = {"table": "stereo", "order": 1, "cue": "distance from the epipolar line", "unit": "px", "keeps_small": True,
            "thresholds": [0.5], "low": 0.0, "high": 5.0, "other_is_sample": True}
@@ -163,10 +163,8 @@ def write_matching(file: Path, names: list[str], frames: int, drawings: list[dic
                            "pairs": [{"precision": 0.5 + 0.01 * number, "rotation_error_deg": 1 / (number + 1),
                                       "translation_error_m": 0.01 / (number + 1)} for _ in CONSTRAINTS]})
         pairs.append({"name": name, "frames": frames, "counts": counts} | _summary())
-    content = ORIGIN | {
-        "device": DEVICE, "input": names, "tolerance_px": 1.0, "wrong_px": 10.0, "drawings": list(drawings),
+    return ORIGIN | {
+        "device": DEVICE, "input": names, "tolerance_px": 1.0, "wrong_px": 10.0,
         "pairs": pairs, "pooled": _summary() | {
             "distributions": [cue], "disparity_error_histogram": {"low": -1.5, "high": 1.5} | histogram,
             "motion_rank_correlation": {"points": 30, "rotation": -0.75, "translation": None}}} | CONFIGURATION
-    file.write_text(json.dumps(content))
-    return content
