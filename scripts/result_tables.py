@@ -5,8 +5,7 @@
     scripts/result_tables.py --check    changes nothing; exit code 1 if a table differs from the JSON
 
 A block is enclosed by <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py writes the JSON files, except
-doc/results/peers.json, which is written by hand and names the source of its figures; scripts/peers.py enters the
-times of libviso2.
+doc/results/peers.json, which is written by hand and names the source of its figures.
 """
 
 import argparse
@@ -15,20 +14,15 @@ import re
 import sys
 from pathlib import Path
 
-from tables import TABLES, command_list
+from tables import TABLES
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
-PART_OF = {"quads": "matching", "pace": "speed"} | {
-    name: "paper" for name in TABLES if name.startswith("paper-")} | {
-    name: "nvidia" for name in TABLES if name.startswith("gpu-")} | dict.fromkeys(
-    ("whole", "evidence-nees"), "evidence") | dict.fromkeys(
-    ("compared", "nees", "paths", "systems", "steps", "presets", "consistency"), "accuracy")
 # Part -> (title, introduction, tables and headings)
 PAGES = {
     "accuracy": ("Accuracy", "Errors are origin-aligned means: absolute (APE) and from frame to frame (RPE)."
-                 " [accuracy.md](../accuracy.md) explains them.", ("systems", "steps", "paths", "consistency")),
+                 " [accuracy.md](../accuracy.md) explains them.", ("systems", "steps", "paths")),
     "evidence": ("Whole recordings", "t_rel and r_rel are errors over sub-paths"
                  " ([definition](../reference.md#trajectory-errors)); figures over less than 100 m are not those of"
                  " KITTI's leaderboard. Several seeds: median (range). ORB-SLAM3 runs without loop closing. PAIRS: the"
@@ -36,7 +30,7 @@ PAGES = {
                      "evidence", "## Consistency of the covariances", "evidence-nees")),
     "matching": ("Matching", "Recall and precision after the last filter, for left edges whose counterpart exists"
                  " (paired) and for all left edges (all). [matching.md](../matching.md) defines the terms.",
-                 ("matching", "quads")),
+                 ("matching",)),
     "speed": ("Speed", "Time from the images in host memory to the pose on the host. S and N are times of OpenCV"
               " functions in the same run: [performance.md](../performance.md).", ("speed",)),
     "nvidia": ("NVIDIA GPUs", "Figures of two device kits; room and flight are rendered, kitti06 is recorded."
@@ -58,29 +52,25 @@ PAGES = {
         "## Table 3: pairs of quads\n\nRecall / precision [%].", "paper-constraints",
         "## Trajectories", "paper-trajectories",
         "## Extensions\n\nErrors from frame to frame of the default without an extension, and of the paper's method"
-        " with one alone, where it has the step.", "paper-extensions", "## Commands", "paper-commands")),
+        " with one alone, where it has the step.", "paper-extensions")),
 }
-NAMES = ("DATA is the folder with the [excerpts](../accuracy.md#excerpts), OUT a folder for results; in a complete "
-         "recording, `--frames` selects the excerpt.")
 
 
 def render(name, results):
     """A table, or a note that it is missing."""
-    part = PART_OF.get(name, name)
-    return TABLES[name](results) if part in results else f"*Not measured yet: `scripts/measure.py --only {part}`.*\n"
+    part, function = TABLES[name]
+    return function(results) if part in results else f"*Not measured yet: `scripts/measure.py --only {part}`.*\n"
 
 
 def page(part, results):
     title, about, names = PAGES[part]
     if part not in results:
         return f"# {title}\n\n{render(part, results)}"
-    made_by = {"nvidia": "scripts/device_kit.sh", "evidence": "scripts/evidence.py"}.get(
-        part, f"scripts/measure.py --only {part}")
-    blocks = [f"# {title}\n", f"Made by `{made_by}`. {about}\n",
-              *(f"{name}\n" if name.startswith("#") else render(name, results) for name in names)]
-    if "commands" in results[part].get("rows", [{}])[0] and part != "paper":  # whose commands are a table
-        blocks += [f"## Commands\n\n{NAMES}\n", command_list(results[part]["rows"])]
-    return "\n".join(blocks)
+    made_by = {"nvidia": "scripts/device_kit.sh"}.get(part, f"scripts/measure.py --only {part}")
+    listed = {"commands", "command"} & results[part].get("rows", [{}])[0].keys()
+    commands = f" by the commands in [{part}.json]({part}.json)" if listed else ""
+    return "\n".join([f"# {title}\n", f"Made by `{made_by}`{commands}. {about}\n",
+                      *(f"{name}\n" if name.startswith("#") else render(name, results) for name in names)])
 
 
 def judged(rows):

@@ -52,8 +52,8 @@ def test_tables_are_printed_and_written(evaluated):
     assert correct["layout"]["images"][0]["source"].startswith("data:image/jpeg;base64,")
     left, right = (trace["x"] for trace in correct["data"])
     assert len(left) == len(right) > 1000 and min(right) > 319 > max(left)
-    assert [trace["name"].split(",")[1].split(" (")[0] for trace in page.figure("drawing_0_wrong")["data"]] == [
-        " left", " right", " true position", " left", " right"]
+    assert [trace["name"].split(" (")[0] for trace in page.figure("drawing_0_wrong")["data"]] == [
+        "", "wrong, left", "wrong, right", "wrong, true position", "occluded, left", "occluded, right"]
 
 
 def test_most_final_edges_are_true_and_tables_begin_with_every_edge(evaluated):

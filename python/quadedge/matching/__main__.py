@@ -22,7 +22,7 @@ from .observer import observe
 from .sources import RenderedSource, find_sources
 
 NAME = "python -m quadedge.matching"
-SCENES, RENDERED_FRAMES = ("room", "cables", "facade", "corridor", "yard"), 10
+SCENES, RENDERED_FRAMES = ("room", "cables", "facade", "yard"), 10
 _say = say_on_stderr(NAME)
 
 

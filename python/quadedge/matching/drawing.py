@@ -6,7 +6,7 @@ import io
 import numpy as np
 import PIL.Image
 
-from ..report.figure import Figure, every
+from ..report.figure import GREY, Figure, every
 from .counts import Tolerance
 from .observer import CLASSES, MatchingResult
 
@@ -43,6 +43,8 @@ def drawings(name: str, result: MatchingResult, tolerance: Tolerance) -> list[Fi
             places = [matches.left[shown, :2], matches.right[shown, :2] + (width, 0)]
             if kind == "inaccurate" or kind == "wrong":
                 places.append(matches.true[shown] + (width, 0))
+                lines = np.stack([*places[1:], np.full_like(places[1], np.nan)], 1).reshape(-1, 2)
+                figure.add("", *lines.T, style=GREY)
             for view, places_of in zip(("left", "right", "true position"), places):
                 symbol = "circle-open" if view == "true position" else SYMBOLS[kind]
                 figure.traces.append({"name": f"{kind}, {view} ({len(shown)})", "type": "scattergl", "mode": "markers",
