@@ -28,7 +28,7 @@ from pathlib import Path
 
 import result_tables
 from harness import REPOSITORY, Problem, Programs
-from measurements import PARTS, RECORDED, RENDERED, SYSTEMS
+from measurements import PARTS, RECORDED, SCENES, SYSTEMS
 from recordings import QUADEDGE
 from stamped import commit, stamped, write
 
@@ -39,9 +39,9 @@ def parse():
     parser.add_argument("--data", type=Path, default=os.environ.get("QUADEDGE_DATA"),
                         help="folder with the recorded sequences; without it, only rendered sequences are measured")
     parser.add_argument("--recordings", type=Path, metavar="DIR", help="folder with the whole recordings")
-    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *RENDERED), default=None)
+    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *SCENES), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
-    parser.add_argument("--only-system", choices=QUADEDGE, metavar="SYSTEM", help="of the evidence; the other rows stay")
+    parser.add_argument("--only-system", choices=QUADEDGE, metavar="SYSTEM", help="of the evidence; others stay")
     parser.add_argument("--viso2", type=Path, metavar="FILE")
     parser.add_argument("--peers", type=Path, metavar="PYTHON")
     parser.add_argument("--seeds", type=int, default=5, metavar="N", help="runs of QuadEdge per sequence")
@@ -55,7 +55,7 @@ def parse():
     if options.frames and options.out == result_tables.RESULTS:
         parser.error("--frames needs --out: the documentation covers whole sequences")
     if options.sequences is None:
-        options.sequences = [*(RECORDED if options.data else ()), *RENDERED]
+        options.sequences = [*(RECORDED if options.data else ()), *SCENES]
     elif not options.data and any(name in RECORDED for name in options.sequences):
         parser.error("recorded sequences need --data or QUADEDGE_DATA")
     if options.only_system and options.only != ["evidence"]:
@@ -89,8 +89,7 @@ def main():
     except Problem as problem:
         print(f"measure: {problem}", file=sys.stderr)
         return 1
-    result_tables.write(options.out)
-    return 0
+    return result_tables.main([]) if options.out == result_tables.RESULTS else 0
 
 
 if __name__ == "__main__":

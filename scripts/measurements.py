@@ -1,6 +1,5 @@
 """The measurements of scripts/measure.py, one function per part, as rows with their commands."""
 
-import csv
 import itertools
 import math
 import statistics
@@ -17,10 +16,6 @@ RECORDED = {
     "keyframes": "euroc_v1_01_easy_keyframes",
 }
 SCENES = ("room", "cables", "facade")
-PATHS = ("handheld", "drive", "loop")  # besides the ellipse
-# Run -> arguments of `quadedge demo`; a run on the ellipse has the name of its scene.
-RENDERED = {scene: ("--scene", scene) for scene in SCENES} | {
-    f"{scene}-{path}": ("--scene", scene, "--path", path) for path in PATHS for scene in SCENES}
 # Title, run, first evaluated frame
 JUDGED = (
     ("KITTI 06", "kitti06", 0),
@@ -29,7 +24,7 @@ JUDGED = (
     ("EuRoC MH_01, flight", "flight", 0),
     ("EuRoC V1_01 at rest", "rest", 0),
     ("EuRoC V1_01 key frames", "keyframes", 0),
-    *((f"rendered {run.replace('-', ', ')}", run, 0) for run in RENDERED),
+    *((f"rendered {scene}", scene, 0) for scene in SCENES),
 )
 PRESETS = ("fast", "default", "dense")
 SYSTEMS = ("default", "fast", "dense", "opencv")
@@ -50,20 +45,6 @@ TIMED = {
     "KITTI 06": RECORDED["kitti06"],
     "EuRoC MH_01, flight": RECORDED["flight"],
 }
-# Disturbance -> label, option of `quadedge demo`, values, further options. The camera is handheld where it is blurred,
-# because on the ellipse the image moves less than that per frame.
-SWEPT = {
-    "gain": ("light of every second frame, factor", "gain", (0.5, 0.7, 1, 1.4, 2), ()),
-    "right-gain": ("exposure of the right camera, factor", "right-gain", (0.5, 0.7, 1, 1.4, 2), ()),
-    "blur": ("motion blur, handheld camera [px]", "blur", (0, 1, 2, 3, 4, 5), ("--path", "handheld")),
-    "noise": ("camera noise [grey levels]", "noise", (0, 1.5, 3, 5, 8), ()),
-    "mover": ("ratio of the image covered by a moving board", "mover", (0, 0.1, 0.2, 0.3, 0.4), ()),
-    "contrast": ("contrast", "contrast", (1, 0.2, 0.1, 0.05), ()),
-    "contrast16": ("contrast, 16 bits", "contrast", (1, 0.1, 0.01), ("--bits", 16)),
-    "light": ("light, noise 8", "light", (1, 0.3, 0.15), ("--noise", 8)),
-    "gamma": ("gamma", "gamma", (0.45, 2.2), ()),
-}
-DISTURBED = ("gain", "right-gain", "blur", "noise", "mover")  # the others are of low light and low contrast
 METHODS = {"paper": ["--preset", "paper"], "fitted": ["--preset", "paper", "--pose.refine", "true"], "default": []}
 OF_PAPER = ("terrace_2s", "Motorcycle", "rendered room")
 # Title -> source, frames, seeds. KITTI 06 starts with frames whose ground truth jumps.
@@ -105,12 +86,12 @@ def judge(system, title, run, first, seed, programs):
     frames = ["--frames", f"0:{options.frames}" if is_recorded and system != "opencv" else options.frames]
     frames = frames if options.frames else []
     if system == "opencv":
-        source = [options.data / RECORDED[run]] if is_recorded else [*RENDERED[run][1:]]
+        source = [options.data / RECORDED[run]] if is_recorded else [run]
         command = [options.baseline, *source, *frames]
         programs.run(folder, command)
         command = programs.text([*command, "-o", folder])
     else:
-        source = ["run", options.data / RECORDED[run]] if is_recorded else ["demo", *RENDERED[run]]
+        source = ["run", options.data / RECORDED[run]] if is_recorded else ["demo", "--scene", run]
         method = [] if system == "default" else ["--preset", system]
         command, _ = programs.track(folder, [*source, *frames], method, seed)
     truth = options.data / RECORDED[run] if is_recorded and not options.frames else folder / "groundtruth.txt"
@@ -133,8 +114,7 @@ def measure_accuracy(programs):
     options = programs.options
     return [over_seeds([judge(system, *entry, seed, programs)
                         for seed in range(1, 2 if system == "opencv" else options.seeds + 1)])
-            for entry in JUDGED if entry[1] in options.sequences for system in options.systems
-            if system in ("default", "opencv") or entry[1] in RECORDED or entry[1] in SCENES]
+            for entry in JUDGED if entry[1] in options.sequences for system in options.systems]
 
 
 def evaluate_matching(title, places, frames, method, programs):
@@ -186,39 +166,6 @@ def measure_speed(programs):
                      "edges_over_filters": bench["baseline"]["edges_ratio"],
                      "host_peak_mb": bench["memory_mb"]["host_peak"]})
     return rows
-
-
-def disturb(scene, kind, value, threshold, count, size, programs):
-    """A rendered sequence with a disturbance and an edge threshold, 0 for the automatic one. A step is wrong if it is
-    reported as tracked and its error exceeds 5 mm + 10 % of the motion or 0.25 degrees."""
-    _, option, _, more = SWEPT[kind]
-    folder = programs.options.work / "disturbances" / f"{scene}_{kind}_{value}_{threshold}"
-    programs.track(folder, ["demo", "--scene", scene, "--frames", count, f"--{option}", value, "--edges.threshold",
-                            threshold, "--size", size, *more])
-    with open(folder / "frames.csv", encoding="utf-8") as file:
-        frames = list(csv.DictReader(file))
-    said, _ = programs.evaluate(folder, folder / "groundtruth.txt", "--steps", *STEP_OF_RENDERED)
-    row = {"scene": scene, "kind": kind, "value": value, "threshold": threshold,
-           "edge_threshold": statistics.median(float(frame["edge_threshold"]) for frame in frames),
-           "edges": statistics.mean(int(frame["edges_left"]) for frame in frames), "frames": count,
-           "tracked": len(positions(folder)), "right": 0, "wrong": 0, "lost": count - 1, "rpe_translation_m": None}
-    if said:
-        row |= {name: said["steps"][name] for name in ("right", "wrong", "lost")} | means(said["accuracy"])
-    return row
-
-
-def measure_disturbances(programs):
-    """Every disturbance in every scene."""
-    return [disturb(scene, kind, value, 0, programs.options.frames or 5, "640x332", programs)
-            for scene in SCENES if scene in programs.options.sequences
-            for kind in DISTURBED for value in SWEPT[kind][2]]
-
-
-def measure_light(programs):
-    """Low contrast and low light in two scenes, with a fixed edge threshold and with the automatic one."""
-    return [disturb(scene, kind, value, threshold, programs.options.frames or 26, "480x249", programs)
-            for scene in ("room", "cables") if scene in programs.options.sequences
-            for kind in SWEPT if kind not in DISTURBED for value in SWEPT[kind][2] for threshold in (2, 0)]
 
 
 def drift_of(scene, seed, programs):
@@ -295,6 +242,5 @@ def measure_paper(programs):
     return rows
 
 
-PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed,
-         "disturbances": measure_disturbances, "light": measure_light, "drift": measure_drift,
+PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed, "drift": measure_drift,
          "paper": measure_paper, "evidence": measure_recordings}

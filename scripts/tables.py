@@ -6,7 +6,7 @@
 import statistics
 
 import pandas
-from measurements import EXTENSIONS, SWEPT
+from measurements import EXTENSIONS
 
 PRESETS = ("fast", "default", "dense")
 SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense", "opencv": "OpenCV SIFT + PnP",
@@ -116,8 +116,12 @@ def accuracy_row(row):
 
 
 def judged_rows(results):
-    """The rows but those judged step by step, and of rendered scenes on other paths than the ellipse."""
-    return [row for row in results["accuracy"]["rows"] if row["sequence"] != STEPS and "-" not in row["sequence"]]
+    """The rows but those judged step by step, of rendered scenes on other paths than the ellipse, and of sequences that
+    are also evaluated from a later frame, as their ground truth is wrong before it."""
+    rows = results["accuracy"]["rows"]
+    later = {row["title"].split(", from frame")[0] for row in rows if row["from_frame"]}
+    return [row for row in rows
+            if row["sequence"] != STEPS and "-" not in row["sequence"] and row["title"] not in later]
 
 
 def compared(results):
@@ -125,28 +129,12 @@ def compared(results):
                   seeds_and_stamp(results["accuracy"]))
 
 
-def systems(results):
-    return listed([accuracy_row(row) for row in judged_rows(results)], seeds_and_stamp(results["accuracy"]))
-
-
-def step_cells(row):
-    return {name: over_seeds(row, "steps", key) if "steps" in row else "-" for name, key in (
-        ("steps right", "right"), ("wrong, reported as tracked", "wrong"), ("reported lost", "lost"))}
-
-
 def steps(results):
     rows = [row for row in results["accuracy"]["rows"] if row["sequence"] == STEPS]
-    return listed([{"system": SYSTEMS[row["system"]], **step_cells(row)} for row in rows],
+    names = {"steps right": "right", "wrong, reported as tracked": "wrong", "reported lost": "lost"}
+    return listed([{"system": SYSTEMS[row["system"]], **{name: over_seeds(row, "steps", key)
+                                                         for name, key in names.items()}} for row in rows],
                   f"{named(rows[0])}. {seeds_and_stamp(results['accuracy'])}")
-
-
-def paths(results):
-    """One row per rendered scene and path."""
-    rows = [row for row in results["accuracy"]["rows"] if row["title"].startswith("rendered")]
-    shown = ("tracked", "RPE rotation [deg]", "RPE translation [mm]", "end drift [%]")
-    return listed([{"scene, path": row["title"].removeprefix("rendered "), "system": SYSTEMS[row["system"]],
-                    **step_cells(row), **{name: accuracy_row(row)[name] for name in shown}} for row in rows],
-                  seeds_and_stamp(results["accuracy"]))
 
 
 def normalised_errors(results):
@@ -174,20 +162,8 @@ def presets(results):
             cells[f"error per frame [deg; mm], {named(row)}", row["system"]] = (
                 f"{over_seeds(row, 'rpe_rotation_deg', digits=2)}; {over_seeds(row, 'rpe_translation_m', factor=1e3)}")
     cells = {(of, f"`--preset {preset}`"): cells.get((of, preset), "-") for of, _ in cells for preset in PRESETS}
-    return crossed("", cells, f"Times: commit {origin(results['speed'])}. Errors: commit {origin(results['accuracy'])}.\n")
-
-
-def sweep(part):
-    """Steps under every strength of every disturbance, a column per scene, or per scene and edge threshold."""
-    def cells_of(results):
-        rows, cells = results[part]["rows"], {}
-        for row in rows:
-            error = "-" if row["rpe_translation_m"] is None else f"{1e3 * row['rpe_translation_m']:.2f}"
-            notes = [f", {row[what]} {what}" for what in ("wrong", "lost") if row[what]]
-            fixed = f", threshold {row['threshold']}" if row.get("threshold") else ""
-            cells[f"{SWEPT[row['kind']][0]}: {row['value']:g}", row["scene"] + fixed] = error + "".join(notes)
-        return crossed("error of a step [mm]", cells, f"{counted(rows[0]['frames'], 'frame')} each. {stamp(results[part])}")
-    return cells_of
+    return crossed("", cells, f"Times: commit {origin(results['speed'])}. "
+                              f"Errors: commit {origin(results['accuracy'])}.\n")
 
 
 def drift(results):
@@ -233,20 +209,10 @@ def matching(results):
                 for name in ("recall", "precision")}
 
     rows = results["matching"]["rows"]
-    return listed([{"pair": row["title"], **rates(row), "disparity error, median": f"{row['disparity_median_px']:.3f} px",
+    return listed([{"pair": row["title"], **rates(row),
+                    "disparity error, median": f"{row['disparity_median_px']:.3f} px",
                     "across the edge": f"{row['across_median_px']:.3f} px"} for row in rows]) + "\n" + listed(
         [{"quads": row["title"], **rates(row["quads"])} for row in rows if "quads" in row], stamp(results["matching"]))
-
-
-def speed(results):
-    rows = results["speed"]["rows"]
-    machine = f"{rows[0]['platform']}, {rows[0]['device']}, {rows[0]['threads']} threads. "
-    return listed([{"sequence": row["title"], "preset": row["preset"], "edges per image": f"{row['edges_per_image']:.0f}",
-                    "frame, median": f"{row['median_ms']:.0f} ms", "p90": f"{row['p90_ms']:.0f} ms",
-                    "p99": f"{row['p99_ms']:.0f} ms", "processor time": f"{row['processor_ms']:.0f} ms",
-                    "frames/s": f"{1000 / row['median_ms']:.1f}", "frame / S": f"{row['frame_over_sift']:.2f}",
-                    "edges of one image": f"{row['edges_ms']:.1f} ms", "host memory": f"{row['host_peak_mb']:.0f} MB"}
-                   for row in rows], machine + stamp(results["speed"]))
 
 
 def ros2(results):
@@ -255,7 +221,8 @@ def ros2(results):
     (first, start), (last, end) = part["memory_mb"][0], part["memory_mb"][-1]
     return table(("preset", "images [px]", "pairs/s", "dropped", "latency, median / p99 [ms]", "beyond tracking [ms]",
                   "track(), mean [ms]"),
-                 [(row["preset"], f"{row['width']} x {row['height']}", row["rate_hz"], f"{row['dropped']} of {row['sent']}",
+                 [(row["preset"], f"{row['width']} x {row['height']}", row["rate_hz"],
+                   f"{row['dropped']} of {row['sent']}",
                    *(" / ".join(f"{value:.1f}" for value in row[name]) for name in ("latency_ms", "beyond_track_ms")),
                    row["mean_track_ms"]) for row in part["rows"]],
                  f"Resident memory of the program after {first} pairs: {start:.0f} MB, after {last}: "
@@ -317,7 +284,8 @@ def whole_row(row, lengths):
     cells["ATE RMSE [m]"] = spread(errors or None)
     for name, text in (("median", "time of a frame: median [ms]"), ("p99", "p99 [ms]"), ("max", "longest [ms]"),
                        ("first", "first frame [ms]")):
-        cells[text] = spread([run["latency_ms"][name] for run in runs if name in (run.get("latency_ms") or {})] or None, 2)
+        found = [run["latency_ms"][name] for run in runs if name in (run.get("latency_ms") or {})]
+        cells[text] = spread(found or None, 2)
     used = [1000 * run["processor_s"] / row["frames"] for run in runs if "processor_s" in run]
     return cells | {"processor time per frame [ms]": spread(used or None, 2)} | (
         {} if lengths else {"length of the path [m]": spread([run["length_m"] for run in runs], 5)})
@@ -355,30 +323,6 @@ def evidence_nees(results):
     return crossed("NEES", cells)
 
 
-def gpu_latency(results):
-    """Time of a frame on each GPU."""
-    devices = results["nvidia"]["devices"]
-    hosts = "; ".join(f"{device['name']}: {device['host']}, driver {device['driver']}" for device in devices)
-    head = {"median_ms": "median [ms]", "p90_ms": "p90 [ms]", "p99_ms": "p99 [ms]", "host_ms": "host's part [ms]"}
-    return listed([{"device": device["name"], "sequence": row["sequence"], "preset": row["preset"],
-                    **{text: f"{row[name]:.1f}" for name, text in head.items()}}
-                   for device in devices for row in device["latency"]], f"Hosts: {hosts}. {stamp(results['nvidia'])}")
-
-
-def gpu_poses(results):
-    """Largest difference from the poses of PoCL."""
-    return listed([{"device": device["name"], "sequence": row["sequence"], "poses": row["poses"],
-                    "missing": row["missing"], "largest difference [m]": number(row["largest_difference_m"])}
-                   for device in results["nvidia"]["devices"] for row in device["poses"]])
-
-
-def gpu_variants(results):
-    """Time of each kernel variant on each GPU, over that of the default."""
-    return crossed("stage: variant", {
-        (f"{row['stage']}: {row['variant']}" + (" (default)" if row["default"] else ""), f"{of['name']} [ms, ratio]"):
-        f"{row['median_ms']:.3f}, {row['ratio']:.2f}" for of in results["nvidia"]["devices"] for row in of["variants"]})
-
-
 def paper_rows(results, kind):
     return [row for row in results["paper"]["rows"] if row["kind"] == kind]
 
@@ -406,7 +350,8 @@ def paper_trajectories(results):
 
     return listed([{"sequence": row["title"], "method": METHODS[row["method"]],
                     "tracked": f"{row['tracked']} of {row['frames']}",
-                    "APE [deg]": error(row["ape_rotation_deg"], 1, 3), "APE [mm]": error(row["ape_translation_m"], 1000, 1),
+                    "APE [deg]": error(row["ape_rotation_deg"], 1, 3),
+                    "APE [mm]": error(row["ape_translation_m"], 1000, 1),
                     "RPE [deg]": error(row["rpe_rotation_deg"], 1, 4),
                     "RPE [mm]": error(row["rpe_translation_m"], 1000, 2)} for row in paper_rows(results, "trajectory")],
                   "Means over the frames, and their standard deviations over five seeds. " + stamp(results["paper"]))
@@ -428,14 +373,11 @@ def paper_extensions(results):
 
 
 # Table -> part that it is made from, function
-TABLES = {"compared": ("accuracy", compared), "systems": ("accuracy", systems), "steps": ("accuracy", steps),
-          "paths": ("accuracy", paths), "nees": ("accuracy", normalised_errors), "presets": ("accuracy", presets),
-          "disturbances": ("disturbances", sweep("disturbances")), "light": ("light", sweep("light")),
-          "drift": ("drift", drift), "pace": ("speed", pace), "speed": ("speed", speed), "peers": ("peers", peers),
-          "matching": ("matching", matching), "ros2": ("ros2", ros2), "whole": ("evidence", whole_recordings),
-          "evidence": ("evidence", evidence), "evidence-nees": ("evidence", evidence_nees),
-          "gpu-latency": ("nvidia", gpu_latency), "gpu-poses": ("nvidia", gpu_poses),
-          "gpu-variants": ("nvidia", gpu_variants), "paper-stereo": ("paper", paper_filters("stereo")),
+TABLES = {"compared": ("accuracy", compared), "steps": ("accuracy", steps), "nees": ("accuracy", normalised_errors),
+          "presets": ("accuracy", presets), "drift": ("drift", drift), "pace": ("speed", pace),
+          "peers": ("peers", peers), "matching": ("matching", matching), "ros2": ("ros2", ros2),
+          "whole": ("evidence", whole_recordings), "evidence": ("evidence", evidence),
+          "evidence-nees": ("evidence", evidence_nees), "paper-stereo": ("paper", paper_filters("stereo")),
           "paper-temporal": ("paper", paper_filters("temporal_left")),
           "paper-constraints": ("paper", paper_filters("constraints")),
           "paper-trajectories": ("paper", paper_trajectories), "paper-extensions": ("paper", paper_extensions)}

@@ -40,22 +40,21 @@ def write_report(folder: Path, report: dict, **changes) -> dict:
     return report | changes
 
 
-def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool = False, lost: int = -1,
+def write_run(folder: Path, frames: int, drift: float = 0.01, *, lost: int = -1,
               breaks: bool = False, errors: dict | None = None) -> dict:
-    """Writes a run along a bent or nearly straight path whose estimate drifts sideways; returns its report.
+    """Writes a run along a bent path whose estimate drifts sideways; returns its report.
 
     breaks: the frames after the lost one are a segment of their own.
     """
     folder.mkdir(parents=True)
     (folder / "pictures").mkdir()
-    bend = 0.01 if straight else 2.0
     rows, poses, truth, per_pose, covariances = [], [], [], [], []
     for i in range(frames):
         status = "first" if i == 0 else "lost_no_consensus" if i == lost else "tracked"
         segment = int(breaks and i > lost)
         rows.append(f"{i},{0.1 * i:.9f},{status},{segment},0,{1 if i % 4 == 0 else 0},{1000 + i},{1100 + i},500,400,"
                     f"390,{300 - i},{200 - i},{20 + i % 3},12,3,2")
-        x, z = bend * math.sin(0.3 * i), float(i)
+        x, z = 2 * math.sin(0.3 * i), float(i)
         truth.append(f"{0.1 * i:.9f} {x + 3} 1 {z} 0 0 0 1")  # in another world frame
         if segment and i == lost + 1:
             poses.append("# segment 1: the motion since the poses above is unknown")

@@ -116,7 +116,7 @@ def test_a_band_that_would_flatten_the_errors_is_cut(tmp_path):
     assert "predicted standard deviation, up to 66 mm" in [trace["name"] for trace in error["data"]]
 
 
-def test_slow_frames_are_marked_and_explained(tmp_path):
+def test_slow_frames_are_marked(tmp_path):
     write_run(tmp_path / "street", 40)
     file = tmp_path / "street/frames.csv"
     rows = [row.split(",") for row in file.read_text().splitlines()]
@@ -124,18 +124,14 @@ def test_slow_frames_are_marked_and_explained(tmp_path):
     for frame, milliseconds in ((1, 160), (20, 170), (30, 180)):
         rows[1 + frame][names.index("latency_ms")] = str(milliseconds)
         rows[1 + frame][names.index("temporal_ms")] = str(milliseconds - 15)
-    rows[21][names.index("edges_left")] = "9000"
     file.write_text("\n".join(map(",".join, rows)) + "\n")
     page = page_of(tmp_path / "street")
-    assert 'Frame 1 took 160 ms, 145 ms of it in the stage "temporal". OpenCL drivers finish compiling' in page.text
-    assert "Frame 20 took 170 ms" in page.text and "It has 9000 edges; the median is 1020." in page.text
-    assert "Frame 30 took 180 ms" in page.text and "another program may have used the processor" in page.text
     assert page.figure("_latency")["layout"]["yaxis"]["range"] == [0, pytest.approx(1.5 * 22)]
     marks = page.traces("_latency")["slower than the plot"]
     assert marks["text"] == ["frame 1: 160 ms", "frame 20: 170 ms", "frame 30: 180 ms"]
     write_run(tmp_path / "even", 40)
     page = page_of(tmp_path / "even")
-    assert "range" not in page.figure("_latency")["layout"]["yaxis"] and " took " not in page.text
+    assert "range" not in page.figure("_latency")["layout"]["yaxis"]
 
 
 def test_edges_in_space_move_with_the_path_to_the_ground_truth(tmp_path):
@@ -232,16 +228,6 @@ def test_segments_are_told_apart(tmp_path):
     page = page_of(tmp_path / "whole")
     assert "Segments" not in page.facts
     assert "QuadEdge, segment 1" not in page.traces("from_above")
-
-
-def test_a_straight_road_is_drawn_from_the_side_and_a_bent_one_is_not(tmp_path):
-    write_run(tmp_path / "straight", 12, 0.002, straight=True)
-    write_run(tmp_path / "bent", 12)
-    page = page_of(tmp_path / "straight")
-    assert page.figure("lateral_deviation")["layout"]["yaxis"]["title"]["text"] == "deviation [mm]"
-    traces = page.traces("lateral_deviation")
-    assert traces["QuadEdge"]["y"][-1] - traces["ground truth"]["y"][-1] == pytest.approx(22, rel=0.01)  # to the right
-    assert not any("deviation" in plot for plot in page_of(tmp_path / "bent").plots)
 
 
 def test_a_run_with_loops_shows_the_corrected_path_and_its_closures(tmp_path):

@@ -146,8 +146,9 @@ def _motion_correlation(results: list[MatchingResult]) -> dict:
          for pairs in [frame.temporal.pairs] if pairs.pairs[order] and np.isfinite(pairs.errors[order, 0])],
         columns=["precision", "rotation", "translation"], dtype=float)
     ranked = points.rank()  # Spearman's is the correlation of ranks
-    return {"points": len(points)} | {name: _number(ranked["precision"].corr(ranked[name]) if len(points) > 2 else np.nan)
-                                      for name in ("rotation", "translation")}
+    return {"points": len(points)} | {
+        name: _number(ranked["precision"].corr(ranked[name]) if len(points) > 2 else np.nan)
+        for name in ("rotation", "translation")}
 
 
 def _text(value) -> str:

@@ -20,7 +20,8 @@ def _picture(left: np.ndarray, right: np.ndarray) -> str:
     height = max(len(left), len(right))
     both = np.hstack([np.pad(image, ((0, height - len(image)), (0, 0))) for image in (left, right)])
     stream = io.BytesIO()
-    PIL.Image.fromarray((both * (255 * BRIGHTNESS / max(1, both.max()))).astype(np.uint8)).save(stream, "JPEG", quality=70)
+    grey = (both * (255 * BRIGHTNESS / max(1, both.max()))).astype(np.uint8)
+    PIL.Image.fromarray(grey).save(stream, "JPEG", quality=70)
     return "data:image/jpeg;base64," + base64.b64encode(stream.getvalue()).decode()
 
 

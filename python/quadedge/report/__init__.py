@@ -1,6 +1,7 @@
 """Makes pages of QuadEdge's results: self-contained files with tables, interactive plots and pictures.
 
-The input is the output of `quadedge run` and `quadedge batch`; images are not processed. Needs jinja2, pandas and plotly, but not the compiled part of the package.
+The input is the output of `quadedge run` and `quadedge batch`; images are not processed. Needs jinja2, pandas and
+plotly, but not the compiled part of the package.
 """
 
 import importlib.util

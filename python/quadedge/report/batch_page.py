@@ -103,8 +103,8 @@ def _overview(summary: dict, sequences: list[Sequence]) -> list:
         blocks += [Text("Failed or incomplete sequences:", warns=True), Facts(failed)]
     rows = [(sequence.name, sequence.entry.get("accuracy")) for sequence in sequences]
     if "pooled" in summary["all"]:
-        tables = [error_table("sequence", [*rows, ("all, every pose counts alike", summary["all"]["pooled"])], alignment)
-                  for alignment in ALIGNMENTS]
+        rows.append(("all, every pose counts alike", summary["all"]["pooled"]))
+        tables = [error_table("sequence", rows, alignment) for alignment in ALIGNMENTS]
         for table in tables:
             table.has_result = True
         blocks += tables
@@ -137,7 +137,8 @@ def _sequence_blocks(sequence: Sequence, detail: Detail) -> list:
             return [Text(sequence.message, warns=True)]
         with expecting("the report of a run", sequence.run.folder / "report.json"):
             report = sequence.run.report
-            facts = [("Recording", f"{entry['path']} ({entry['format']})"), ("Command", report.get("command") or "\u2013"),
+            facts = [("Recording", f"{entry['path']} ({entry['format']})"),
+                     ("Command", report.get("command") or "\u2013"),
                      ("Frames tracked", share_of(entry["frames_tracked"], entry["frames"]))]
             if accuracy := entry.get("accuracy"):
                 facts.append(("Path", f"{length_text(accuracy['path_length_m'])}, drift at its end "

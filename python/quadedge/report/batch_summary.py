@@ -108,8 +108,9 @@ def pooled(parts: list[dict]) -> dict:
         return part.get("rpe_steps", part["matched_poses"] - 1)
 
     def pool(alignment: str, error: str) -> dict:
-        found = pandas.DataFrame([part[alignment][error] | {"weight": part["matched_poses"] if error.startswith("ape")
-                                                            else steps(part)} for part in parts], dtype=float).dropna(subset=["mean"])
+        found = pandas.DataFrame([part[alignment][error] for part in parts], dtype=float)
+        found["weight"] = [part["matched_poses"] if error.startswith("ape") else steps(part) for part in parts]
+        found = found.dropna(subset=["mean"])
         if not found["weight"].sum():
             return dict.fromkeys(STATISTICS)
         mean, square = (np.average(values, weights=found["weight"]) for values in (found["mean"], found["rmse"] ** 2))

@@ -116,7 +116,7 @@ def accuracy_figures(pairs: list[dict], pooled: dict) -> list[Figure]:
                         "precision of the pairs [%]", f"median error [{name}]", y_logarithmic=True)
         whole = Figure(f"motions_of_quads_{quantity}", f"Motion of all quads: {quantity}",
                        "precision of the pairs, all constraints [%]", f"error [{name}]", y_logarithmic=True)
-        series = [(single, row["constraint"], order, [(frame["pairs"][order], frame["pairs"][order]) for frame in frames])
+        series = [(single, row["constraint"], order, [2 * (frame["pairs"][order],) for frame in frames])
                   for order, row in enumerate(pooled["constraints"])]
         series.append((whole, "one frame", 0, [(frame["pairs"][-1], frame) for frame in frames]))
         for figure, text, style, points in series:

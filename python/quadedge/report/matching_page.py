@@ -101,8 +101,8 @@ def _counts(pairs: list[dict]) -> Section:
     if sum(pair["frames"] for pair in pairs) < FEWEST_FRAMES:
         section.blocks.append(_needs_frames("Distributions of the counts (Figure 2)"))
         return section
-    section.blocks.append(Figures(count_figures(pairs), "Figure 2: distributions of the numbers of edges, stereo edges, "
-                                                        "pairs in time and quads over the frames."))
+    section.blocks.append(Figures(count_figures(pairs), "Figure 2: distributions of the numbers of edges, stereo "
+                                                        "edges, pairs in time and quads over the frames."))
     return section
 
 

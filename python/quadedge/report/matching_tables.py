@@ -55,7 +55,8 @@ def overview_table(pairs: list[dict], pooled: dict) -> Table:
 def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
     """Tables 1 and 2: recall, precision and ambiguity after every filter; disabled filters are marked."""
     both = [summary[f"{key}{suffix}"] for _, suffix in POOLS]
-    columns = [(f"{pool}: {count(rows[0]['edges']) if rows else 0} edges", column) for (pool, _), rows in zip(POOLS, both)
+    columns = [(f"{pool}: {count(rows[0]['edges']) if rows else 0} edges", column)
+               for (pool, _), rows in zip(POOLS, both)
                for column in ("recall [%]", "precision [%]", "per edge [%]", "ambiguity", "of pool", "max")]
     table = Table(name, title, ["", "filter", *columns], text_columns=2, has_result=True)
     for rows in zip(*both):
@@ -112,7 +113,8 @@ def summary_tables(summary: dict, prefix: str = "") -> list[Table]:
 
 def frame_counts(pairs: list[dict]) -> pandas.DataFrame:
     """Numbers of every frame; those of matches in time only where there are any."""
-    counts = pandas.DataFrame([frame for pair in pairs for frame in pair["counts"]], columns=list(QUANTITIES), dtype=float)
+    frames = [frame for pair in pairs for frame in pair["counts"]]
+    counts = pandas.DataFrame(frames, columns=list(QUANTITIES), dtype=float)
     counts.loc[~(counts["temporal_left"] > 0), IN_TIME] = None
     return counts
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from .advice import notices
 from .error_tables import accuracy_table, segment_tables
 from .figure import FEWEST_FRAMES
-from .latency import latency_figures, slow_texts
+from .latency import latency_figures
 from .numbers import DASH, length_text, share_of, significant
 from .origin import device_text, origin
 from .page import Columns, Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
@@ -145,7 +145,7 @@ def plot_sections(run: Run, detail: Detail) -> list[Section]:
                                     explained="accuracy.md#consistency-of-the-covariances"))
     time = latency_figures(run, detail.points)
     tables = [latency_table(run), *filter(lambda table: table.rows, [stage_table(run.report)])]
-    sections.append(Section("Time", [*([Figures(time)] if time else []), *map(Text, slow_texts(run)), Columns(tables)],
+    sections.append(Section("Time", [*([Figures(time)] if time else []), Columns(tables)],
                             explained="performance.md"))
     counts = frame_figures(run, detail.points)
     if counts:

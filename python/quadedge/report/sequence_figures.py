@@ -12,7 +12,6 @@ EDGES = 8  # points of edges in space per point of a curve
 AROUND = (1, 99)  # percentiles of the edges that the plot in space shows
 PREDICTED = 1.5  # largest error in the plot that the band of predicted ones may stretch it to
 MOST_KEY_RIGS = 0.4  # of the frames, to be marked
-STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
 
 
 def _key_rig_stamps(run: Run) -> np.ndarray:
@@ -61,8 +60,7 @@ def _around(edges: np.ndarray, path: np.ndarray, limit: int) -> np.ndarray:
 
 
 def trajectory_figures(run: Run, points: int) -> list[Figure]:
-    """The trajectory in 3D among edges, from above and from the side; for a straight path also its deviation from a
-    line."""
+    """The trajectory in 3D among edges, from above and from the side."""
     if run.count() < FEWEST_FRAMES or len(run.estimate) < 2:
         return []
     paths = _paths(run)
@@ -95,35 +93,7 @@ def trajectory_figures(run: Run, points: int) -> list[Figure]:
     if len(lines):
         x, y, z = (lines * unit.factor).T
         above.add("closures", x, z, style=CLOSURE_STYLE, dash="dot")
-    return [space, above, side, *_deviation(run, points)]
-
-
-def _deviation(run: Run, points: int) -> list[Figure]:
-    """For a nearly straight path, its lateral and vertical deviation from a straight line; otherwise nothing."""
-    base = (run.truth or run.estimate).positions
-    centre = base.mean(axis=0)
-    extents, axes = np.linalg.eigh(np.cov((base - centre).T))
-    if not extents[2] > 0 or np.sqrt(max(extents[1], 0) / extents[2]) > STRAIGHT:
-        return []
-    along = axes[:, 2] * (1 if axes[:, 2] @ (base[-1] - base[0]) >= 0 else -1)
-    right = np.cross([0.0, 1.0, 0.0], along)  # y points down
-    if np.linalg.norm(right) < 0.1:
-        return []
-    right /= np.linalg.norm(right)
-    up = np.cross(right, along)
-    up = up if up[1] < 0 else -up
-    paths = _paths(run)
-    unit = length_unit(np.concatenate([(path.positions - centre) @ np.stack([right, up], 1) for _, path, _, _ in paths])
-                       .ravel())
-    figures = []
-    for key, title, axis in (("lateral", "Beside the straight line, to the right", right),
-                             ("vertical", "Above the straight line", up)):
-        figure = Figure(f"{run.name}_{key}_deviation", title, "distance along the line [m]", f"deviation [{unit.name}]")
-        for text, path, style, dash in paths:
-            way, off = (path.positions - base[0]) @ along, (path.positions - base[0]) @ axis * unit.factor
-            figure.add(text, *thinned(way, off, points), style=style, dash=dash)
-        figures.append(figure)
-    return figures
+    return [space, above, side]
 
 
 def error_figures(run: Run, points: int) -> list[Figure]:
