@@ -39,7 +39,7 @@ def test_tables_are_printed_and_written(evaluated):
     for title in ("Table 1: stereo", "Table 2: in time, left images", "Quads", "Table 3: pairs of quads"):
         assert title in done.stdout
     pooled = content["pooled"]
-    (last,) = [line for line in done.stdout.splitlines() if line.startswith("12  best")][:1]
+    (last,) = [line for line in done.stdout.splitlines() if line.split()[:2] == ["12", "best"]][:1]
     assert f"{100 * pooled['stereo'][-1]['recall']:.2f}" in last
     assert content["pairs"][0]["name"] == "room" and len(content["pairs"][0]["counts"]) == 3
     assert content["input"] == ["room"] and content["config_changed"] == {}
