@@ -3,7 +3,7 @@
 
     disturb_recording.py alter RECORDING OUT --board 0.4 --photo IMAGE [--speed 4] [--sequence 06] [--frames 40:100]
     disturb_recording.py alter RECORDING OUT --bonnet
-    disturb_recording.py alter RECORDING OUT --late 1 | --gain 1.4 | --right-gain 2.2 | --exposures 8 | --jpeg 20 |
+    disturb_recording.py alter RECORDING OUT --late 1 | --jpeg 20 |
                                              --drops 45 | --lamp
     disturb_recording.py judge RUN TRUTH [--translation 0.01 0.1] [--rotation 0.3]
 
@@ -11,7 +11,7 @@
 of both images, as a plane at one depth in front of the left camera does: --speed moves it by so many pixels per frame
 to the left, 0 fixes it to the camera. With --bonnet the lower half of both images is the first frame's, with noise.
 --late takes right images of that many frames earlier, as a camera does that is late (the left one's if negative).
---gain and --right-gain multiply grey levels, which are clipped at 255; --exposures divides those of every second frame.
+`quadedge synth` renders other exposures.
 --jpeg stores images at that quality, --drops puts drops on both lenses, each its own, and --lamp lights the middle of
 the view.
 `judge` compares the steps of RUN/trajectory.txt with those of TRUTH, a trajectory in TUM's format, such as that of the
@@ -158,12 +158,6 @@ def compressed(image, quality):
     return np.asarray(Image.open(memory).convert("L"))
 
 
-def exposed(image, args, side, number):
-    """Grey levels of another exposure, before they are clipped."""
-    factor = args.gain * (args.right_gain if side == 1 else 1) / (args.exposures if number % 2 else 1)
-    return image * factor if factor != 1 else image
-
-
 def alter(args):
     recording = (Kitti if (args.recording / "sequences").exists() else Euroc)(args.recording, args.sequence)
     frames = slice(*(int(x) if x else None for x in args.frames.split(":")))
@@ -194,7 +188,7 @@ def alter(args):
                 shown[image.shape[0] // 2:] = args.bonnet
             noisy = over + random.normal(0, NOISE, image.shape)
             image[shown] = noisy[shown]
-            image = exposed(with_drops(with_lamp(image) if args.lamp else image, drops), args, side, number)
+            image = with_drops(with_lamp(image) if args.lamp else image, drops)
             name = file.name if isinstance(recording, Euroc) else f"{number:06d}.png"
             stored = np.clip(np.rint(image), 0, 255).astype(np.uint8)
             if args.jpeg:
@@ -241,9 +235,6 @@ def main():
     kind.add_argument("--board", type=float, help="ratio of the image that it covers")
     kind.add_argument("--bonnet", action="store_true")
     kind.add_argument("--late", type=int, default=0, help="frames by which the right camera is late")
-    kind.add_argument("--gain", type=float, default=1, help="factor on the grey levels of both cameras")
-    kind.add_argument("--right-gain", type=float, default=1, help="the same of the right camera")
-    kind.add_argument("--exposures", type=float, default=1, help="ratio of the exposures of successive frames")
     kind.add_argument("--jpeg", type=int, default=0, help="quality")
     kind.add_argument("--drops", type=int, default=0, help="on each lens")
     kind.add_argument("--lamp", action="store_true")

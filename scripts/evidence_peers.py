@@ -1,4 +1,4 @@
-"""Other systems on rectified pairs, each in a process of its own: what scripts/evidence.py compares QuadEdge with.
+"""Other systems on rectified pairs, each in a process of its own: what scripts/recordings.py compares QuadEdge with.
 
     evidence_peers.py SYSTEM PAIRS OUT [OPTION...]      SYSTEM: orb_slam3, toy_vo
 

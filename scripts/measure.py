@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the figures of README and doc/: accuracy, matching, speed, disturbances, light and drift.
-Writes doc/results.
+"""Measures the figures of README and doc/, and writes them to doc/results.
 
     scripts/measure.py                         all parts, over an hour; recorded data from --data or QUADEDGE_DATA
     scripts/measure.py --only speed            one part; the others remain unchanged
@@ -10,18 +9,27 @@ Writes doc/results.
 Each part is written to OUT/PART.json with commit, date and the command behind each figure; scripts/result_tables.py
 then writes the tables and the marked blocks of the documentation. The programs are those of build/, which is brought up
 to date first; the OpenCV baseline needs -DQUADEDGE_BENCHMARKS=ON. Run it with build/venv/bin/python, which has the
-package: matching and paper measure with it, and matplotlib plots the paths through the rendered scenes.
+package: matching and paper measure with it.
+
+The part "evidence" is about whole recordings, the folders street, karlsruhe and mh_01 of --recordings
+(scripts/recordings.py says where they come from), and other systems:
+  --viso2   libviso2 (GPL, no part of this repository): a program of yours that is called as
+            VISO2 LEFT_FOLDER RIGHT_FOLDER F CU CV BASELINE POSES, writes one row of KITTI's format per pair to POSES
+            and prints "median X ms, p99 Y ms"
+  --peers   a Python with pyorbslam3, toy-vo, opencv-python-headless and NumPy (scripts/evidence_peers.py)
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
 import argparse
+import json
 import os
 import sys
 from pathlib import Path
 
 import result_tables
-from measurements import PARTS, RECORDED, RENDERED, REPOSITORY, SCENES, SYSTEMS, Problem, Programs
-from plot_paths import plot
+from harness import REPOSITORY, Problem, Programs
+from measurements import PARTS, RECORDED, SCENES, SYSTEMS
+from recordings import QUADEDGE
 from stamped import commit, stamped, write
 
 
@@ -30,9 +38,13 @@ def parse():
     parser.add_argument("--only", nargs="+", choices=PARTS, default=list(PARTS), help="parts to measure")
     parser.add_argument("--data", type=Path, default=os.environ.get("QUADEDGE_DATA"),
                         help="folder with the recorded sequences; without it, only rendered sequences are measured")
-    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *RENDERED), default=None)
+    parser.add_argument("--recordings", type=Path, metavar="DIR", help="folder with the whole recordings")
+    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *SCENES), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
-    parser.add_argument("--seeds", type=int, default=5, metavar="N", help="runs of QuadEdge per sequence, for accuracy")
+    parser.add_argument("--only-system", choices=QUADEDGE, metavar="SYSTEM", help="of the evidence; others stay")
+    parser.add_argument("--viso2", type=Path, metavar="FILE")
+    parser.add_argument("--peers", type=Path, metavar="PYTHON")
+    parser.add_argument("--seeds", type=int, default=5, metavar="N", help="runs of QuadEdge per sequence")
     parser.add_argument("--frames", type=int, default=0, help="limit on the frames of each sequence; requires --out")
     parser.add_argument("--keep", action="store_true", help="reuse the complete runs in WORK")
     parser.add_argument("--out", type=Path, default=result_tables.RESULTS)
@@ -43,9 +55,11 @@ def parse():
     if options.frames and options.out == result_tables.RESULTS:
         parser.error("--frames needs --out: the documentation covers whole sequences")
     if options.sequences is None:
-        options.sequences = [*(RECORDED if options.data else ()), *RENDERED]
+        options.sequences = [*(RECORDED if options.data else ()), *SCENES]
     elif not options.data and any(name in RECORDED for name in options.sequences):
         parser.error("recorded sequences need --data or QUADEDGE_DATA")
+    if options.only_system and options.only != ["evidence"]:
+        parser.error("--only-system needs --only evidence")
     options.work = options.work.resolve()
     return options
 
@@ -66,19 +80,16 @@ def main():
         options.baseline = options.baseline or REPOSITORY / "build" / "bench" / "opencv_baseline"
         measured = commit()  # of the programs, independent of commits made while they run
         for part in options.only:
+            if part == "evidence" and not options.recordings:
+                continue
+            file = options.out / f"{part}.json"
+            before = json.loads(file.read_text(encoding="utf-8")) if options.only_system else {}
             rows = PARTS[part](programs)
-            write(stamped({"rows": rows}, measured), options.out / f"{part}.json")
-            if part == "accuracy":
-                try:
-                    for scene in (scene for scene in SCENES if scene in options.sequences):
-                        plot(scene, [row for row in rows if row["sequence"] == scene], options)
-                except ImportError:
-                    print("measure: matplotlib is missing; the plots of the paths remain unchanged", file=sys.stderr)
+            write(stamped({"seeds": options.seeds}, measured) | before | {"rows": rows}, file)
     except Problem as problem:
         print(f"measure: {problem}", file=sys.stderr)
         return 1
-    result_tables.write(options.out)
-    return 0
+    return result_tables.main([]) if options.out == result_tables.RESULTS else 0
 
 
 if __name__ == "__main__":

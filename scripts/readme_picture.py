@@ -6,7 +6,7 @@ are several frames.
     quadedge run yard --points yard/edges.ply -o yard/results
     stamps="$(seq -f %.9f 0.25 0.3 4.9)"
     for stamp in $stamps; do
-      quadedge match yard/rgb/$stamp.png yard/rgb2/$stamp.png --max-disparity 120 --csv yard/edges_$stamp.csv
+      quadedge match yard/rgb/$stamp.png yard/rgb2/$stamp.png --stereo.max_disparity 120 --csv yard/edges_$stamp.csv
     done
     scripts/readme_picture.py yard doc/yard.webp $stamps
 

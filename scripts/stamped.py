@@ -1,8 +1,7 @@
-"""Files of doc/results: measurements with their origin (commit of the sources and date), and plots."""
+"""Files of doc/results: measurements with their origin (commit of the sources and date)."""
 
 import datetime
 import json
-import re
 import subprocess
 from pathlib import Path
 
@@ -29,20 +28,3 @@ def stamped(result, measured=None):
 def write(result, file):
     """Writes `result` as JSON to the path `file`."""
     file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-
-
-def drawing():
-    """matplotlib's pyplot, without windows. Raises ImportError without matplotlib."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # reproducible bytes
-    from matplotlib import pyplot
-
-    return pyplot
-
-
-def save_svg(figure, file):
-    """Writes a matplotlib figure to the path `file`, as one line: line breaks carry no meaning in a plot."""
-    figure.savefig(file, metadata={"Date": None})
-    file.write_text(re.sub(r"\s+", " ", file.read_text(encoding="utf-8")).strip() + "\n", encoding="utf-8")

@@ -4,8 +4,8 @@
     lint_structure.py REPOSITORY [--program PROGRAM] [CHECK...]
 
 CHECK is any of: includes lines sizes phrases functions twins references constants; without one, all of them.
-`functions` needs lizard (tests/requirements.txt), `constants` the program. Prints one line per finding; exit code 1 if
-there is any.
+`functions` needs lizard (tests/requirements.txt), `constants` the program. Prints one line per finding and what the
+house holds; exit code 1 if there is any finding.
 """
 
 import argparse
@@ -44,6 +44,10 @@ MOST_LINES = {
     "scripts": 3125,
     "tests": 34940,
 }
+WORKBENCH = ("host/benchmark/", "host/cli/", "host/data/", "host/output/", "host/paper/", "host/reference/",
+             "host/scenes/")
+# Lines of systems that do the same, counted alike.
+MODELS = {"tracker": "Basalt 31,000, OpenVINS 28,000", "Python": "rko_lio 3,200", "words of pages": "15,000"}
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
 LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
@@ -127,6 +131,18 @@ def check_sizes(tree: Tree) -> list[str]:
             findings.append(f"{name}: a folder without a limit in MOST_LINES")
     return findings + [f"{folder}: {counted[folder]} lines, at most {most}" for folder, most in MOST_LINES.items()
                        if counted[folder] > most]
+
+
+def house(tree: Tree) -> str:
+    """Lines of source and words of pages, beside those of the models."""
+    parts = {"tracker": ("host/", "include/", "kernels/"), "workbench": WORKBENCH, "Python": ("python/",),
+             "scripts": ("bench/", "scripts/"), "tests": ("tests/",)}
+    found = {part: sum(tree.text(name).count("\n") for name in tree.with_suffix(*SOURCES) if name.startswith(places)
+                       and not (part == "tracker" and name.startswith(WORKBENCH))) for part, places in parts.items()}
+    found["words of pages"] = sum(len(tree.text(name).split()) for name in tree.with_suffix(".md")
+                                  if name.startswith("doc/"))
+    return "; ".join(f"{part} {count:,}" + (f" ({MODELS[part]})" if part in MODELS else "")
+                     for part, count in found.items())
 
 
 def check_phrases(tree: Tree) -> list[str]:
@@ -286,6 +302,7 @@ def main() -> int:
         print(f"{check}: {len(found)} findings" if found else f"{check}: fine")
         findings += found
     print("\n".join(findings), file=sys.stderr)
+    print(house(tree))
     return 1 if findings else 0
 
 

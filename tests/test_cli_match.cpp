@@ -47,7 +47,7 @@ TEST_CASE("match: left points equal those of the edges command, and 3D points fi
 
 TEST_CASE("match: rectified images without a calibration have matches but no 3D points", "[cli][device]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> match = {"match", pair().left, pair().right,          "--max-disparity",
+  const std::vector<std::string> match = {"match", pair().left, pair().right,          "--stereo.max_disparity",
                                           "40",    "--csv",     folder / "matches.csv"};
   run_well(match);
   const auto rows = read_lines(folder / "matches.csv");
@@ -60,7 +60,7 @@ TEST_CASE("match: rectified images without a calibration have matches but no 3D 
     CHECK((disparity > -1 && disparity < 41));
   }
   check_error(match, 2);  // the file exists
-  check_error({"match", pair().left, pair().right, "--max-disparity", "40", "--ply", folder / "points.ply"}, 2,
+  check_error({"match", pair().left, pair().right, "--stereo.max_disparity", "40", "--ply", folder / "points.ply"}, 2,
               {"--calibration"});
 }
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "data/eth3d_slam.hpp"
+#include "data/sequence_writer.hpp"
 #include "data/float_map.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"

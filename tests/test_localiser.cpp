@@ -3,6 +3,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
 #include "saved_maps.hpp"
+#include "scene_corridor.hpp"
 
 using namespace quadedge;
 

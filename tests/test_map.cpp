@@ -8,6 +8,7 @@
 #include "quadedge/map.hpp"
 #include "quadedge/synthetic.hpp"
 #include "saved_maps.hpp"
+#include "scene_corridor.hpp"
 
 using namespace quadedge;
 using saved_maps::small;

@@ -4,9 +4,7 @@
 test_measure.py SCRIPTS QUADEDGE
 """
 
-import argparse
 import json
-import re
 import subprocess
 import sys
 import tempfile
@@ -14,9 +12,7 @@ from pathlib import Path
 
 scripts, quadedge = Path(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, str(scripts))
-import disturbances  # noqa: E402
 import result_tables  # noqa: E402
-from measurements import Programs  # noqa: E402
 
 
 def run(script, *options):
@@ -25,8 +21,8 @@ def run(script, *options):
 
 
 # Every generated block of the documentation and the pages of doc/results match the JSON files.
-stale = result_tables.differing(result_tables.RESULTS)
-assert not stale, [str(file) for file, _ in stale]
+stale = [str(file) for file, _ in result_tables.differing()]
+assert not stale, stale
 
 with tempfile.TemporaryDirectory() as folder:
     # A measurement holds the programs' figures in full precision, with commit and command.
@@ -44,15 +40,13 @@ with tempfile.TemporaryDirectory() as folder:
         for shown, value in zip((row["least"][name], row["most"][name]), of_seeds):
             assert abs(shown - value) < 1e-6, (name, row)
     assert row["steps"] == {"right": 2, "wrong": 0, "lost": 0}, row
-    command = "quadedge demo --scene cables --frames 3 -o OUT/default/cables --seed 1"
+    command = "quadedge demo --scene cables --frames 3 --seed 1 -o OUT/default/cables"
     assert row["commands"][0] == command, row["commands"]
     assert result["commit"] and len(result["date"]) == 10, result
-    page = (out / "accuracy.md").read_text()
-    assert "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in page and result["commit"] in page, page
-    assert row["commands"][1] in page, page
-    assert "<svg" in (out / "cables.svg").read_text()
+    shown = result_tables.render("compared", {"accuracy": result})
+    assert "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in shown and result["commit"] in shown, shown
 
-    # Drift and disturbances agree with the evaluation of the same runs.
+    # Drift agrees with the evaluation of the same runs.
     done = run("measure.py", *small, "--only", "drift")
     assert done.returncode == 0, done.stderr
     (row_of_drift,) = json.loads((out / "drift.json").read_text())["rows"]
@@ -64,84 +58,49 @@ with tempfile.TemporaryDirectory() as folder:
         errors = json.loads(judged.read_text())["accuracy"]["origin_aligned"]["ape_translation_m"]
         assert abs(drift["rms_mm"] - 1e3 * errors["rmse"]) < 1e-6, (drift, errors)
         assert abs(drift["end_mm"] - sum(part**2 for part in drift["end_parts_mm"]) ** 0.5) < 1e-9, drift
-    programs = Programs(argparse.Namespace(quadedge=quadedge, baseline=None, work=work, data=None))
-    swept = [disturbances.measure("cables", "noise", noise, 0, (3, "320x200"), programs) for noise in (0, 8)]
-    assert all(found["right"] + found["wrong"] + found["lost"] == 2 for found in swept), swept
-    assert swept[0]["tracked"] == 3 and swept[0]["rpe_translation_m"] < swept[1]["rpe_translation_m"], swept
-    disturbances.plot(swept, out)
-    assert "<svg" in (out / "disturbances.svg").read_text()
     failed = run("measure.py", *small[2:], "--quadedge", "/bin/false", "--only", "drift")
     assert failed.returncode == 1 and "/bin/false" in failed.stderr, failed
 
-    # Complete runs are reused; a changed page is detected.
+    # Complete runs are reused.
     stamp = (work / "default/cables/report.json").stat().st_mtime_ns
     assert run("measure.py", *small, "--only", "accuracy", "--keep").returncode == 0
     assert (work / "default/cables/report.json").stat().st_mtime_ns == stamp
-    assert run("result_tables.py", "--check", "--results", out).returncode == 0
-    (out / "accuracy.md").write_text(page.replace("3 / 3", "2 / 3"))
-    stale = run("result_tables.py", "--check", "--results", out)
-    assert stale.returncode == 1 and "accuracy.md" in stale.stderr, stale
-    assert run("result_tables.py", "--results", out).returncode == 0
-    assert (out / "accuracy.md").read_text() == page
 
     # Blocks of a document: filled, refilled, and a note for a table without a measurement.
     results = {"accuracy": result}
     end = "<!-- end of table -->\n"
-    text = f"before\n<!-- table: compared -->\nold\n{end}after\n<!-- table: speed -->\n{end}"
-    filled = result_tables.BLOCK.sub(lambda block: block[1] + result_tables.render(block[2], results) + block[3], text)
+    text = f"before\n<!-- table: compared -->\nold\n{end}after\n<!-- table: drift -->\n{end}"
+    filled = result_tables.filled(text, results)
     assert "old" not in filled and "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in filled, filled
     assert "Not measured yet" in filled, filled
     assert filled.startswith("before\n") and "<!-- end of table -->\nafter\n" in filled, filled
 
-    # Other paths have a separate table; each value of a disturbance has a column, with the lost frames.
-    handheld = {**row, "title": "rendered cables, handheld", "sequence": "cables-handheld"}
-    results["accuracy"] = {**result, "rows": [row, handheld]}
-    assert "handheld" not in result_tables.render("systems", results)
+    # Titles name the evaluated frames; a figure of several seeds has its range.
     later = {**row, "title": "KITTI 06, from frame 2", "from_frame": 2}
     flight = {**row, "title": "EuRoC MH_01, flight", "sequence": "flight", "rpe_translation_m": 0.002}
     flight.update({name: {**row[name], "rpe_translation_m": of} for name, of in (("least", 0.001), ("most", 0.0025))})
-    others = {part: json.loads((result_tables.RESULTS / f"{part}.json").read_text()) for part in ("peers", "speed")}
     shown = result_tables.render("compared", {"accuracy": {**result, "rows": [later, flight]}})
     assert "| KITTI 06, 1 frame from frame 2 |" in shown and "| EuRoC MH_01, 3 frames |" in shown, shown
     assert "| 2 (1 to 2.5) |" in shown and "Medians of 2 seeds" in shown, shown
-    shown = result_tables.render("paths", results)
-    assert "| cables | QuadEdge | 3 / 3 | 2 | 0 | 0 |" in shown and "| cables, handheld | QuadEdge |" in shown, shown
-    swept = [
-        {"scene": "facade", "kind": "noise", "value": value, "frames": 5, "wrong": 0, "lost": value, **error}
-        for value, error in ((0, {"rpe_translation_m": 0.00123}), (3, {"rpe_translation_m": None}))
-    ]
-    results["disturbances"] = {**result, "rows": swept}
-    shown = result_tables.render("disturbances", results)
-    assert "|  | facade | 1.23 |  | -, 3 lost |  |" in shown and "5 frames each" in shown, shown
 
-    # The row of libviso2: medians of interleaved rounds, with the camera of calib.txt.
-    sequence = Path(folder) / "data/kitti_odometry/sequences/06"
-    sequence.mkdir(parents=True)
-    (sequence / "calib.txt").write_text("P0: 700 0 600 0 0 700 180 0 0 0 1 0\n"
-                                        "P1: 700 0 600 -350 0 700 180 0 0 0 1 0\n")
-    log = Path(folder) / "log"
-    for name, text in (("viso2", f'echo "viso2 ${{@:3}}" >>{log}; echo "libviso2 9 frames median 20.0 ms, p99 30 ms"'),
-                       ("bench", f'echo bench >>{log}; [ "$4" = fast ] && time=25 || time=41.6; '
-                                 'echo "{\\"latency_ms\\": {\\"median\\": $time}}" >"${@: -1}"')):
-        (Path(folder) / name).write_text(f"#!/bin/bash\n{text}\n")
-        (Path(folder) / name).chmod(0o755)
-    file = out / "peers.json"
-    file.write_text(json.dumps(others["peers"]))
-    for kernels in ((), ("--kernels", "half as wide")):
-        log.write_text("")
-        done = run("peers.py", Path(folder) / "viso2", "--quadedge", Path(folder) / "bench", "--rounds", 2, *kernels,
-                   "--data", Path(folder) / "data", "--out", file)
-        assert done.returncode == 0, done.stderr
-    assert log.read_text().splitlines() == ["viso2 700.0 600.0 180.0 0.5", "bench", "bench"] * 2, log.read_text()
-    timed = json.loads(file.read_text())
-    shown = result_tables.render("pace", {"peers": timed, "speed": others["speed"]})
-    for title in ("KITTI 06", "KITTI 06, half as wide"):
-        row = rf"\| {title}, alternating runs \| 24 \| 40 \| 50 \| - \| - \| \w{{7}}\+?, [\d-]{{10}} \|"
-        assert re.search(row, shown), shown
-    assert "| libviso2 | 20 ms (QuadEdge in alternating runs: 42 ms) |" in result_tables.render(
-        "peers", {"peers": timed, "speed": others["speed"], "drift": {"rows": [
-            {"scene": scene, "end_percent": 1} for scene in ("room", "cables")]}})
-    assert run("peers.py", "/bin/true", "--data", Path(folder) / "data", "--out", file).returncode == 1
+    # Whole recordings: a peer that fails is named, and the other rows keep what was measured before.
+    folder_of_street = Path(folder) / "recordings/street"
+    subprocess.run([quadedge, "synth", folder_of_street, "--frames", "4", "--size", "320x200", "--quiet"], check=True)
+    (folder_of_street / "times.txt").write_text("".join(f"{0.05 * i}\n" for i in range(4)))
+    (folder_of_street / "groundtruth.txt").rename(folder_of_street / "truth.txt")
+    whole = ("--quadedge", quadedge, "--out", out, "--work", work, "--recordings", Path(folder) / "recordings",
+             "--seeds", "1", "--only", "evidence")
+    done = run("measure.py", *whole, "--viso2", "/bin/false", "--baseline", "/absent")
+    assert done.returncode == 0, done.stderr
+    rows = json.loads((out / "evidence.json").read_text())["rows"]
+    assert [row["system"] for row in rows] == ["QuadEdge", "QuadEdge, --calibrate", "QuadEdge, fast", "viso2"], rows
+    assert rows[0]["runs"][0]["poses"] == 4 and rows[0]["runs"][0]["errors"]["accuracy"]["ate_rmse_m"] < 0.01, rows[0]
+    assert rows[3]["left_out"].startswith("failed: "), rows[3]
+    (out / "evidence.json").write_text((out / "evidence.json").read_text().replace(rows[1]["commit"], "abcdefg"))
+    done = run("measure.py", *whole, "--only-system", "QuadEdge, fast")
+    assert done.returncode == 0, done.stderr
+    commits = [row["commit"] for row in json.loads((out / "evidence.json").read_text())["rows"]]
+    assert commits == ["abcdefg", "abcdefg", result["commit"], "abcdefg"], commits
 
     # A failing program is reported with its message; figures of a few frames do not get into the documentation.
     failed = run("measure.py", "--quadedge", quadedge, "--out", out, "--work", work, "--only", "accuracy", "--frames",

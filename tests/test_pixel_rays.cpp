@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "data/eth3d_slam.hpp"
+#include "data/sequence_writer.hpp"
 #include "dataset_files.hpp"
 #include "geometry/lens_mapping.hpp"
 #include "quadedge/camera.hpp"

@@ -38,8 +38,8 @@ class Options {
   /// May be repeated, one value each time.
   virtual void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
                         const std::string& placeholder) = 0;
-  /// A constant of the method, with its help, unit and range. `names`: its own, maybe after a shorter one.
-  virtual void constant(const std::string& names, const Constant& constant, Config& config) = 0;
+  /// A constant of the method, with its help, unit and range.
+  virtual void constant(const Constant& constant, Config& config) = 0;
   /// The option declared last also reads an environment variable.
   virtual void environment(const std::string& variable) = 0;
   /// Heading of the following options in the help; `only_in_full_help`: shown by --help-all alone.

@@ -29,7 +29,7 @@ class MatchCommand : public Command {
  public:
   MatchCommand()
       : Command("match", "match the edges of one stereo pair",
-                "  quadedge match left.png right.png --max-disparity 96 --csv matches.csv --draw matches.png\n"
+                "  quadedge match left.png right.png --stereo.max_disparity 96 --csv matches.csv --draw matches.png\n"
                 "  quadedge match left.png right.png --calibration camchain.yaml --ply points.ply") {}
   void declare(Options& options) override {
     options.positional("LEFT", left_,

@@ -7,7 +7,7 @@
 #include "cli/frame_source.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
-#include "data/eth3d_slam.hpp"
+#include "data/sequence_writer.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 

@@ -103,11 +103,9 @@ void MethodOptions::declare(Options& options) {
   options.repeated("--variant", variants_, "kernel variant of a stage (`quadedge variants` lists them); repeatable",
                    "STAGE=NAME");
   options.text("--kernels", kernels_, "read the kernels from this folder instead of the program", "DIR");
-  options.flag("--no-auto-mask", keeps_static_, "the same as --odometry.auto_mask false");
   for (const Constant& constant : constants()) {
-    const std::string shorter = constant.key() == "stereo.max_disparity" ? "--max-disparity," : "";
     options.group(heading(constant.section), !constant.basic);
-    options.constant(shorter + "--" + constant.key(), constant, config_);
+    options.constant(constant, config_);
   }
 }
 
@@ -119,7 +117,6 @@ void MethodOptions::assume_exact_rig() {
 Config MethodOptions::config() const {
   Config config = config_;
   for (const auto& choice : variants_) report::add_variant(choice, config);
-  if (keeps_static_) config.odometry.auto_mask = false;
   opencl::check_variants(config.variants);
   check_config(config);
   return config;

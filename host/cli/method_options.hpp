@@ -33,7 +33,7 @@ void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::str
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:
-  /// --device, --threads, --trust, --config, --variant, --kernels, --max-disparity, --no-auto-mask, and --KEY for every
+  /// --device, --threads, --trust, --config, --variant, --kernels, and --KEY for every
   /// constant.
   void declare(Options& options);
   /// To be called before declare(): rendered sequences have a rig without errors, unless options state one.
@@ -63,7 +63,7 @@ class MethodOptions {
   Config config_;
   std::string device_ = "auto";
   int threads_ = 0;
-  bool trusts_ = false, keeps_static_ = false;
+  bool trusts_ = false;
   std::string kernels_;
   std::vector<std::string> variants_;
 };

@@ -96,7 +96,8 @@ class ParserOptions : public Options {
     last_->type_name(placeholder);
     read_from_file(values);
   }
-  void constant(const std::string& names, const Constant& constant, Config& config) override {
+  void constant(const Constant& constant, Config& config) override {
+    const std::string names = "--" + constant.key();
     const ConfigField field = constant.field(config);
     const std::string range = constant.allowed() + (constant.unit.empty() ? "" : " " + constant.unit);
     const std::string help = constant.help + " (" + range + ")";
@@ -154,14 +155,10 @@ class ParserOptions : public Options {
 
  private:
   void apply(const std::vector<data::TomlEntry>& entries) const {
-    std::map<const CLI::Option*, std::string> seen;
     for (const auto& entry : entries) {
       const auto setting = from_file_.find(entry.key);
       if (setting == from_file_.end()) data::refuse_key(entry, keys());
-      const CLI::Option* option = setting->second.option;
-      const auto [first, is_new] = seen.insert({option, entry.key});
-      if (!is_new) data::refuse(entry, "it once, not as '" + first->second + "' and '" + entry.key + "'");
-      setting->second.set(entry, option->count() > 0);
+      setting->second.set(entry, setting->second.option->count() > 0);
     }
   }
 
@@ -197,10 +194,8 @@ class ParserOptions : public Options {
     });
   }
 
-  /// The option declared last is set by `set`, under each of its long names.
-  void set_from_file(const SetFromFile& set) {
-    for (const auto& name : last_->get_lnames()) from_file_[name] = {last_, set};
-  }
+  /// The option declared last is set by `set`.
+  void set_from_file(const SetFromFile& set) { from_file_[last_->get_lnames().front()] = {last_, set}; }
 
   std::vector<std::string> keys() const {
     std::vector<std::string> names;
@@ -268,24 +263,10 @@ int refuse(const CLI::App& program, const CLI::Error& error) {
   return static_cast<int>(ExitCode::usage);
 }
 
-/// The words of the command line: `quadedge help [COMMAND...]` and `quadedge version` as the options of those names.
-std::vector<std::string> read_words(int argc, char** argv) {
-  std::vector<std::string> words(argv, argv + argc);
-  if (argc < 2) return words;
-  if (words[1] == "version") words[1] = "--version";
-  if (words[1] == "help") {
-    words.erase(words.begin() + 1);
-    words.emplace_back("--help");
-  }
-  return words;
-}
-
 }  // namespace
 
 Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_ptr<Command>>& commands) {
-  const std::vector<std::string> words = read_words(argc, argv);
-  if (words.size() > 2 && words[1] == "evaluate" && words[2] == "matching")
-    throw UsageError("the matching is evaluated in Python: run python -m quadedge.matching PATH instead");
+  const std::vector<std::string> words(argv, argv + argc);
   const bool short_help = std::any_of(words.begin() + 1, words.end(),
                                       [](const std::string& word) { return word == "--help" || word == "-h"; });
 
@@ -293,7 +274,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   program.set_version_flag("--version", "quadedge " QUADEDGE_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "quadedge help COMMAND (or quadedge COMMAND --help) shows a command's options, with examples.\n"
+      "quadedge COMMAND --help shows a command's options, with examples.\n"
       "Exit codes: 0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,\n"
       "5 finished but tracked too few frames, 6 regression found by bench --compare");
   std::map<std::string, CLI::App*> groups;

@@ -164,7 +164,7 @@ PairOfSource SourceOptions::pair(int number) const {
 void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts) {
   options.choice("--scene", scene.scene, synthetic_scenes(),
                  "room; cables: thin curves in front of a plain wall; facade: siding, brick, a fence and shrubs; "
-                 "corridor: equal doors; yard: a plain wall, a railing and wires");
+                 "yard: a plain wall, a railing and wires");
   options.number("--frames", scene.frames, "number of frames");
   declare_view(options, scene, texts.size);
   options.choice("--rig", scene.rig, synthetic_rigs(),
@@ -212,9 +212,8 @@ void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {
 void declare_view(Options& options, SyntheticOptions& scene, std::string& size) {
   options.choice(
       "--path", scene.path, synthetic_paths(),
-      "camera path in a built-in scene; drive: to the end of the scene (61 frames, facade and yard: 103, corridor: "
-      "119); loop: returns "
-      "to the first pose");
+      "camera path in a built-in scene; drive: to the end of the scene (61 frames, facade and yard: 103); loop: "
+      "returns to the first pose");
   options.text("--size", size, "image size of built-in scenes [px]; default 942x489", "WxH");
 }
 

@@ -7,8 +7,6 @@
 namespace quadedge::frontend {
 namespace {
 
-constexpr float kAllDirections = 4.0f;  // rad, larger than any angle
-
 /// Candidates with their scores and the decisions of the filters.
 struct Judged {
   reference::Candidates lists;
@@ -75,7 +73,7 @@ void DeviceFrontend::tap_stereo() {
 void DeviceFrontend::tap_temporal(const TemporalSearch& search) {
   stages::DeviceCandidates lists;
   for (const Side side : kSides) {
-    temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius, kAllDirections,
+    temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius, kAnyDirection,
                              lists);
     tap_->temporal_filter(TemporalFilter::displacement, side, lists.read());
   }

@@ -14,8 +14,6 @@
 namespace quadedge::frontend {
 namespace {
 
-constexpr double kAnyDirection = kPi / 2;  // modulo half a turn
-
 [[noreturn]] void refuse() { throw std::logic_error("the paper's method keeps no rigs"); }
 
 /// Clusters as lists; those for which `wanted(row, number)` holds.

@@ -5,12 +5,6 @@
 #include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
-namespace {
-
-constexpr float kAnyDirection = 4.0f;  // rad, larger than any angle
-
-}  // namespace
-
 void ReferenceFrontend::tap_stereo() {
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
     tap_->stereo_filter(filter, reference::alive_after(filter, candidates_, scores_));

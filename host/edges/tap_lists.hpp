@@ -5,6 +5,9 @@
 
 namespace quadedge::frontend {
 
+/// Larger than any difference of directions [rad].
+constexpr float kAnyDirection = 4.0f;
+
 /// The clusters of left edges, at their places on the epipolar lines, for which `passes(edge, cluster)` holds.
 template <class Passes>
 CandidateLists clusters_that(const reference::StereoClusters& clusters, const EpipolarGeometry& geometry,

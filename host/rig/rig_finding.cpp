@@ -137,7 +137,7 @@ std::string static_text(const RigFinding& finding) {
          ", does not move " +
          (is_masked
               ? "while the rest does: it is masked from here on, as a part of the vehicle or dirt; "
-                "--no-auto-mask keeps it"
+                "--odometry.auto_mask false keeps it"
               : "although it is nearer than most of what moves: is it part of the vehicle, or dirt? Use a mask to "
                 "exclude it");
 }

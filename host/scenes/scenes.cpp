@@ -1,4 +1,4 @@
-/// \file scenes.cpp  Places textured solids for "room", "cables" and "corridor"; texels by the nearest distance.
+/// \file scenes.cpp  Places textured solids for "room" and "cables"; texels by the nearest distance.
 #include "scenes/scenes.hpp"
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 
 #include "quadedge/camera.hpp"
 #include "scenes/hash.hpp"
-#include "scenes/reflectance.hpp"
 
 namespace quadedge::synthetic {
 namespace {
@@ -43,89 +42,6 @@ std::vector<BoxSide> box_sides(const Vector3d& half, bool inwards) {
 Lane lane_ahead(double start, double length, double step) {
   return {Isometry3d(Eigen::Translation3d(0.0, 0.0, start)), length, step};
 }
-
-using TexturePointer = std::shared_ptr<const Texture>;
-
-// The corridor.
-constexpr double kWall = 2.0;                    // x [m], of both walls
-constexpr double kCeiling = -1.2, kFloor = 1.4;  // y [m]
-constexpr double kFirstBay = -6.0, kBay = 3.0;   // z [m] of the first bay, length of a bay with a door
-constexpr int kBays = 16;
-constexpr double kTexelDistance = 0.9;  // [m], where a texel covers half a pixel
-
-/// Start of the path "ellipse".
-Isometry3d world_from_corridor() { return pose(Vector3d::Zero(), 0.08, 0.02, 0.01); }
-
-TextureStyle paint(double mean, double noise) {
-  TextureStyle style;
-  style.mean = mean, style.noise = noise, style.noise_size = 0.12;
-  return style;
-}
-
-class Corridor {
- public:
-  Corridor(std::uint64_t seed, double focal)
-      : build_(combine(seed, 10), focal, world_from_corridor()),
-        wall_(speckled(paint(190.0, 6.0), 0.5 * kBay, 1.3)),
-        skirting_(speckled(paint(95.0, 6.0), 0.5 * kBay, 0.06)),
-        frame_(speckled(paint(120.0, 5.0), 0.6, 1.1)),
-        door_(speckled(wood(), 0.5, 1.05)),
-        plate_(speckled(leaves(0.03, 2, 1.0, 200.0), 0.09, 0.06)),
-        lamp_(speckled(paint(230.0, 2.0), 0.6, 0.15)) {}
-
-  Scene finish() {
-    floor_and_ceiling();
-    for (int bay = 0; bay < kBays; ++bay) {
-      const double z = kFirstBay + (bay + 0.5) * kBay;
-      for (const double side : {-1.0, 1.0}) bay_wall(pose({side * kWall, 0.0, z}, side * 0.5 * kPi, 0.0, 0.0));
-      build_.plane(pose({0.0, kCeiling + 0.01, z}, 0.0, 0.5 * kPi, 0.0), 0.6, 0.15, lamp_);
-    }
-    return build_.finish(1.0, {world_from_corridor() * pose({0.0, 0.0, -1.0}, 0.0, 0.0, 0.0), 30.0, 0.25});
-  }
-
- private:
-  static TextureStyle wood() {
-    TextureStyle style = leaves(0.35, 3, 1.0, 110.0);
-    style.spread = 30.0;
-    return style;
-  }
-  TexturePointer speckled(const TextureStyle& style, double half_width, double half_height) {
-    return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, kTexelDistance);
-  }
-  TexturePointer tiled(double side, double mean, double spread, double half_width, double half_height) {
-    CladdingStyle style;
-    style.unit_width = style.unit_height = side, style.joint = 0.008;
-    style.mean = mean, style.spread = spread, style.joint_grey = 0.6 * mean, style.noise = 6.0;
-    return build_.shared_texture(cladding(style, build_.next_seed()), half_width, half_height, kTexelDistance);
-  }
-
-  /// Tiles in tones of their own, which tell one part of the corridor from another; and the walls at its ends.
-  void floor_and_ceiling() {
-    const double half = 0.5 * kBays * kBay, middle = kFirstBay + half, height = 0.5 * (kFloor - kCeiling);
-    build_.plane(pose({0.0, kFloor, middle}, 0.0, -0.5 * kPi, 0.0), kWall, half, tiled(0.31, 140.0, 14.0, kWall, half));
-    build_.plane(pose({0.0, kCeiling, middle}, 0.0, 0.5 * kPi, 0.0), kWall, half, tiled(0.6, 205.0, 3.0, kWall, half));
-    for (const double end : {-1.0, 1.0})
-      build_.plane(pose({0.0, kFloor - height, middle + end * half}, end > 0 ? 0.0 : kPi, 0.0, 0.0), kWall, height,
-                   speckled(leaves(0.4, 3, 0.8, 150.0), kWall, height));
-  }
-
-  /// A bay of a wall with its door, the same for all. \param corridor_from_wall x along the wall, z into it
-  void bay_wall(const Isometry3d& corridor_from_wall) {
-    const auto at = [&](double x, double y, double z) { return corridor_from_wall * pose({x, y, z}, 0.0, 0.0, 0.0); };
-    const double height = 0.5 * (kFloor - kCeiling);
-    build_.plane(at(0.0, kFloor - height, 0.0), 0.5 * kBay, height, wall_);
-    build_.front_sides(at(0.0, kFloor - 0.06, 0.0), {0.5 * kBay, 0.06, 0.015}, skirting_);
-    build_.plane(at(0.0, kFloor - 1.05, -0.02), 0.5, 1.05, door_);
-    for (const double side : {-1.0, 1.0})
-      build_.front_sides(at(side * 0.5, kFloor - 1.05, 0.0), {0.05, 1.1, 0.06}, frame_);
-    build_.front_sides(at(0.0, kFloor - 2.1, 0.0), {0.55, 0.05, 0.06}, frame_);
-    build_.front_sides(at(0.36, kFloor - 1.0, -0.05), {0.06, 0.012, 0.03}, skirting_);
-    build_.plane(at(0.75, kFloor - 1.5, -0.01), 0.09, 0.06, plate_);
-  }
-
-  SceneBuilder build_;
-  TexturePointer wall_, skirting_, frame_, door_, plate_, lamp_;
-};
 
 }  // namespace
 
@@ -196,12 +112,10 @@ std::shared_ptr<const Texture> SceneBuilder::texture(TextureStyle style, double 
   return std::make_shared<Texture>(dead_leaves(style, next_seed()), half_width, half_height, kTexel * nearest / focal_);
 }
 
-Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
-  if (name == "room") return make_room(seed, focal);
-  if (name == "cables") return make_cables(seed, focal);
-  if (name == "corridor") return make_corridor(seed, focal);
-  if (name == "yard") return make_yard(seed, focal);
-  return make_facade(seed, focal);
+SceneMakers& scene_makers() {
+  static SceneMakers makers = {
+      {"room", make_room}, {"cables", make_cables}, {"facade", make_facade}, {"yard", make_yard}};
+  return makers;
 }
 
 Scene make_room(std::uint64_t seed, double focal) {
@@ -265,10 +179,5 @@ Scene make_cables(std::uint64_t seed, double focal) {
   }
   return scene;
 }
-
-// The scene "corridor". Its frame: x right, y down, z along the corridor; the origin is the start of the path
-// "ellipse", at the height of a handheld camera.
-
-Scene make_corridor(std::uint64_t seed, double focal) { return Corridor(seed, focal).finish(); }
 
 }  // namespace quadedge::synthetic

@@ -3,9 +3,11 @@
 /// builds them.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scenes/reflectance.hpp"
 #include "scenes/shapes.hpp"
@@ -65,8 +67,9 @@ class SceneBuilder {
   Scene scene_;
 };
 
-/// Scene with this name, one of synthetic_scenes(). `focal` [px] determines only the resolution of the textures.
-Scene make_scene(const std::string& name, std::uint64_t seed, double focal);
+/// The scenes by name, in the order of synthetic_scenes(). `focal` [px] determines only the resolution of the textures.
+using SceneMakers = std::vector<std::pair<std::string, std::function<Scene(std::uint64_t seed, double focal)>>>;
+SceneMakers& scene_makers();
 
 /// A room of about 6 x 3 x 8 m with boxes, boards, balls and pillars at 1.3 to 4 m, all richly textured.
 Scene make_room(std::uint64_t seed, double focal);
@@ -83,9 +86,5 @@ Scene make_facade(std::uint64_t seed, double focal);
 /// A walkway between a plain wall and a railing, with wires above it on poles and across to the wall: thin structures
 /// and outlines, hardly any corners.
 Scene make_yard(std::uint64_t seed, double focal);
-
-/// A corridor of 4 x 2.6 x 48 m whose bays of 3 m have equal walls, doors and lamps; only the tiles of floor and
-/// ceiling differ from bay to bay.
-Scene make_corridor(std::uint64_t seed, double focal);
 
 }  // namespace quadedge::synthetic

@@ -15,13 +15,13 @@
 namespace quadedge {
 
 /// Built-in scenes. room: textured walls with objects that occlude each other; cables: curved ones before a plain wall;
-/// facade: houses with siding and brick, behind a fence; corridor: equal doors; yard: a plain wall, a railing, wires.
+/// facade: houses with siding and brick, behind a fence; yard: a plain wall, a railing, wires.
 const std::vector<std::string>& synthetic_scenes();
 
 /// Camera paths. ellipse: 1 m by 0.5 m, repeated every 114 frames for any seed; handheld: a walking person's
 /// camera, which turns by up to 5 degrees and moves the middle of the image by up to 20 px per frame (at 942 px);
-/// drive: a car on a lane of 2.8 m (room, 61 frames), 3.1 m (cables, 61), 26 m (facade, yard: 103) or 30 m (corridor,
-/// 119); loop: a closed loop whose last frame has exactly the first pose.
+/// drive: a car on a lane of 2.8 m (room, 61 frames), 3.1 m (cables, 61), or 26 m (facade, yard: 103);
+/// loop: a closed loop whose last frame has exactly the first pose.
 const std::vector<std::string>& synthetic_paths();
 
 /// Lenses that can be rendered: pinhole, and one of typical strength for each LensModel, by its name.

@@ -85,7 +85,7 @@ void bind_synthetic(nb::module_& module) {
       "width"_a = defaults.width, "height"_a = defaults.height, "noise"_a = defaults.noise, "blur"_a = defaults.blur,
       "mover"_a = defaults.mover, "bits"_a = defaults.bits, "seed"_a = defaults.seed,
       "Creates a rendered sequence with exact poses and depths.\n\n"
-      "scene: \"room\", \"cables\", \"facade\", \"corridor\" or \"yard\".\n"
+      "scene: \"room\", \"cables\", \"facade\" or \"yard\".\n"
       "path: \"ellipse\", \"handheld\", \"drive\" or \"loop\".\n"
       "width, height: image size [px]. noise: standard deviation of the image noise [grey levels].\n"
       "blur: motion blur, averaged over the path [px]. mover: share of the left image covered by an independently\n"

@@ -1,5 +1,6 @@
 """Files that the program writes, read by the names of their keys and columns."""
 
+import contextlib
 import csv
 import json
 from pathlib import Path
@@ -24,25 +25,16 @@ def read_json(file: Path, expected: str) -> dict:
     return content
 
 
-def misfit(content: object, shape: object, place: str = "") -> str:
-    """Where JSON content first differs from a shape, in words; empty if it fits.
-
-    A shape is a type or several, [shape] for a list, or a dict of shapes by key. The key "*" stands for all others, and
-    a key that ends in "?" may be missing.
-    """
-    if not isinstance(shape, (dict, list)):
-        return "" if isinstance(content, shape) else f"{place} = {content!r:.40}"
-    if not isinstance(content, type(shape)):
-        return f"{place} = {content!r:.40}"
-    if isinstance(shape, list):
-        parts = [(item, shape[0], f"{place}[{number}]") for number, item in enumerate(content)]
-    else:
-        missing = [key for key in shape if not key.endswith(("?", "*")) and key not in content]
-        if missing:
-            return f"no {place}.{missing[0]}"
-        shapes = {key.rstrip("?"): part for key, part in shape.items()}
-        parts = [(value, shapes.get(key, shapes.get("*", object)), f"{place}.{key}") for key, value in content.items()]
-    return next(filter(None, (misfit(*part) for part in parts)), "")
+@contextlib.contextmanager
+def expecting(expected: str, file: Path):
+    """Raises DamagedResults in place of the errors that content of another shape causes."""
+    try:
+        yield
+    except DamagedResults:
+        raise
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as problem:
+        text = f"no {problem}" if isinstance(problem, KeyError) else problem
+        raise DamagedResults(f"{file}: {text}; expected {expected}") from problem
 
 
 def whole_lines(file: Path, *, may_be_cut: bool = False) -> list[str]:

@@ -40,22 +40,21 @@ def write_report(folder: Path, report: dict, **changes) -> dict:
     return report | changes
 
 
-def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool = False, lost: int = -1,
+def write_run(folder: Path, frames: int, drift: float = 0.01, *, lost: int = -1,
               breaks: bool = False, errors: dict | None = None) -> dict:
-    """Writes a run along a bent or nearly straight path whose estimate drifts sideways; returns its report.
+    """Writes a run along a bent path whose estimate drifts sideways; returns its report.
 
     breaks: the frames after the lost one are a segment of their own.
     """
     folder.mkdir(parents=True)
     (folder / "pictures").mkdir()
-    bend = 0.01 if straight else 2.0
     rows, poses, truth, per_pose, covariances = [], [], [], [], []
     for i in range(frames):
         status = "first" if i == 0 else "lost_no_consensus" if i == lost else "tracked"
         segment = int(breaks and i > lost)
         rows.append(f"{i},{0.1 * i:.9f},{status},{segment},0,{1 if i % 4 == 0 else 0},{1000 + i},{1100 + i},500,400,"
                     f"390,{300 - i},{200 - i},{20 + i % 3},12,3,2")
-        x, z = bend * math.sin(0.3 * i), float(i)
+        x, z = 2 * math.sin(0.3 * i), float(i)
         truth.append(f"{0.1 * i:.9f} {x + 3} 1 {z} 0 0 0 1")  # in another world frame
         if segment and i == lost + 1:
             poses.append("# segment 1: the motion since the poses above is unknown")
@@ -147,8 +146,8 @@ def _summary() -> dict:
                             for order, name in enumerate(CONSTRAINTS)]}
 
 
-def write_matching(file: Path, names: list[str], frames: int, drawings: list[dict] = ()) -> dict:
-    """Writes the output of `python -m quadedge.matching --json` for the named data sets of `frames` frames each."""
+def made_up_matching(names: list[str], frames: int) -> dict:
+    """What `python -m quadedge.matching --json` writes of the named data sets of `frames` frames each."""
     histogram = {"below": 0, "bins": [10] * 25 + [0] * 75, "above": 50}
     cue = {"table": "stereo", "order": 1, "cue": "distance from the epipolar line", "unit": "px", "keeps_small": True,
            "thresholds": [0.5], "low": 0.0, "high": 5.0, "other_is_sample": True}
@@ -163,10 +162,8 @@ def write_matching(file: Path, names: list[str], frames: int, drawings: list[dic
                            "pairs": [{"precision": 0.5 + 0.01 * number, "rotation_error_deg": 1 / (number + 1),
                                       "translation_error_m": 0.01 / (number + 1)} for _ in CONSTRAINTS]})
         pairs.append({"name": name, "frames": frames, "counts": counts} | _summary())
-    content = ORIGIN | {
-        "device": DEVICE, "input": names, "tolerance_px": 1.0, "wrong_px": 10.0, "drawings": list(drawings),
+    return ORIGIN | {
+        "device": DEVICE, "input": names, "tolerance_px": 1.0, "wrong_px": 10.0,
         "pairs": pairs, "pooled": _summary() | {
             "distributions": [cue], "disparity_error_histogram": {"low": -1.5, "high": 1.5} | histogram,
             "motion_rank_correlation": {"points": 30, "rotation": -0.75, "translation": None}}} | CONFIGURATION
-    file.write_text(json.dumps(content))
-    return content

@@ -9,8 +9,7 @@ from matching_scene import (STEEP, candidates, edges, floats, images_of, plane_t
 from quadedge import StereoFilter, TemporalFilter
 from quadedge.matching.counts import Counts, FilterRow, Nearby, Pools, Tolerance
 from quadedge.matching.cues import DRAWN_OTHERS, Histogram, Judge, make_cues
-from quadedge.matching.document import rank_correlation, summary
-from quadedge.matching.draws import Draws
+from quadedge.matching.document import summary
 from quadedge.matching.observer import FrameMatching, MatchingObserver, MatchingResult, add_cues
 from quadedge.matching.quad_pairs import check_constraints, measure_pairs, motion_errors
 from quadedge.matching.surfaces import TruePositions
@@ -294,23 +293,6 @@ def test_the_error_of_a_motion_is_an_angle_and_a_length():
     estimate = truth @ off
     estimate[:3, 3] += 0, 0.03, 0.04
     assert motion_errors(estimate, truth) == pytest.approx([numpy.degrees(0.01), 0.05])
-
-
-def test_ranks_are_correlated():
-    assert rank_correlation([1, 2, 3, 4], [10, 20, 25, 1000]) == pytest.approx(1)
-    assert rank_correlation([1, 2, 3, 4], [9, 7, 5, -100]) == pytest.approx(-1)
-    # Ranks 1, 2.5, 2.5, 4, 5 and 3, 1.5, 4, 1.5, 5, about their mean 3: 2.75 / sqrt(9.5 * 9.5).
-    assert rank_correlation([1, 2, 2, 5, 7], [3, 1, 4, 1, 5]) == pytest.approx(2.75 / 9.5)
-    assert rank_correlation([1, 1, 1], [1, 2, 3]) is None and rank_correlation([1, 2], [1, 2]) is None
-
-
-def test_draws_are_those_of_the_standard_generator():
-    # The C++ standard states the 10 000th number of std::mt19937_64 with its default seed.
-    draws = Draws(5489)
-    draws.numbers(9998)
-    assert draws.numbers(2)[-1] == 9981545732273789042
-    shares = Draws(1).indices(30_000, 3)
-    assert shares.min() == 0 and shares.max() == 2 and numpy.bincount(shares) == pytest.approx(10_000, abs=300)
 
 
 def test_every_edge_within_a_radius_is_found():

@@ -42,7 +42,7 @@ def untouched(room):
 @pytest.mark.parametrize("arguments, options", [
     ({}, ()),
     ({"preset": "fast", "config": {"seed": 5, "stereo.max_disparity": 60}},
-     ("--preset", "fast", "--seed", "5", "--max-disparity", "60")),
+     ("--preset", "fast", "--seed", "5", "--stereo.max_disparity", "60")),
 ])  # fmt: skip
 def test_poses_equal_the_commands_byte_for_byte(command, room_folder, tmp_path, arguments, options):
     command("run", room_folder, "-o", tmp_path / "out", "--quiet", *options)

@@ -116,7 +116,7 @@ def test_a_band_that_would_flatten_the_errors_is_cut(tmp_path):
     assert "predicted standard deviation, up to 66 mm" in [trace["name"] for trace in error["data"]]
 
 
-def test_slow_frames_are_marked_and_explained(tmp_path):
+def test_slow_frames_are_marked(tmp_path):
     write_run(tmp_path / "street", 40)
     file = tmp_path / "street/frames.csv"
     rows = [row.split(",") for row in file.read_text().splitlines()]
@@ -124,18 +124,14 @@ def test_slow_frames_are_marked_and_explained(tmp_path):
     for frame, milliseconds in ((1, 160), (20, 170), (30, 180)):
         rows[1 + frame][names.index("latency_ms")] = str(milliseconds)
         rows[1 + frame][names.index("temporal_ms")] = str(milliseconds - 15)
-    rows[21][names.index("edges_left")] = "9000"
     file.write_text("\n".join(map(",".join, rows)) + "\n")
     page = page_of(tmp_path / "street")
-    assert 'Frame 1 took 160 ms, 145 ms of it in the stage "temporal". OpenCL drivers finish compiling' in page.text
-    assert "Frame 20 took 170 ms" in page.text and "It has 9000 edges; the median is 1020." in page.text
-    assert "Frame 30 took 180 ms" in page.text and "another program may have used the processor" in page.text
     assert page.figure("_latency")["layout"]["yaxis"]["range"] == [0, pytest.approx(1.5 * 22)]
     marks = page.traces("_latency")["slower than the plot"]
     assert marks["text"] == ["frame 1: 160 ms", "frame 20: 170 ms", "frame 30: 180 ms"]
     write_run(tmp_path / "even", 40)
     page = page_of(tmp_path / "even")
-    assert "range" not in page.figure("_latency")["layout"]["yaxis"] and " took " not in page.text
+    assert "range" not in page.figure("_latency")["layout"]["yaxis"]
 
 
 def test_edges_in_space_move_with_the_path_to_the_ground_truth(tmp_path):
@@ -223,25 +219,15 @@ def test_segments_are_told_apart(tmp_path):
     write_run(tmp_path / "street", 14, lost=7, breaks=True)
     page = page_of(tmp_path / "street")
     assert page.facts["Segments"] == "2 segments: an unknown motion lies between frames 6 and 8"
-    rows = page.tables["Mean errors of every segment by itself, origin-aligned"]
-    assert rows[1][:4] == ["0", "12", "20.00", "1.250"] and rows[1][5] == "20.00"  # [mm]
-    assert rows[2][:4] == ["1", "1", numbers.DASH, numbers.DASH]
+    rows = page.tables["Errors of every segment by itself, origin-aligned"]
+    assert rows[2][:4] == ["0", "12", "20.00", "1.250"] and rows[2][6:8] == ["20.00", "10.00"]  # [mm]
+    assert rows[3][:4] == ["1", "1", numbers.DASH, numbers.DASH]
     paths = page.traces("from_above")
     assert len(paths["QuadEdge"]["x"]) == 7 and len(paths["QuadEdge, segment 1"]["x"]) == 6
     write_run(tmp_path / "whole", 14, lost=7)
     page = page_of(tmp_path / "whole")
     assert "Segments" not in page.facts
     assert "QuadEdge, segment 1" not in page.traces("from_above")
-
-
-def test_a_straight_road_is_drawn_from_the_side_and_a_bent_one_is_not(tmp_path):
-    write_run(tmp_path / "straight", 12, 0.002, straight=True)
-    write_run(tmp_path / "bent", 12)
-    page = page_of(tmp_path / "straight")
-    assert page.figure("lateral_deviation")["layout"]["yaxis"]["title"]["text"] == "deviation [mm]"
-    traces = page.traces("lateral_deviation")
-    assert traces["QuadEdge"]["y"][-1] - traces["ground truth"]["y"][-1] == pytest.approx(22, rel=0.01)  # to the right
-    assert not any("deviation" in plot for plot in page_of(tmp_path / "bent").plots)
 
 
 def test_a_run_with_loops_shows_the_corrected_path_and_its_closures(tmp_path):
@@ -253,7 +239,7 @@ def test_a_run_with_loops_shows_the_corrected_path_and_its_closures(tmp_path):
     write_report(tmp_path / "street", content, loops=loops)
     run = results.read_run(tmp_path / "street")
     assert np.allclose(run.corrected.positions, run.truth.positions)
-    _, above, *_ = sequence_figures.trajectory_figures(run, [], 100)
+    _, above, *_ = sequence_figures.trajectory_figures(run, 100)
     series = {trace["name"]: trace for trace in above.traces}
     assert np.allclose(series["QuadEdge, loops closed"]["y"], series["ground truth"]["y"])
     ends = np.array(series["closures"]["y"]).reshape(2, 3)
@@ -271,7 +257,7 @@ def test_closures_and_the_corrected_path_have_a_colour_that_no_segment_has(tmp_p
     run = results.read_run(tmp_path / "street")
     *_, last = run.segments()
     run.segments = lambda: [(k, last[1]) for k in range(7)]
-    _, above, *_ = sequence_figures.trajectory_figures(run, [], 100)
+    _, above, *_ = sequence_figures.trajectory_figures(run, 100)
     colours = [(trace["name"], trace["line"]["color"]) for trace in above.traces if "line" in trace]
     segments = {colour for name, colour in colours if name.startswith("QuadEdge, segment")}
     others = [colour for name, colour in colours if name in ("QuadEdge, loops closed", "closures")]
@@ -294,11 +280,10 @@ def test_undetermined_rotation_of_an_alignment_is_a_dash_with_its_reason(tmp_pat
 
 
 @pytest.mark.parametrize("key, value", [
-    (["input"], 3), (["input", "frames"], "12"), (["frames_tracked"], None), (["key_rigs"], [1]), (["warnings"], {}),
-    (["warnings"], [{"text": 1, "frame": 0}]), (["latency_ms", "p90"], "x"), (["latency_ms"], 4),
-    (["device"], "abacus"), (["stages_ms"], [1]), (["stages_ms", "stereo"], {}),
-    (["memory_mb", "host_peak"], None), (["config"], 1), (["accuracy"], []),
-    (["accuracy", "se3_aligned", "ape_rotation_deg"], 0.1), (["accuracy", "consistency"], [3])])
+    (["input"], 3), (["frames_tracked"], None), (["warnings"], 4), (["warnings"], [3]), (["latency_ms", "p90"], "x"),
+    (["latency_ms"], {}), (["device"], "abacus"), (["stages_ms"], [1]), (["memory_mb", "host_peak"], None),
+    (["config"], 1), (["accuracy"], [1]), (["accuracy", "se3_aligned", "ape_rotation_deg"], 0.1),
+    (["accuracy", "consistency"], [3])])
 def test_a_report_of_another_shape_is_named(tmp_path, key, value):
     content = write_run(tmp_path / "street", 12)
     place = content
@@ -306,19 +291,14 @@ def test_a_report_of_another_shape_is_named(tmp_path, key, value):
         place = place[name]
     place[key[-1]] = value
     write_report(tmp_path / "street", content)
-    with pytest.raises(report.DamagedResults, match=rf"report.json: .*report.{'.'.join(key)}.*; expected the report"):
+    with pytest.raises(report.DamagedResults, match=r"street/report.json: .*; expected "):
         report.make_page(tmp_path / "street")
 
 
-def test_every_table_and_figure_becomes_a_file(tmp_path):
+def test_every_table_becomes_a_file(tmp_path):
     write_run(tmp_path / "street", 12)
     write_rig(tmp_path / "street", 0.4)
-    page = page_of(tmp_path / "street", csv=tmp_path / "csv", latex=tmp_path / "tex", figures=tmp_path / "svg")
+    page = page_of(tmp_path / "street", csv=tmp_path / "csv")
     assert len(list((tmp_path / "csv").glob("*.csv"))) == len(page.tables)
-    assert len(list((tmp_path / "tex").glob("*.tex"))) == len(page.tables)
     rows = list(csv.DictReader((tmp_path / "csv/errors.csv").read_text().splitlines()))
     assert float(rows[0]["mean"]) == statistics(0.5)["mean"] and rows[0]["alignment"] == "origin"
-    names = sorted(plot.removeprefix("figure-") for plot in page.plots)
-    assert sorted(file.stem for file in (tmp_path / "svg").glob("*.svg")) == names
-    assert sorted(file.stem for file in (tmp_path / "svg").glob("*.pdf")) == names
-    assert all(file.read_bytes()[:5] == b"%PDF-" for file in (tmp_path / "svg").glob("*.pdf"))

@@ -7,69 +7,30 @@ import sys
 from pathlib import Path
 
 import pytest
-from made_up_results import accuracy, write_batch, write_matching
+from made_up_results import made_up_matching, write_batch
 from parsed_page import ParsedPage, page_of, save_picture
 
 from quadedge import report
 from quadedge.report import numbers
+from quadedge.report.matching_page import matching_page
+from quadedge.report.page import to_html
 
 ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses coincide)"
 THIN = "\u2009"
 
 
-def comparison(tmp_path: Path, batch: Path, names: list[str]) -> Path:
-    """One better peer, and a baseline with half the error."""
-    entries = []
-    for name in names:
-        folder = batch / "sequences" / name
-        system = {"name": "Other & <Co>", "file": str(folder / "groundtruth.txt"), "accuracy": accuracy(0.01),
-                  "per_pose": {"stamp_s": [0, 0.1], "ape_rotation_deg": [0, 0], "ape_translation_m": [0, 0.01],
-                               "rpe_rotation_deg": [None, 0], "rpe_translation_m": [None, 0.01]}}
-        entries.append({"name": name, "systems": [system], "notes": ["a peer had no file"],
-                        "baseline": {"frames": 12, "frames_tracked": 10, "accuracy": accuracy(0.025),
-                                     "latency_ms": {"median": 20.0, "p90": 22.0, "p99": 22.0, "max": 22.0,
-                                                    "first": 20.0}}})
-    file = tmp_path / "comparison.json"
-    file.write_text(json.dumps({"sequences": entries, "baseline": "yesterday", "peers": []}))
-    return file
-
-
 def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
     write_batch(tmp_path / "batch", ["street", "hall", "yard"])
     page = page_of(tmp_path / "batch")
-    # 5 cm and 10 cm: each sequence has the unit of its size.
-    assert page.row(ORIGIN_TABLE, "street")[4:6] == [f"50.00{THIN}mm", f"25.00{THIN}mm"]
-    assert page.row(ORIGIN_TABLE, "yard")[4:6] == [f"0.1500{THIN}m", f"0.07500{THIN}m"]
-    assert page.tables[ORIGIN_TABLE][0][-1] == "RPE translation [mm]"
-    assert page.row(ORIGIN_TABLE, "all sequences, poses weighted equally")[4] == f"0.1000{THIN}m"
-    assert page.bold == []  # nothing to compare with
+    # 5, 10 and 15 cm: one unit for a column.
+    assert page.tables[ORIGIN_TABLE][0][2:] == ["APE translation [m]", "RPE rotation [deg]", "RPE translation [mm]"]
+    assert page.row(ORIGIN_TABLE, "street")[2:8] == ["20.00", "1.250", "0.5000", "0.2500", "0.05000", "0.02500"]
+    assert page.row(ORIGIN_TABLE, "all, every pose counts alike")[6] == "0.1000"
     assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
     assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"
     assert page.title == "Batch report: batch" and page.tiles["Sequences"] == "3 of 3 done"
     assert page.tiles["Drift at the end"].startswith("1.2 % median of 3 sequences")
     assert sum(plot.endswith("latency") for plot in page.plots) == 3
-
-
-def test_comparison_names_the_own_row_and_prints_the_best_bold(tmp_path):
-    names = ["street", "hall"]
-    write_batch(tmp_path / "batch", names)
-    page = page_of(tmp_path / "batch", comparison=comparison(tmp_path, tmp_path / "batch", names),
-                   output=tmp_path / "page.html")
-    own, other = page.tables[ORIGIN_TABLE][2:4]
-    assert own[:2] == ["street", "QuadEdge"] and other[:2] == ["", "Other & <Co>"]
-    assert own[5] == f"50.00{THIN}mm (+25.00)"
-    assert f"10.00{THIN}mm" in page.bold and f"50.00{THIN}mm" not in page.bold
-    assert len(page.bold) == 2 * 2 * 3  # APE translation, mean and std, of both alignments, each sequence and over all
-    fewer = json.loads((tmp_path / "comparison.json").read_text())
-    fewer["sequences"][1]["systems"] = []  # over different data than our row: neither better nor worse
-    (tmp_path / "fewer.json").write_text(json.dumps(fewer))
-    again = page_of(tmp_path / "batch", comparison=tmp_path / "fewer.json", output=tmp_path / "fewer.html")
-    assert len(again.bold) == 2 * 2  # of the other sequence
-    assert "Other & <Co>, 2 sequences" in [row[1] for row in page.tables[ORIGIN_TABLE]]
-    assert "(+2)" in page.row("Tracked frames and latency", "street")[2]
-    assert page.text.count("a peer had no file") == 2
-    assert len(page.traces("street_from_above")["Other & <Co>"]["x"]) == 12
-    assert page.facts["Baseline"].startswith("yesterday")
 
 
 @pytest.mark.parametrize("damaged", ["report.json", "frames.csv", "trajectory.txt", "groundtruth.txt", "errors.csv",
@@ -93,7 +54,7 @@ def test_a_failed_member_has_a_reason_and_no_figures(tmp_path):
     page = page_of(tmp_path / "batch")
     assert "failed: calib.txt: <nothing> & so on" in page.facts["broken"]
     assert page.row("Tracked frames and latency", "broken")[1] == "failed"
-    assert page.row(ORIGIN_TABLE, "broken")[1:] == [numbers.DASH] * 9
+    assert page.row(ORIGIN_TABLE, "broken")[1:] == [numbers.DASH] * 11
 
 
 def test_a_whole_benchmark_stays_below_six_megabytes(tmp_path):
@@ -109,11 +70,8 @@ def test_a_whole_benchmark_stays_below_six_megabytes(tmp_path):
     assert "thinned" in page.text
 
 
-def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off(tmp_path):
-    save_picture(tmp_path / "all.png", 1900, 600)
-    write_matching(tmp_path / "m.json", ["room", "yard"], 6,
-                   [{"name": "room", "file": str(tmp_path / "all.png"), "caption": "room: all"}])
-    page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
+def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off():
+    page = ParsedPage(to_html(matching_page(made_up_matching(["room", "yard"], 6))))
     table = page.tables["Table 1: stereo"]
     assert table[0][1:] == ["paired: 1\u202f000 edges", "all: 1\u202f300 edges"]
     assert table[4][1:] == ["SIFT", *["off"] * 12]
@@ -125,7 +83,7 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     assert names == ["baseline", "epipolar proximity", "NCC", "best"]  # no disabled filters
     assert list(page.traces("filters_stereo")) == ["recall, paired", "precision, paired", "recall, all",
                                                    "precision, all"]
-    # 250 of 300 values lie within the shown range of the cue, in bins of equal height.
+    # 250 of 300 values lie within the bins of the cue, in bins of equal height.
     cumulative = page.traces("cue_stereo_1_cumulative")
     assert list(cumulative) == ["veridical, paired", "other, paired", "veridical, all", "other, all"]
     assert max(cumulative["veridical, paired"]["y"]) == pytest.approx(100 * 250 / 300, rel=1e-4)
@@ -135,18 +93,16 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     assert len(motions["data"]) == 3 and len(motions["data"][0]["x"]) == 12
     assert len({trace["marker"]["symbol"] for trace in motions["data"]}) == 3
     assert "rotation -0.75, translation undefined" in page.text
-    assert page.pictures == 1
     counts = [plot for plot in page.plots if plot.startswith("figure-counts")]
-    assert len(counts) == 8
-    for plot in [plot for plot in counts if plot.endswith("_distribution")]:
-        # Every image is in one bin of a histogram: heights by bins add up to the number of images.
-        for trace in page.figure(plot.removeprefix("figure-"))["data"]:
-            assert sum(trace["y"][1:-1:2]) == len(page.figure("counts_edges")["data"][0]["y"])
+    assert len(counts) == 4
+    for plot in counts:
+        # Every frame is in one bin of a histogram: heights by bins add up to the number of frames.
+        for trace in page.figure(plot)["data"]:
+            assert sum(trace["y"][1:-1:2]) == 12
 
 
-def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame(tmp_path):
-    write_matching(tmp_path / "m.json", ["room"], 9)
-    page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
+def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame():
+    page = ParsedPage(to_html(matching_page(made_up_matching(["room"], 9))))
     assert not [plot for plot in page.plots if "counts" in plot or "motions" in plot]
     assert "(Figure 2): needs at least 10 frames" in page.text and "(Figure 7): needs at least 10 frames" in page.text
     assert page.row("Counts of a frame", "edges, left")[1] == "9"
@@ -171,17 +127,16 @@ def test_pages_of_the_program(program, tmp_path):
     summary_tables = (tmp_path / "batch/summary.md").read_text()
     assert "SE(3)-aligned" in summary_tables and "\n| room | done | 11 of 11 (100.0 %) |" in summary_tables
     mean = summary["sequences"][0]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"]
-    assert numbers.significant(1000 * mean) in page.row(ORIGIN_TABLE, "room")[4]
+    assert numbers.significant(1000 * mean) == page.row(ORIGIN_TABLE, "room")[6]
     assert len(page.plots) >= 10
-    run("report", tmp_path / "batch", "--baseline", tmp_path / "batch", "-o", tmp_path / "c.html", "--csv",
-        tmp_path / "c")
-    compared = ParsedPage((tmp_path / "c.html").read_text())
-    assert "(=)" in compared.row(ORIGIN_TABLE, "room")[5] and (tmp_path / "c/errors_se3_aligned.csv").is_file()
+    run("report", tmp_path / "batch", "-o", tmp_path / "c.html", "--csv", tmp_path / "c")
+    assert (tmp_path / "c/errors_se3_aligned.csv").is_file()
     run("report", tmp_path / "batch/sequences/room")
     assert ParsedPage((tmp_path / "batch/sequences/room/report.html").read_text()).facts["Device"]
     installed = {name: value for name, value in environment.items() if name != "PYTHONPATH"}
     subprocess.run([sys.executable, "-m", "quadedge.matching", tmp_path / "data/room", "--frames", "2", "--quiet",
                     "--html", tmp_path / "m.html"], check=True, env=installed)
     matching = ParsedPage((tmp_path / "m.html").read_text())
-    assert matching.tables["Table 1: stereo"][6][2] == "off" and matching.pictures == 3
+    assert matching.tables["Table 1: stereo"][6][2] == "off"
+    assert sum("drawing_0" in plot for plot in matching.plots) == 3 and matching.outside == []
     assert "Table 3" in " ".join(matching.tables)

@@ -9,19 +9,20 @@ from pathlib import Path
 
 from .. import configuration, synthetic
 from ..errors import DataError, UsageError
-from ..report.matching_page import matching_page, summary_tables
-from ..report.page import DETAILS, write_atomically, write_tables
+from ..report.matching_page import matching_page
+from ..report.matching_tables import summary_tables
+from ..report.page import to_html, write_atomically, write_tables
 from ..report.table import to_text
 from ..session import say_on_stderr
 from ..shell import exit_code
 from .counts import Tolerance
 from .document import document, summary
-from .drawing import write_drawings
+from .drawing import drawings
 from .observer import observe
 from .sources import RenderedSource, find_sources
 
 NAME = "python -m quadedge.matching"
-SCENES, RENDERED_FRAMES = ("room", "cables", "facade", "corridor", "yard"), 10
+SCENES, RENDERED_FRAMES = ("room", "cables", "facade", "yard"), 10
 _say = say_on_stderr(NAME)
 
 
@@ -44,11 +45,7 @@ def _parser() -> argparse.ArgumentParser:
                         help="largest distance of a veridical match from the true position [px]")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the tables and distributions as JSON")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also write every table as CSV")
-    parser.add_argument("--latex", type=Path, metavar="DIR", help="also write every table as LaTeX")
-    parser.add_argument("--html", type=Path, metavar="FILE",
-                        help="also make a page with tables, plots and drawings; its JSON and drawings are beside it")
-    parser.add_argument("--draw", type=Path, metavar="DIR",
-                        help="also draw the last frame of each pair or sequence as PNG")
+    parser.add_argument("--html", type=Path, metavar="FILE", help="also make a page with tables, plots and drawings")
     parser.add_argument("--device", default=os.environ.get("QUADEDGE_DEVICE", "auto"),
                         help="as for `quadedge run`; also QUADEDGE_DEVICE")
     parser.add_argument("--preset", default="default", help="fast, default, dense, or paper: the paper's own method")
@@ -97,21 +94,14 @@ def _scene(name: str, options: argparse.Namespace):
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Places what a page is made of beside it. Raises UsageError for options that contradict each other or the disk."""
+    """Raises UsageError for options that contradict each other or the disk."""
     if options.frames < 0:
         raise UsageError(f"--frames {options.frames}: expected 0 or more")
     if not 0 < options.tolerance <= 100:
         raise UsageError("--tolerance: expected more than 0 and at most 100 px")
-    if options.html:
-        options.json = options.json or options.html.with_suffix(".json")
-        options.draw = options.draw or options.html.with_name(f"{options.html.stem}_drawings")
-    if options.html and options.html == options.json:
-        raise UsageError(f"--html {options.html}: this file will hold the figures; expected a name ending in .html")
     for file in (options.json, options.html):
         if file and file.exists() and not options.force:
             raise UsageError(f"{file} exists; use --force to replace it")
-    if options.draw and options.draw.is_dir() and any(options.draw.iterdir()) and not options.force:
-        raise UsageError(f"{options.draw} is not empty; use --force to replace its files")
 
 
 def _progress(name: str, quiet: bool):
@@ -125,7 +115,7 @@ def _print(title: str, content: dict, frames: int) -> None:
     print(f"\n=== {title}: {frames} stereo frame{'s' if frames != 1 else ''} ===")
     classes = ", ".join(f"{number} {kind}" for kind, number in content["stereo_edges"].items())
     print(f"final stereo edges: {classes}")
-    for table in summary_tables(content, ""):
+    for table in summary_tables(content):
         print(f"\n{to_text(table)}", end="")
 
 
@@ -148,23 +138,17 @@ def _evaluate(options: argparse.Namespace, words: list[str]) -> None:
         for result in results:
             _print(result.name, summary([result]), len(result.frames))
     _print("all" if len(results) > 1 else results[0].name, summary(results), sum(len(one.frames) for one in results))
-    drawings = write_drawings(options.draw, results, tolerance) if options.draw else []
     command = shlex.join([*NAME.split(), *sys.argv[1:]])
-    content = document(results, device, config, options.paths, tolerance, command, drawings)
-    _write(options, content)
-
-
-def _write(options: argparse.Namespace, content: dict) -> None:
-    from ..report import make_page
-
+    content = document(results, device, config, options.paths, tolerance, command)
+    shown = enumerate(results) if options.html else ()
+    page = matching_page(content, {one.name: drawings(f"drawing_{number}", one, tolerance) for number, one in shown})
     try:
         if options.json:
             write_atomically(options.json, json.dumps(content, indent=2) + "\n")
         if options.html:
-            make_page(options.json, options.html)
-        for folder, ending in ((options.csv, "csv"), (options.latex, "tex")):
-            if folder:
-                write_tables(matching_page(content, DETAILS[-1]), folder, ending)
+            write_atomically(options.html, to_html(page))
+        if options.csv:
+            write_tables(page, options.csv)
     except OSError as problem:
         raise DataError(f"{problem.filename or ''}: {problem.strerror}; expected a writable location") from problem
 

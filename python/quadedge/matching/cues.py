@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .counts import Pools, Tolerance, is_veridical, near_truth
-from .draws import Draws
 from .surfaces import TruePositions
 
 DRAWN_OTHERS = 40
@@ -185,7 +184,7 @@ class Judge:
         # Each kind of row has its own draws, so that their samples are independent.
         for kind, rows in enumerate((self.pools.paired, self.pools.everything & ~self.pools.paired)):
             row = np.repeat(np.nonzero(rows)[0], DRAWN_OTHERS)
-            target = Draws(seed + kind).indices(len(row), size)
+            target = np.random.default_rng(seed + kind).integers(size, size=len(row))
             other = ~is_veridical(self.truth, row, self.targets.x[target], self.targets.y[target], self.tolerance)
             row, target = row[other], target[other]
             cue.add(values(row, target), np.zeros(len(row), bool), self.pools.paired[row])

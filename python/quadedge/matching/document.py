@@ -3,6 +3,7 @@
 import datetime
 
 import numpy as np
+import pandas
 
 from .. import __version__, configuration
 from .counts import ratio
@@ -136,29 +137,18 @@ def _per_frame(frame) -> dict:
     return entry
 
 
-def _ranks(values: np.ndarray) -> np.ndarray:
-    """Ranks from 1; equal values have their mean rank."""
-    _, which, counts = np.unique(values, return_inverse=True, return_counts=True)
-    return (np.cumsum(counts) - 0.5 * (counts - 1))[which]
-
-
-def rank_correlation(xs, ys) -> float | None:
-    """Spearman's; None where it does not exist."""
-    if len(xs) < 3:
-        return None
-    x, y = (_ranks(np.asarray(values)) - 0.5 * (len(xs) + 1) for values in (xs, ys))
-    return _number(ratio(x @ y, np.sqrt((x @ x) * (y @ y))))
-
-
 def _motion_correlation(results: list[MatchingResult]) -> dict:
     """Of the precision of the pairs that fulfil the constraints so far, and of the error of the motions that they give;
     one point per frame and constraint."""
-    points = [(pairs.veridical[order] / pairs.pairs[order], *pairs.errors[order])
-              for order in range(len(CONSTRAINTS)) for result in results for frame in result.frames if frame.temporal
-              for pairs in [frame.temporal.pairs] if pairs.pairs[order] and np.isfinite(pairs.errors[order, 0])]
-    precision, rotation, translation = np.array(points).reshape(-1, 3).T
-    return {"points": len(points), "rotation": rank_correlation(precision, rotation),
-            "translation": rank_correlation(precision, translation)}
+    points = pandas.DataFrame(
+        [(pairs.veridical[order] / pairs.pairs[order], *pairs.errors[order])
+         for order in range(len(CONSTRAINTS)) for result in results for frame in result.frames if frame.temporal
+         for pairs in [frame.temporal.pairs] if pairs.pairs[order] and np.isfinite(pairs.errors[order, 0])],
+        columns=["precision", "rotation", "translation"], dtype=float)
+    ranked = points.rank()  # Spearman's is the correlation of ranks
+    return {"points": len(points)} | {
+        name: _number(ranked["precision"].corr(ranked[name]) if len(points) > 2 else np.nan)
+        for name in ("rotation", "translation")}
 
 
 def _text(value) -> str:
@@ -178,7 +168,7 @@ def _configuration(config: dict) -> dict:
 
 
 def document(results: list[MatchingResult], device, config: dict, inputs: list[str], tolerance: Tolerance = Tolerance(),
-             command: str = "", drawings: list[dict] = ()) -> dict:
+             command: str = "") -> dict:
     """`pairs` with one entry per pair or sequence, and `pooled` over all of them. Recall and precision are fractions.
 
     device: a DeviceInfo. config: all values, as given. inputs: as the command names them.
@@ -187,7 +177,7 @@ def document(results: list[MatchingResult], device, config: dict, inputs: list[s
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"), "command": command,
                "device": {name: getattr(device, name) for name in ("name", "platform", "driver", "opencl", "type")},
                "input": list(inputs), "tolerance_px": tolerance.position, "wrong_px": tolerance.wrong,
-               **_configuration(config), "drawings": list(drawings)}
+               **_configuration(config)}
     content["pairs"] = [{"name": result.name, "frames": len(result.frames),
                          "counts": [_per_frame(frame) for frame in result.frames], **summary([result])}
                         for result in results]

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .cues import ANGLE, LENGTH, MIN_ANGLE, MIN_DETERMINANT, TANGENT, Cues
-from .draws import Draws
 
 CONSTRAINTS = ("all pairs", "length of D", "angle of D and T1", "angle of D and T2", "angle of T1 and T2",
                "D not along T1", "handedness")
@@ -115,7 +114,7 @@ def measure_pairs(before, now, veridical: np.ndarray, seed: int, now_from_before
                                np.full((len(CONSTRAINTS), 2), np.nan))
     if len(veridical) < 2:
         return measured
-    drawn = Draws(seed).indices(2 * DRAWN_PAIRS, len(veridical)).reshape(-1, 2)
+    drawn = np.random.default_rng(seed).integers(len(veridical), size=(DRAWN_PAIRS, 2))
     a, b = drawn[drawn[:, 0] != drawn[:, 1]].T
     both = veridical[a] & veridical[b]
     pairs = [np.stack([points[a], tangents[a], points[b], tangents[b]]) for points, tangents in (before, now)]

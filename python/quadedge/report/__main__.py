@@ -20,13 +20,10 @@ def _make(options: dict) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m quadedge.report", description="Makes an HTML page of results.")
-    parser.add_argument("results", help="folder of a run or a batch, or a file of `python -m quadedge.matching --json`")
+    parser.add_argument("results", help="folder of a run or a batch")
     parser.add_argument("-o", "--output", help="path of the page")
-    parser.add_argument("--comparison", help="file that `quadedge report --baseline --peer` writes about a batch")
     parser.add_argument("--markdown", metavar="FILE", help="also write the tables of the first section as Markdown")
     parser.add_argument("--csv", metavar="DIR", help="also write every table as CSV")
-    parser.add_argument("--latex", metavar="DIR", help="also write every table as LaTeX")
-    parser.add_argument("--figures", metavar="DIR", help="also write every figure as SVG and PDF")
     parser.add_argument("--quiet", action="store_true", help="do not print the name of the page")
     return exit_code("quadedge", lambda: _make(vars(parser.parse_args())))
 

@@ -8,48 +8,40 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas
 
 from ..errors import DataError, DeviceError, Error, UsageError
-from ..result_files import DamagedResults, misfit, numbers, read_columns, read_json
+from ..result_files import DamagedResults, expecting, numbers, read_columns, read_json
 from . import make_page
+from .error_tables import ALIGNMENTS, ERRORS, STATISTICS
 from .numbers import exists, share_of
 from .page import write_atomically
-from .results import ERRORS, REPORT, read_run
+from .results import read_run
 
 SCHEMA = 1  # of summary.json; grows when a key changes its meaning
 TOO_FEW_TRACKED = 5
 FROM_BAD_TO_WORSE = (0, TOO_FEW_TRACKED, UsageError.exit_code, DataError.exit_code, DeviceError.exit_code,
                      Error.exit_code)
-ALIGNMENTS = ("origin_aligned", "se3_aligned")
-STATISTICS = ("mean", "std", "rmse", "max")
 ACCURACY = (*ALIGNMENTS, "matched_poses", "rpe_steps", "path_length_m", "end_drift_percent", "se3_open_rotation")
-PLAN = {"key": str, "program": str, "directory": str, "options": [str], "kernels": str, "jobs": int, "input": str,
-        "min_tracked_percent": (int, float),
-        "sequences": [{"name": str, "path": str, "format": str, "words": [str], "truth": str}]}
-MEMBER = {"name": str, "path": str, "format": str, "exit_code": int, "message": str, "jobs": int}
 
 
 def read_plan(out: Path) -> dict:
     """OUT/batch.json. Raises DamagedResults."""
-    return _checked(out / "batch.json", PLAN, "what `quadedge batch` is to run")
-
-
-def _checked(file: Path, shape: dict, expected: str) -> dict:
-    content = read_json(file, expected)
-    if problem := misfit(content, shape, file.stem):
-        raise DamagedResults(f"{file}: {problem}; expected {expected}")
-    return content
+    plan = read_json(out / "batch.json", "what `quadedge batch` is to run")
+    with expecting("what `quadedge batch` is to run", out / "batch.json"):
+        return plan | {"jobs": int(plan["jobs"]), "sequences": [dict(sequence) for sequence in plan["sequences"]]}
 
 
 def is_finished(folder: Path) -> bool:
     """Whether a folder holds the whole result of a sequence that did not fail."""
     try:
-        if _checked(folder / "member.json", MEMBER, "how a sequence ended")["exit_code"] != 0:
+        if read_json(folder / "member.json", "how a sequence ended").get("exit_code") != 0:
             return False
         run = read_run(folder)
+        with expecting("the report of a run", folder / "report.json"):
+            return run.count() == run.report["input"]["frames"] and len(run.estimate) == run.report["frames_tracked"]
     except DamagedResults:
         return False
-    return run.count() == run.report["input"]["frames"] and len(run.estimate) == run.report["frames_tracked"]
 
 
 @dataclass
@@ -69,26 +61,31 @@ def read_row(folder: Path, name: str, plan: dict) -> Row:
         return Row(entry, nothing)
     entry["status"] = "failed"
     try:
-        member = _checked(folder / "member.json", MEMBER, "how a sequence ended")
-        entry |= {key: member[key] for key in MEMBER}
+        member = read_json(folder / "member.json", "how a sequence ended")
+        with expecting("how a sequence ended", folder / "member.json"):
+            entry |= {key: member[key] for key in ("path", "format", "exit_code", "message", "jobs")}
         if entry["exit_code"] != 0:
             return Row(entry, nothing)
-        report = _checked(folder / "report.json", REPORT, "the report of a run")
         latencies = numbers(read_columns(folder / "frames.csv").get("latency_ms", []), folder / "frames.csv")
+        with expecting("the report of a run", folder / "report.json"):
+            return Row(entry | _figures(read_json(folder / "report.json", "the report of a run"), plan), latencies)
     except DamagedResults as problem:
         message = f"its results are damaged: {problem}"
         return Row(entry | {"exit_code": DataError.exit_code, "message": message}, nothing)
+
+
+def _figures(report: dict, plan: dict) -> dict:
+    """What summary.json has of a finished run."""
     frames, tracked = report["input"]["frames"], report["frames_tracked"]
-    entry["status"] = "done"
+    entry = {"status": "done", "device": report.get("device", {}).get("name", ""), "frames": frames,
+             "frames_tracked": tracked, "tracked_fraction": tracked / frames if frames else None,
+             "key_rigs": report["key_rigs"], "segments": report.get("segments", 1), "latency_ms": report["latency_ms"]}
     if 100 * tracked < plan["min_tracked_percent"] * frames:
         entry |= {"status": "too few tracked", "exit_code": TOO_FEW_TRACKED,
                   "message": f"tracked {tracked} of {frames} frames"}
-    entry |= {"device": report.get("device", {}).get("name", ""), "frames": frames, "frames_tracked": tracked,
-              "tracked_fraction": tracked / frames if frames else None, "key_rigs": report["key_rigs"],
-              "segments": report.get("segments", 1)}
     if "accuracy" in report:
         entry["accuracy"] = {key: report["accuracy"][key] for key in ACCURACY if key in report["accuracy"]}
-    return Row(entry | {"latency_ms": report["latency_ms"]}, latencies)
+    return entry
 
 
 def outcome(folder: Path, name: str, plan: dict) -> str:
@@ -107,39 +104,23 @@ def outcome(folder: Path, name: str, plan: dict) -> str:
 
 def pooled(parts: list[dict]) -> dict:
     """The accuracy of several sequences together, every pose with the same weight."""
+    def steps(part: dict) -> int:
+        return part.get("rpe_steps", part["matched_poses"] - 1)
+
     def pool(alignment: str, error: str) -> dict:
-        count = "matched_poses" if error.startswith("ape") else "rpe_steps"
-        weights, values = [], []
-        for part in parts:
-            statistics = part[alignment][error]
-            if exists(statistics["mean"]):
-                weights.append(part.get(count, part["matched_poses"] - 1))
-                values.append([statistics["mean"], statistics["rmse"] ** 2, statistics["max"]])
-        if not sum(weights):
+        found = pandas.DataFrame([part[alignment][error] for part in parts], dtype=float)
+        found["weight"] = [part["matched_poses"] if error.startswith("ape") else steps(part) for part in parts]
+        found = found.dropna(subset=["mean"])
+        if not found["weight"].sum():
             return dict.fromkeys(STATISTICS)
-        mean, square = np.average(np.array(values)[:, :2], axis=0, weights=weights)
+        mean, square = (np.average(values, weights=found["weight"]) for values in (found["mean"], found["rmse"] ** 2))
         return {"mean": mean, "std": math.sqrt(max(0, square - mean**2)), "rmse": math.sqrt(square),
-                "max": max(value[2] for value in values)}
+                "max": found["max"].max()}
 
-    return _over_all(parts, pool)
-
-
-def average(parts: list[dict]) -> dict:
-    """The same figures averaged over the sequences, every sequence with the same weight."""
-    def mean(alignment: str, error: str) -> dict:
-        found = [part[alignment][error] for part in parts if exists(part[alignment][error]["mean"])]
-        return {name: float(np.mean([one[name] for one in found])) if found else None for name in STATISTICS}
-
-    return _over_all(parts, mean)
-
-
-def _over_all(parts: list[dict], statistics_of) -> dict:
-    """Errors as given; the paths summed, the drifts weighted with them."""
     path = sum(part["path_length_m"] or 0 for part in parts)
     drift = sum((part["end_drift_percent"] or 0) * (part["path_length_m"] or 0) for part in parts)
-    return {alignment: {error: statistics_of(alignment, error) for error in ERRORS} for alignment in ALIGNMENTS} | {
-        "matched_poses": sum(part["matched_poses"] for part in parts),
-        "rpe_steps": sum(part.get("rpe_steps", part["matched_poses"] - 1) for part in parts),
+    return {alignment: {error: pool(alignment, error) for error in ERRORS} for alignment in ALIGNMENTS} | {
+        "matched_poses": sum(part["matched_poses"] for part in parts), "rpe_steps": sum(map(steps, parts)),
         "path_length_m": path, "end_drift_percent": drift / path if path else None}
 
 
@@ -170,7 +151,7 @@ def summarise(out: Path, plan: dict) -> dict:
     everything = {"frames": frames, "frames_tracked": tracked, "tracked_fraction": tracked / frames if frames else None,
                   "latency_ms": latency_of(rows)}
     if parts:
-        everything |= {"pooled": pooled(parts), "average": average(parts)}
+        everything["pooled"] = pooled(parts)
     return {"schema": SCHEMA} | origin | {"exit_code": worst(entry["exit_code"] for entry in entries),
                                           "sequences": entries, "all": everything}
 

@@ -1,7 +1,6 @@
-"""Figures in plotly's format: pages give them to plotly in the browser, write_figure() draws them with matplotlib."""
+"""Figures in plotly's format, which pages give to plotly in the browser."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -9,14 +8,10 @@ import numpy as np
 COLOURS = ("#2f80d0", "#e08a00", "#c63f9d", "#2a9d7c", "#7a5af0", "#8a8f98", "#a0522d")
 GREY = 5
 SCALE = ("#5aa3e8", "#f4f4f2", "#f0a63a")  # of heat maps, whose numbers are dark on light and dark pages
-# Each style also has a line style and a marker; plotly has fewer markers in space. Beside plotly's names matplotlib's.
-_DASHES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-.", "longdash": (0, (8, 3)),
-           "longdashdot": (0, (8, 3, 1, 3))}
-_DASH_OF_STYLE = ("solid", "dash", "dot", "dashdot", "longdash", "solid", "longdashdot")
-_SYMBOLS = {"circle": "o", "triangle-up": "^", "x": "x", "square": "s", "diamond": "D", "cross": "P", "star": "*"}
+# Each style also has a line style and a marker; plotly has fewer markers in space.
+_DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "solid", "longdashdot")
+_SYMBOLS = ("circle", "triangle-up", "x", "square", "diamond", "cross", "star")
 _SPATIAL_SYMBOLS = ("circle", "square", "diamond", "circle-open", "square-open", "diamond-open", "circle")
-_MATPLOTLIB = {"svg.hashsalt": "quadedge", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
-               "grid.alpha": 0.35, "axes.spines.top": False, "axes.spines.right": False}
 _SHORTEST = 0.02  # axis of a 3D plot, of the longest, so that a flat path has an axis
 _POINT_SCALE = "Viridis"  # of points that are coloured by a value
 _DIGITS = 5
@@ -28,7 +23,7 @@ class Figure:
     """A plot of curves and point clouds with two axes, or three if they have a z."""
 
     name: str
-    """Name of its files; unique on a page."""
+    """Unique on a page."""
     title: str
     x_label: str
     y_label: str
@@ -45,6 +40,8 @@ class Figure:
     equal_units: bool = False
     wide: bool = False
     """Spans the width of the page."""
+    picture: str = ""
+    """Address of an image that fills x_range and y_range behind the traces."""
     cells: np.ndarray | None = None
     """In place of traces: the values of a grid of cells over the whole of x_range and y_range, its first row at the
     upper end of the plot; NaN where there is none."""
@@ -62,7 +59,7 @@ class Figure:
         labels: texts beside the points.
         """
         spatial, colour = z is not None, COLOURS[style % len(COLOURS)]
-        symbol = (_SPATIAL_SYMBOLS if spatial else tuple(_SYMBOLS))[style % len(_SYMBOLS)]
+        symbol = (_SPATIAL_SYMBOLS if spatial else _SYMBOLS)[style % len(_SYMBOLS)]
         axes = dict(zip("xyz", (np.asarray(values, float) for values in (x, y, z) if values is not None)))
         trace = {"name": name, "type": "scatter3d" if spatial else "scatter", **axes}
         if self.categories:
@@ -70,7 +67,7 @@ class Figure:
         if points:
             trace |= {"mode": "markers", "marker": {"color": colour, "symbol": symbol, "size": 3 if spatial else 6}}
         else:
-            line = dash or ("solid" if fill else _DASH_OF_STYLE[style % len(_DASH_OF_STYLE)])
+            line = dash or ("solid" if fill else _DASHES[style % len(_DASHES)])
             trace |= {"mode": "lines", "line": {"color": colour, "dash": line, "width": 6 if spatial else 2}}
             if self.categories:
                 trace |= {"mode": "lines+markers", "marker": {"symbol": symbol, "size": 7}}
@@ -141,6 +138,12 @@ class Figure:
             y["rangemode"] = "tozero"
         if self.equal_units:
             y |= {"scaleanchor": "x", "scaleratio": 1}
+        if self.picture:
+            width, height = self.x_range[1], self.y_range[0]
+            layout["images"] = [{"source": self.picture, "xref": "x", "yref": "y", "x": 0, "y": 0, "sizex": width,
+                                 "sizey": height, "sizing": "stretch", "layer": "below"}]
+            for axis in (x, y):
+                axis |= {"showgrid": False, "zeroline": False, "constrain": "domain"}
         layout["shapes"] = [{"type": "line", "x0": place, "x1": place, "yref": "paper", "y0": 0, "y1": 1,
                              "line": {"dash": "dash", "width": 1.5, "color": COLOURS[GREY]}}
                             for place, _ in self.markers]
@@ -152,80 +155,6 @@ class Figure:
 def rounded(values: np.ndarray) -> list:
     """An array as JSON has it: few digits, None for NaN."""
     return [float("%.*g" % (_DIGITS, value)) if value == value else None for value in values.tolist()]
-
-
-def _draw(axes, traces: list[dict]) -> None:
-    for before, trace in zip([None, *traces], traces):
-        line, marker = trace.get("line", {}), trace.get("marker", {})
-        if "colorscale" in marker:
-            axes.scatter(*(trace[axis] for axis in "xyz"), c=marker["color"], s=0.3, label=trace["name"],
-                         cmap=_POINT_SCALE.lower(), rasterized=True)
-            continue
-        colour = line.get("color") or marker["color"]
-        axes.plot(*(trace[axis] for axis in "xyz" if axis in trace), linewidth=1.4, color=colour, markersize=4,
-                  linestyle=_DASHES[line["dash"]] if line else "", label=trace["name"],
-                  marker=_SYMBOLS[marker["symbol"].removesuffix("-open")] if marker else "")
-        if "fill" in trace:
-            floor = before["y"] if trace["fill"] == "tonexty" and before else 0
-            axes.fill_between(trace["x"], floor, trace["y"], color=colour, alpha=0.3, linewidth=0)
-
-
-def _draw_cells(picture, axes, figure: Figure) -> None:
-    from matplotlib.colors import LinearSegmentedColormap
-
-    drawn = axes.imshow(figure.cells, LinearSegmentedColormap.from_list("signed", SCALE), aspect="auto",
-                        extent=(*figure.x_range, *figure.y_range), vmin=-figure.cell_limit,
-                        vmax=figure.cell_limit)
-    axes.grid(False)
-    x, y = figure.cell_centres()
-    for row, column in np.argwhere(np.isfinite(figure.cells)):
-        axes.text(x[column], y[row], f"{figure.cells[row, column]:.2f}", ha="center", va="center", fontsize=5)
-    picture.colorbar(drawn, label=figure.cell_label)
-
-
-def _finish(axes, figure: Figure) -> None:
-    axes.set(title=figure.title, xlabel=figure.x_label, ylabel=figure.y_label)
-    if figure.is_spatial:
-        axes.set_zlabel(figure.z_label)
-        axes.set_box_aspect(figure.shares(), zoom=0.85)
-        axes.locator_params(nbins=4)
-        return
-    for place, text in figure.markers:
-        axes.axvline(place, color=COLOURS[GREY], linestyle="--", linewidth=1, label=text or None)
-    if figure.categories:
-        axes.set_xticks(range(len(figure.categories)), figure.categories, rotation=40, ha="right")
-    if figure.x_range:
-        axes.set_xlim(*figure.x_range)
-    if figure.y_range:
-        axes.set_ylim(*figure.y_range)
-    if figure.y_logarithmic:
-        axes.set_yscale("log")
-    if figure.equal_units:
-        axes.set_aspect("equal", adjustable="datalim")
-
-
-def write_figure(figure: Figure, folder: Path) -> list[Path]:
-    """Writes FOLDER/NAME.svg and FOLDER/NAME.pdf and returns their paths. The same figure gives the same bytes."""
-    import matplotlib  # slow to import
-
-    matplotlib.use("Agg")  # no window
-    from matplotlib import pyplot
-
-    with pyplot.rc_context(_MATPLOTLIB):
-        picture, axes = pyplot.subplots(figsize=(7 if figure.wide else 5, 4), layout="constrained",
-                                        subplot_kw={"projection": "3d"} if figure.is_spatial else {})
-        if figure.cells is not None:
-            _draw_cells(picture, axes, figure)
-        _draw(axes, figure.traces)
-        _finish(axes, figure)
-        if any(trace["name"] for trace in figure.traces):
-            axes.legend(fontsize=8, framealpha=0.6)
-        name = figure.name.strip("/").replace("/", "_")  # names of topics and devices have slashes
-        files = [folder / f"{name}.svg", folder / f"{name}.pdf"]
-        for file, date in zip(files, ("Date", "CreationDate")):
-            picture.savefig(file, metadata={date: None})
-        pyplot.close(picture)
-    return files
 
 
 def thinned(x: np.ndarray, y: np.ndarray, limit: int) -> tuple[np.ndarray, np.ndarray]:

@@ -1,42 +1,27 @@
 """The page of the matching evaluation: the effect of every filter, measured against ground truth."""
 
-from pathlib import Path
-
-from .matching_figures import (accuracy_figures, count_distribution_figures, count_figures, cue_figures,
-                               disparity_figures, filter_figure, frames_of)
-from .figure import FEWEST_FRAMES
-from .matching_tables import (constraint_table, count_table, disparity_table, filter_table, overview_table, quad_table)
+from .figure import FEWEST_FRAMES, Figure
+from .matching_figures import accuracy_figures, count_figures, cue_figures, disparity_figures, filter_figure
+from .matching_tables import count_table, overview_table, summary_tables
 from .numbers import exists, percent, significant
 from .origin import device_text, origin
-from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
-from .results import DamagedResults, read_json
+from .page import Facts, Figures, Page, Section, Text, Tile
 from .run_tables import configuration_table
-from .table import Table
 
-MOST_DRAWN = 8  # pairs or sequences
 MOST_MESSAGES = 12
 CASCADES = (("stereo", "Stereo (Figure 3)", "stereo pairs"),
             ("temporal_left", "In time, left images (Figure 5)", "pairs in time"),
             ("temporal_right", "In time, right images (Figure 5)", "pairs in time"))
 
 
-def read_matching(file: Path) -> dict:
-    """Reads a file of `python -m quadedge.matching --json`. Raises DamagedResults."""
-    content = read_json(file, "a file of `python -m quadedge.matching --json`")
-    for key in ("pairs", "pooled", "tolerance_px"):
-        if key not in content:
-            raise DamagedResults(f"{file}: no `{key}`; expected a file of `python -m quadedge.matching --json`")
-    return content
-
-
-def matching_page(content: dict, detail: Detail) -> Page:
-    """The page of a file of `python -m quadedge.matching --json`."""
+def matching_page(content: dict, drawings: dict[str, list[Figure]] = {}) -> Page:  # noqa: B006  only read
+    """The page of what `python -m quadedge.matching --json` writes. drawings: of the pairs or sequences, by name."""
     pairs, pooled = content["pairs"], content["pooled"]
     title = pairs[0]["name"] if len(pairs) == 1 else f"{len(pairs)} data sets"
     page = Page(f"Matching report: {title}", _facts(content), lead=_lead(content), tiles=_tiles(pooled))
     page.sections.append(Section("Overview", [overview_table(pairs, pooled), *_messages(pairs)],
                                  explained="matching.md"))
-    page.sections.append(Section("Tables, pooled" if len(pairs) > 1 else "Tables", summary_tables(pooled, "")))
+    page.sections.append(Section("Tables, pooled" if len(pairs) > 1 else "Tables", summary_tables(pooled)))
     figures = [filter_figure("stereo", "Stereo, after every filter", pooled)]
     for side in ("left", "right"):
         if f"temporal_{side}" in pooled:
@@ -51,7 +36,7 @@ def matching_page(content: dict, detail: Detail) -> Page:
     page.sections.append(_counts(pairs))
     page.sections += _distributions(pooled)
     page.sections += _accuracy(pairs, pooled)
-    page.sections += _drawings(content, detail)
+    page.sections += _drawings(drawings)
     page.sections.append(_terms(content))
     page.sections.append(Section("Configuration", [configuration_table(content)], fold=True,
                                  explained="configuration.md"))
@@ -111,28 +96,13 @@ def _messages(pairs: list[dict]) -> list:
     return [Text("Messages of the pipeline:"), Facts(messages)]
 
 
-def summary_tables(summary: dict, prefix: str) -> list[Table]:
-    """The tables of one data set or of all; `prefix` is that of their names."""
-    tables = [filter_table(f"{prefix}stereo", "Table 1: stereo", summary, "stereo"),
-              disparity_table(f"{prefix}disparity", summary)]
-    if "temporal_left" in summary:
-        tables += [filter_table(f"{prefix}temporal_{side}", f"Table 2: in time, {side} images", summary,
-                                f"temporal_{side}") for side in ("left", "right")]
-        tables.append(quad_table(f"{prefix}quads", summary))
-        if summary["constraints"][0]["pairs"] > 0:
-            tables.append(constraint_table(f"{prefix}constraints", summary))
-    return tables
-
-
 def _counts(pairs: list[dict]) -> Section:
     section = Section("Counts per frame", [count_table(pairs)])
-    if frames_of(pairs) < FEWEST_FRAMES:
+    if sum(pair["frames"] for pair in pairs) < FEWEST_FRAMES:
         section.blocks.append(_needs_frames("Distributions of the counts (Figure 2)"))
         return section
-    section.blocks += [
-        Figures(count_distribution_figures(pairs), "Figure 2: distributions of the numbers of edges, stereo edges, "
-                                                   "pairs in time and quads over the images."),
-        Figures(count_figures(pairs), "The same counts of every frame.")]
+    section.blocks.append(Figures(count_figures(pairs), "Figure 2: distributions of the numbers of edges, stereo "
+                                                        "edges, pairs in time and quads over the frames."))
     return section
 
 
@@ -167,7 +137,7 @@ def _accuracy(pairs: list[dict], pooled: dict) -> list[Section]:
     correlation = pooled["motion_rank_correlation"]
     if correlation["points"] == 0:
         return []
-    if frames_of(pairs) < FEWEST_FRAMES:
+    if sum(pair["frames"] for pair in pairs) < FEWEST_FRAMES:
         return [Section("Precision of pairs and accuracy of motions",
                         [_needs_frames("Precision of pairs and accuracy of motions (Figure 7)")])]
 
@@ -182,30 +152,12 @@ def _accuracy(pairs: list[dict], pooled: dict) -> list[Section]:
     return [Section("Precision of pairs and accuracy of motions", [Figures(accuracy_figures(pairs, pooled), caption)])]
 
 
-def _drawings(content: dict, detail: Detail) -> list[Section]:
-    """Large pictures, one fold per data set if there are several."""
-    if detail.picture_width == 0:
+def _drawings(drawings: dict[str, list[Figure]]) -> list[Section]:
+    """One fold per pair or sequence."""
+    if not drawings:
         return []
-    by_name: dict[str, list[dict]] = {}
-    for drawing in content["drawings"]:
-        by_name.setdefault(drawing["name"], []).append(drawing)
-    if not by_name:
-        return []
-    text = ("The left and right image with the final stereo edges that have ground truth: correct ones (Figure 8), "
-            "inaccurate and wrong ones (Figure 9).")
-    if len(by_name) > MOST_DRAWN:
-        text += f" The first {MOST_DRAWN} of {len(by_name)} are shown."
-    sections = [Section("Drawings", [Text(text)])]
-    shown = list(by_name.items())[:MOST_DRAWN]
-    width = 4 * detail.picture_width if len(shown) <= 2 else 3 * detail.picture_width
-    for number, (name, drawings) in enumerate(shown):
-        pictures, blocks = [], []
-        for drawing in drawings:
-            data = reduced(Path(drawing["file"]), width, detail.quality)
-            if data is None:
-                blocks.append(Text(f"{drawing['file']}: not a readable image", warns=True))
-            else:
-                pictures.append(Picture(data, drawing["caption"]))
-        blocks.append(Pictures(pictures, wide=True))
-        sections.append(Section(f"Drawings of {name}", blocks, 3, fold=True, open=number == 0))
-    return sections
+    text = Text("The final stereo edges with ground truth in the left and the right image of the last frame: correct "
+                "ones (Figure 8), inaccurate and wrong ones (Figure 9).")
+    return [Section("Drawings", [text]), *(
+        Section(f"Drawings of {name}", [Figures(figures)], 3, fold=True, open=number == 0)
+        for number, (name, figures) in enumerate(drawings.items()))]

@@ -45,14 +45,6 @@ def significant(value: float | None, digits: int = 4) -> str:
     return text if text.strip("-0.") else "0"
 
 
-def difference(value: float | None, baseline: float | None, digits: int = 4) -> str:
-    """The difference with the value's decimals: "(-0.0012)"; "(=)" if it rounds to zero; "" if a value is missing."""
-    if not exists(value) or not exists(baseline):
-        return ""
-    text = f"{value - baseline:+.{decimals_of(value, digits)}f}"
-    return f"({text})" if text.strip("+-0.") else "(=)"
-
-
 def percent(share: float | None, decimals: int = 2) -> str:
     """Formats 0.9342 as "93.42"."""
     return f"{100 * share:.{decimals}f}" if exists(share) else DASH

@@ -17,8 +17,8 @@ import jinja2
 from markupsafe import Markup
 
 from .documentation import explanation_of
-from .figure import Figure, rounded, write_figure
-from .table import Table, to_csv, to_latex, to_markdown
+from .figure import Figure, rounded
+from .table import Table, to_markdown
 
 LARGEST_PAGE = 6_000_000  # bytes
 
@@ -229,19 +229,18 @@ def smallest_loss(make: Callable[[Detail], Page]) -> tuple[Page, str]:
         page = make(detail)
         if detail is not DETAILS[0]:
             page.sections[-1].blocks.append(Text("Curves are thinned and pictures reduced so that this page stays "
-                                                 "small; --figures draws the same curves."))
+                                                 "small."))
         text = to_html(page)
         if len(text.encode("utf-8", "replace")) <= LARGEST_PAGE:
             break
     return page, text
 
 
-def write_tables(page: Page, folder: Path, ending: str) -> None:
-    """Writes every table as NAME.csv or NAME.tex."""
+def write_tables(page: Page, folder: Path) -> None:
+    """Writes the unrounded values of every table as FOLDER/NAME.csv."""
     folder.mkdir(parents=True, exist_ok=True)
     for table in page.tables():
-        text = to_csv(table) if ending == "csv" else to_latex(table)
-        write_atomically(folder / f"{table.name}.{ending}", text)
+        write_atomically(folder / f"{table.name}.csv", table.frame("value").to_csv(index=False))
 
 
 def write_markdown(page: Page, file: Path) -> None:
@@ -255,10 +254,3 @@ def write_markdown(page: Page, file: Path) -> None:
         elif block.kind == "text":
             parts.append(f"{block.text}\n")
     write_atomically(file, "\n".join(parts))
-
-
-def write_figures(page: Page, folder: Path) -> None:
-    """Writes every figure as SVG and PDF."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for figure in page.figures():
-        write_figure(figure, folder)

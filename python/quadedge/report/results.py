@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..result_files import DamagedResults, misfit, numbers, read_columns, read_json, rotations, whole_lines
+from ..result_files import DamagedResults, expecting, numbers, read_columns, read_json, rotations, whole_lines
 
 STAMP_TOLERANCE_S = 0.01  # as the evaluation of trajectories matches poses
 
@@ -141,34 +141,6 @@ class Run:
                 yield range(lost[0], lost[-1] + 1), reason_of(status), messages[lost[0]]
 
 
-NUMBER = (int, float, type(None))
-ERRORS = dict.fromkeys(("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m"),
-                       dict.fromkeys(("mean", "std", "rmse", "max"), NUMBER))
-ACCURACY = {"origin_aligned": ERRORS, "se3_aligned": ERRORS, "matched_poses": int, "path_length_m": NUMBER,
-            "end_drift_percent": NUMBER, "se3_open_rotation?": str}
-MAPS = dict.fromkeys(("before", "after"), {"cells": int} | dict.fromkeys(
-    ("rms_px", "largest_px", "scatter_px", "noise_px"), NUMBER))
-OFFSET = {"px": NUMBER, "sigma_px": NUMBER}
-STAGES = {"*": {"median": NUMBER, "p90": NUMBER}}
-NORMALISED = {"pose": NUMBER, "rotation": NUMBER, "translation": NUMBER}
-LENGTHS = dict.fromkeys(("error_m", "promised_m", "error_deg", "promised_deg"), NUMBER) | {
-    "frames": int, "motions": int, "normalised_error_squared": NORMALISED,
-    "normalised_error_squared_by_edges": NORMALISED}
-# What pages need of report.json, in the notation of misfit().
-REPORT = {
-    "input": {"name": str, "frames": int, "path": str, "format": str, "width": int, "height": int, "dropped?": int},
-    "frames_tracked": int, "key_rigs": int, "frames_ambiguous?": int,
-    "warnings": [{"frame": (int, type(None)), "text": str, "kind?": str}],
-    "latency_ms": dict.fromkeys(("median", "p90", "p99", "max", "first"), NUMBER),
-    "ended_early?": str, "segments_text?": str, "segments?": int, "path_length_m?": NUMBER,
-    "device?": dict.fromkeys(("name", "platform", "opencl", "driver"), str),
-    "memory_mb?": {"host_peak": (int, float), "device_peak": (int, float)},
-    "rig?": {"rows": MAPS, "columns": MAPS, "row_correction_px": NUMBER, "width": int, "height": int,
-             "disparity_offset": {"start": OFFSET, "end": OFFSET}},
-    "stages_ms?": STAGES, "kernels_ms?": STAGES, "config?": dict, "config_changed?": dict,
-    "accuracy?": ACCURACY | {"segments?": [ACCURACY | {"segment": int}], "truth_file?": str,
-                             "normalised_error_squared?": NORMALISED | {"poses": int}, "consistency?": [LENGTHS]}}
-
 REQUIRED_COLUMNS = ("stamp_s", "status", "new_key_rig", "latency_ms", "edges_left", "edges_right", "stereo_edges",
                     "quads", "inliers")
 
@@ -186,9 +158,6 @@ def read_run(folder: Path, name: str = "") -> Run:
     if not frames["stamp_s"]:
         raise DamagedResults(f"{folder / 'frames.csv'}: no frame; expected those of a run")
     report = report_of_killed(folder, frames) if killed else read_json(folder / "report.json", "the report of a run")
-    problem = "" if killed else misfit(report, REPORT, "report")
-    if problem:
-        raise DamagedResults(f"{folder / 'report.json'}: {problem}; expected the report of a run")
     estimate = read_tum(folder / "trajectory.txt", may_be_cut=killed)
     truth = read_tum(folder / "groundtruth.txt") if (folder / "groundtruth.txt").is_file() else None
     match = first_match(estimate, truth) if truth else None
@@ -198,8 +167,9 @@ def read_run(folder: Path, name: str = "") -> Run:
         before, estimate = estimate, aligned(estimate, truth)
         turn = estimate.rotations[match[0]] @ before.rotations[match[0]].T
         edges = (edges - before.positions[match[0]]) @ turn.T + estimate.positions[match[0]]
-    run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None,
-              edges=edges)
+    with expecting("the report of a run", folder / "report.json"):
+        run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None,
+                  edges=edges)
     if (folder / "errors.csv").is_file() and match:
         run.errors = Errors.of(read_columns(folder / "errors.csv"), folder / "errors.csv")
     if (folder / "poses.csv").is_file():

@@ -3,16 +3,17 @@
 from pathlib import Path
 
 from .advice import notices
+from .error_tables import accuracy_table, segment_tables
 from .figure import FEWEST_FRAMES
-from .latency import latency_figures, slow_texts
+from .latency import latency_figures
 from .numbers import DASH, length_text, share_of, significant
 from .origin import device_text, origin
 from .page import Columns, Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
 from .results import Run
 from .rig_figures import finds_something, rig_figures, rig_table
-from .run_tables import (accuracy_table, configuration_table, consistency_tables, consistency_texts, latency_table,
-                         loss_tables, segment_tables, stage_table)
-from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
+from .run_tables import (configuration_table, consistency_tables, consistency_texts, latency_table, loss_tables,
+                         stage_table)
+from .sequence_figures import error_figures, frame_figures, trajectory_figures
 
 QUADS_CAPTION = ("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame "
                  "that they were matched with, white for inliers, red for others, one per cell of 16 px.")
@@ -95,7 +96,7 @@ def tiles_of(run: Run) -> list[Tile]:
 
 def overview(run: Run, picture: Picture | None, detail: Detail) -> list:
     """The path from above beside a picture."""
-    figures = [figure for figure in trajectory_figures(run, [], detail.points) if figure.name.endswith("_from_above")]
+    figures = [figure for figure in trajectory_figures(run, detail.points) if figure.name.endswith("_from_above")]
     both = [*([Figures(figures)] if figures else []), *([Pictures([picture], wide=True)] if picture else [])]
     if not figures:
         both.append(NO_PLOTS)
@@ -126,17 +127,17 @@ def best_picture(run: Run, detail: Detail) -> tuple[Path | None, Picture | None]
 
 def plot_sections(run: Run, detail: Detail) -> list[Section]:
     """Path, errors with their tables, time and edges of a run; its tables alone if it has few frames."""
-    space = [figure for figure in trajectory_figures(run, [], detail.points)
+    space = [figure for figure in trajectory_figures(run, detail.points)
              if not figure.name.endswith("_from_above")]
     world = "Shown in the frame of the first left camera" + (" that has ground truth." if run.truth else ".")
-    errors = error_figures(run, [], detail.points)
+    errors = error_figures(run, detail.points)
     shown = [Figures(errors, "Origin-aligned: the first poses coincide. Grey: the standard deviation that the "
                              "covariances predict; errors should mostly lie within twice that.")] if errors else []
     sections = [Section("Path", [Figures(space, world)], explained="reference.md#points")] if space else []
     if "accuracy" in run.report:
         accuracy = run.report["accuracy"]
-        sections.append(Section("Errors", [*shown, Columns([accuracy_table(run.name, accuracy),
-                                                            *segment_tables(accuracy)])], explained="accuracy.md"))
+        sections.append(Section("Errors", [*shown, accuracy_table(accuracy), *segment_tables(accuracy)],
+                                explained="accuracy.md"))
         tables = consistency_tables(accuracy)
         if tables:
             texts = [Text(text) for text in consistency_texts(accuracy)]
@@ -144,7 +145,7 @@ def plot_sections(run: Run, detail: Detail) -> list[Section]:
                                     explained="accuracy.md#consistency-of-the-covariances"))
     time = latency_figures(run, detail.points)
     tables = [latency_table(run), *filter(lambda table: table.rows, [stage_table(run.report)])]
-    sections.append(Section("Time", [*([Figures(time)] if time else []), *map(Text, slow_texts(run)), Columns(tables)],
+    sections.append(Section("Time", [*([Figures(time)] if time else []), Columns(tables)],
                             explained="performance.md"))
     counts = frame_figures(run, detail.points)
     if counts:
@@ -192,12 +193,12 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     return facts
 
 
-def plots(run: Run, others: list[Other], detail: Detail) -> list[tuple[str, list]]:
+def plots(run: Run, detail: Detail) -> list[tuple[str, list]]:
     """Path, errors and frames of a member of a batch, each with its name; nothing for a run of few frames."""
     world = "In the frame of the first left camera" + (" with ground truth, origin-aligned." if run.truth else ".")
     frames = [*frame_figures(run, detail.points), *latency_figures(run, detail.points)]
-    blocks = [("Path", trajectory_figures(run, others, detail.points), world),
-              ("Errors", error_figures(run, others, detail.points), "Errors against the ground truth, origin-aligned."),
+    blocks = [("Path", trajectory_figures(run, detail.points), world),
+              ("Errors", error_figures(run, detail.points), "Errors against the ground truth, origin-aligned."),
               ("Frames", frames, "")]
     return [(name, [Figures(figures, caption)]) for name, figures, caption in blocks if figures]
 

@@ -1,6 +1,5 @@
 """The tables of a run's page."""
 
-from .error_tables import ERRORS, ErrorRow, unit_of
 from .numbers import count, length_unit, significant
 from .results import Run
 from .table import Cell, Table
@@ -34,46 +33,6 @@ def latency_table(run: Run) -> Table:
     return table
 
 
-def accuracy_table(name: str, accuracy: dict) -> Table:
-    """The errors in both alignments, below one another."""
-    row = ErrorRow(name, "QuadEdge", accuracy)
-    table = Table("errors", "Errors against the ground truth", ["alignment", "error", "unit", "mean", "std", "rmse",
-                                                                "max"], text_columns=3)
-    for alignment, text in (("origin_aligned", "origin"), ("se3_aligned", "SE(3)")):
-        for key, name in ERRORS:
-            unit = unit_of(key, [row], alignment)
-            table.add(text if key == ERRORS[0][0] else Cell("", text), name, unit.name,
-                      *[Cell.of(accuracy[alignment][key][statistic], factor=unit.factor)
-                        for statistic in ("mean", "std", "rmse", "max")])
-    table.notes.append("APE: absolute pose error. RPE: relative pose error from frame to frame. Origin: the first "
-                       "compared poses coincide; SE(3): least squares over all positions, without a scale.")
-    if accuracy.get("se3_open_rotation"):
-        table.notes.append(f"SE(3): no APE rotation, {accuracy['se3_open_rotation']}.")
-    return table
-
-
-def segment_tables(accuracy: dict) -> list[Table]:
-    """The errors of every segment by itself; none for a single one."""
-    segments = accuracy.get("segments", [])
-    if not segments:
-        return []
-    rows = [ErrorRow("", "", segment) for segment in segments]
-    units = [unit_of(key, rows, "origin_aligned") for key, _ in ERRORS]
-    path = length_unit([segment["path_length_m"] for segment in segments])
-    table = Table("segments", "Mean errors of every segment by itself, origin-aligned",
-                  ["segment", "poses", f"path [{path.name}]", "drift [%]",
-                   *[f"{name} [{unit.name}]" for (_, name), unit in zip(ERRORS, units)]], text_columns=1)
-    for segment in segments:
-        values = [segment["path_length_m"], segment["end_drift_percent"]]
-        values += [segment["origin_aligned"][key]["mean"] for key, _ in ERRORS]
-        factors = [path.factor, 1, *[unit.factor for unit in units]]
-        several = segment["matched_poses"] > 1
-        table.add(str(segment["segment"]), segment["matched_poses"],
-                  *[Cell.of(value if several else None, factor=factor) for value, factor in zip(values, factors)])
-    table.notes.append("The motions between segments are unknown; the table above includes them.")
-    return [table]
-
-
 def consistency_texts(accuracy: dict) -> list[str]:
     """What NEES is, and what that of the run says."""
     texts = ["NEES, the normalised estimation error squared per degree of freedom, compares each error with its "
@@ -105,10 +64,11 @@ def consistency_tables(accuracy: dict) -> list[Table]:
     steps = accuracy.get("consistency", [])
     if steps:
         unit = length_unit(step[key] for step in steps for key in ("error_m", "promised_m"))
+        position = f"position [{unit.name}]"
         promises = Table("promises", "Motions over several frames: RMS of errors and predicted deviations, and NEES",
-                         ["frames", "motions", *["error", "predicted"] * 2, "edges alone", "with calibration"],
-                         text_columns=0)
-        promises.groups = [("motions over", 2), (f"position [{unit.name}]", 2), ("rotation [deg]", 2), ("NEES", 2)]
+                         [("motions over", "frames"), ("motions over", "motions"), (position, "error"),
+                          (position, "predicted"), ("rotation [deg]", "error"), ("rotation [deg]", "predicted"),
+                          ("NEES", "edges alone"), ("NEES", "with calibration")], text_columns=0)
         for step in steps:
             promises.add(step["frames"], Cell(count(step["motions"]), step["motions"]),
                          *[Cell.of(step[key], 3, unit.factor) for key in ("error_m", "promised_m")],
@@ -147,5 +107,3 @@ def configuration_table(content: dict) -> Table:
             text = str(value).lower() if isinstance(value, bool) else str(value)
             table.add(Cell(key, bold=key in changed), Cell(text, bold=key in changed))
     return table
-
-

@@ -5,21 +5,13 @@ import numpy as np
 from .figure import FEWEST_FRAMES, GREY, Figure, every, thinned
 from .latency import TIME
 from .numbers import DEGREE, Unit, length_unit, significant
-from .results import Errors, Run, Trajectory, is_lost
+from .results import Run, Trajectory, is_lost
 
 MAP_STYLE, CLOSURE_STYLE = 4, 6  # segments have the styles below
 EDGES = 8  # points of edges in space per point of a curve
 AROUND = (1, 99)  # percentiles of the edges that the plot in space shows
 PREDICTED = 1.5  # largest error in the plot that the band of predicted ones may stretch it to
 MOST_KEY_RIGS = 0.4  # of the frames, to be marked
-STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
-
-
-class Other:
-    """The trajectory of another system on the same sequence, in the same world frame."""
-
-    def __init__(self, name: str, poses: Trajectory, errors: Errors | None):
-        self.name, self.poses, self.errors = name, poses, errors
 
 
 def _key_rig_stamps(run: Run) -> np.ndarray:
@@ -33,7 +25,7 @@ def _at(stamps: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return np.nonzero(np.isin(np.round(stamps, 6), np.round(wanted, 6)))[0]
 
 
-def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, str]]:
+def _paths(run: Run) -> list[tuple[str, Trajectory, int, str]]:
     """Name, poses, style and line style of every trajectory, starting with the ground truth."""
     paths = [("ground truth", run.truth, GREY, "dash")] if run.truth else []
     for segment, indices in run.segments():
@@ -41,7 +33,7 @@ def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, st
         paths.append((name, run.estimate.part(indices), segment % MAP_STYLE, "solid"))
     if run.corrected:
         paths.append(("QuadEdge, loops closed", run.corrected, MAP_STYLE, "solid"))
-    return paths + [(other.name, other.poses, 1 + n % 4, "") for n, other in enumerate(others)]
+    return paths
 
 
 def _closures(run: Run) -> np.ndarray:
@@ -67,12 +59,11 @@ def _around(edges: np.ndarray, path: np.ndarray, limit: int) -> np.ndarray:
     return inside[every(len(inside), limit)]
 
 
-def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """The trajectory in 3D among edges, from above and from the side; for a straight path also its deviation from a
-    line."""
+def trajectory_figures(run: Run, points: int) -> list[Figure]:
+    """The trajectory in 3D among edges, from above and from the side."""
     if run.count() < FEWEST_FRAMES or len(run.estimate) < 2:
         return []
-    paths = _paths(run, others)
+    paths = _paths(run)
     unit = length_unit(np.concatenate([path.positions.ravel() for _, path, _, _ in paths]))
     name = unit.name
     labels = {"x": f"x to the right [{name}]", "y": f"-y upward [{name}]", "z": f"z forward [{name}]"}
@@ -102,60 +93,28 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
     if len(lines):
         x, y, z = (lines * unit.factor).T
         above.add("closures", x, z, style=CLOSURE_STYLE, dash="dot")
-    return [space, above, side, *_deviation(run, others, points)]
+    return [space, above, side]
 
 
-def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """For a nearly straight path, its lateral and vertical deviation from a straight line; otherwise nothing."""
-    base = (run.truth or run.estimate).positions
-    centre = base.mean(axis=0)
-    extents, axes = np.linalg.eigh(np.cov((base - centre).T))
-    if not extents[2] > 0 or np.sqrt(max(extents[1], 0) / extents[2]) > STRAIGHT:
-        return []
-    along = axes[:, 2] * (1 if axes[:, 2] @ (base[-1] - base[0]) >= 0 else -1)
-    right = np.cross([0.0, 1.0, 0.0], along)  # y points down
-    if np.linalg.norm(right) < 0.1:
-        return []
-    right /= np.linalg.norm(right)
-    up = np.cross(right, along)
-    up = up if up[1] < 0 else -up
-    paths = _paths(run, others)
-    unit = length_unit(np.concatenate([(path.positions - centre) @ np.stack([right, up], 1) for _, path, _, _ in paths])
-                       .ravel())
-    figures = []
-    for key, title, axis in (("lateral", "Beside the straight line, to the right", right),
-                             ("vertical", "Above the straight line", up)):
-        figure = Figure(f"{run.name}_{key}_deviation", title, "distance along the line [m]", f"deviation [{unit.name}]")
-        for text, path, style, dash in paths:
-            way, off = (path.positions - base[0]) @ along, (path.positions - base[0]) @ axis * unit.factor
-            figure.add(text, *thinned(way, off, points), style=style, dash=dash)
-        figures.append(figure)
-    return figures
-
-
-def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
+def error_figures(run: Run, points: int) -> list[Figure]:
     """Absolute errors, above bands of the deviations that the covariances predict, and errors per frame."""
     if not run.errors or run.count() < FEWEST_FRAMES:
         return []
-    systems = [("QuadEdge", run.errors, 0)]
-    systems += [(other.name, other.errors, 1 + n % 4) for n, other in enumerate(others) if other.errors]
     figures = []
     for key, title, quantity in (("ape_translation_m", "Position error (APE)", "APE translation"),
                                  ("ape_rotation_deg", "Orientation error (APE)", "APE rotation"),
                                  ("rpe_translation_m", "Position error per frame (RPE)", "RPE translation"),
                                  ("rpe_rotation_deg", "Orientation error per frame (RPE)", "RPE rotation")):
-        values = np.concatenate([getattr(errors, key) for _, errors, _ in systems])
+        values = getattr(run.errors, key)
         unit = length_unit(values) if key.endswith("_m") else DEGREE
         figure = Figure(f"{run.name}_{key.rsplit('_', 1)[0]}", title, TIME, f"{quantity} [{unit.name}]")
-        for text, errors, style in systems:
-            figure.add(text, *thinned(errors.stamps - run.start, getattr(errors, key) * unit.factor, points),
-                       style=style)
+        figure.add("QuadEdge", *thinned(run.errors.stamps - run.start, values * unit.factor, points))
         if key in run.predicted:
             _add_predicted(figure, run, key, unit, points, float(np.nanmax(values, initial=0)) * unit.factor)
         rigs = _at(run.errors.stamps, _key_rig_stamps(run))
         rigs = rigs[every(len(rigs), points)]
         figure.add("new keyframe", run.errors.stamps[rigs] - run.start,
-                   getattr(run.errors, key)[rigs] * unit.factor, style=2, points=True)
+                   values[rigs] * unit.factor, style=2, points=True)
         figures.append(figure)
     return figures
 

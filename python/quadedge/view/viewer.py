@@ -27,14 +27,16 @@ def _rerun():
 
 def _colours_of(depth: numpy.ndarray) -> numpy.ndarray:
     """(N, 3) uint8: colours from yellow (near) to blue (far) by inverse depth, grey without one. depth: (N,) [m]."""
-    import matplotlib
+    from plotly import colors
 
     inverse = 1 / numpy.where(depth > 0, depth, numpy.nan)
     if not numpy.isfinite(inverse).any():
         return numpy.full((len(depth), 3), 128, numpy.uint8)
     low, high = numpy.nanquantile(inverse, [0.02, 0.98])
     place = numpy.clip((inverse - low) / max(high - low, 1e-9), 0, 1)
-    colours = matplotlib.colormaps["cividis"](numpy.nan_to_num(place), bytes=True)[:, :3]
+    stops = numpy.array([colors.hex_to_rgb(stop) for stop in colors.sequential.Cividis])
+    at = numpy.linspace(0, 1, len(stops))
+    colours = numpy.stack([numpy.interp(numpy.nan_to_num(place), at, stop) for stop in stops.T], 1).astype(numpy.uint8)
     colours[~numpy.isfinite(inverse)] = 128
     return colours
 

@@ -1,6 +1,5 @@
 #pragma once
-/// \file eth3d_slam.hpp  Writes rendered sequences in the layout of ETH3D's SLAM benchmark. data/layout.hpp declares
-/// its reader.
+/// \file sequence_writer.hpp  Writes rendered sequences as recordings.
 
 #include <functional>
 #include <string>
