@@ -164,7 +164,7 @@ REPORT = {
     "device?": dict.fromkeys(("name", "platform", "opencl", "driver"), str),
     "memory_mb?": {"host_peak": (int, float), "device_peak": (int, float)},
     "rig?": {"rows": MAPS, "columns": MAPS, "row_correction_px": NUMBER, "width": int, "height": int,
-             "disparity_offset": {"start": OFFSET, "end": OFFSET}},
+             "disparity_offset": {"start": OFFSET, "end": OFFSET}, "disparity_error_px": NUMBER},
     "stages_ms?": STAGES, "kernels_ms?": STAGES, "config?": dict, "config_changed?": dict,
     "accuracy?": ACCURACY | {"segments?": [ACCURACY | {"segment": int}], "truth_file?": str,
                              "normalised_error_squared?": NORMALISED | {"poses": int}, "consistency?": [LENGTHS]}}
