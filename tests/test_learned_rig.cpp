@@ -44,6 +44,24 @@ TEST_CASE("learned rig: what is learned of the offset adds up, and becomes less 
   CHECK(rig.estimate().disparity_offset_sigma == Approx(std::sqrt(0.0002 + 2 * 0.000009)));
 }
 
+TEST_CASE("learned rig: motions show how large disparity errors are, standstill does not", "[rig]") {
+  LearnedRig rig((PoseConfig()));
+  const double prior = rig.estimate().disparity_error;
+  const auto after = [&](int frames, double variance, double information) {
+    pose::PoseAndOffset motion;
+    motion.errors = {variance, information};
+    for (int k = 0; k < frames; ++k) rig.anchored(LearnedRig::refined(rig.estimate(), {}, motion));
+    return rig.estimate().disparity_error;
+  };
+  CHECK(after(100, 2.25, 1.3) == prior);
+  CHECK(after(100, 0.25, 20) == Approx(0.5).margin(0.03));
+  CHECK(after(1, 4, 20) == Approx(0.5).margin(0.03));  // a single motion shows little
+  rig.restart();
+  CHECK(rig.estimate().disparity_error == prior);
+  CHECK(after(10, -0.02, 50) < 0.05);   // by chance, quads may scatter less where a disparity error would show
+  CHECK(after(1000, 0.36, 100) > 0.4);  // the rig has been hit
+}
+
 TEST_CASE("learned rig: switched off, it keeps the configured value", "[rig]") {
   PoseConfig config;
   config.disparity_offset = -0.4;
@@ -99,6 +117,6 @@ TEST_CASE("learned rig: the first displaced images have to be clear, and a rigid
   for (int frame = 0; frame < 2; ++frame) CHECK(rig.anchored(displaced(2, 0.1)).displacement != 0);
   CHECK(rig.displacement_limits().least < strict.least);
   CHECK(rig.displacement_limits().gain < strict.gain);
-  rig.forget_displacements();
+  rig.restart();
   CHECK(rig.displacement_limits().least == strict.least);
 }

@@ -19,32 +19,35 @@ struct Expected {
   double cost = 0, depth = 0;
 };
 
-/// One quad's contribution from reprojection_jacobian(): Gauss-Newton over (pose, offset, depth) with a standard normal
-/// prior on the depth, which the Schur complement eliminates.
+/// One quad's contribution from reprojection_jacobian(): Gauss-Newton over (pose, offset, depth, error of its own
+/// disparities) with normal priors on the last two, which the Schur complement eliminates.
 std::optional<Expected> contribution(const ReprojectionTerm& term, const quadedge::PinholeCamera& left,
                                      const Eigen::Isometry3d& pose, double offset, double depth,
                                      const StudentWeights& weights) {
   ReprojectionJacobian linear;
   if (!reprojection_jacobian(term, left, pose, depth, linear)) return std::nullopt;
-  Eigen::Matrix<double, 4, 8> jacobian = Eigen::Matrix<double, 4, 8>::Zero();
-  jacobian.topRows<3>() << linear.by_pose, linear.by_offset, linear.by_depth;
-  jacobian(3, 7) = 1;
-  Eigen::Vector4d residual;
-  residual << linear.value + linear.by_offset * offset, depth;
-  const Eigen::Matrix<double, 8, 8> normal = jacobian.transpose() * jacobian;
-  const Eigen::Matrix<double, 8, 1> gradient = jacobian.transpose() * residual;
+  const double sigma = std::sqrt(term.disparity_variance);
+  Eigen::Matrix<double, 5, 9> jacobian = Eigen::Matrix<double, 5, 9>::Zero();
+  jacobian.topRows<3>() << linear.by_pose, linear.by_offset, linear.by_depth, linear.by_offset * sigma;
+  jacobian.bottomRightCorner<2, 2>().setIdentity();
+  Eigen::Matrix<double, 5, 1> residual;
+  residual << linear.value + linear.by_offset * offset, depth, 0;
+  const Eigen::Matrix<double, 9, 9> normal = jacobian.transpose() * jacobian;
+  const Eigen::Matrix<double, 9, 1> gradient = jacobian.transpose() * residual;
+  const Eigen::Matrix2d inverse = normal.bottomRightCorner<2, 2>().inverse();
+  const Eigen::Vector2d step = inverse * gradient.tail<2>();
   Expected result;
-  result.depth = depth - gradient(7) / normal(7, 7);
-  result.cost = residual.squaredNorm() - gradient(7) * gradient(7) / normal(7, 7);
+  result.depth = depth - step(0);
+  result.cost = residual.squaredNorm() - gradient.tail<2>().dot(step);
   const double weight = student_weight(result.cost, weights.scale, kReprojectionSize, weights.dof) / weights.scale;
   result.matrix = weight * (normal.topLeftCorner<7, 7>() -
-                            normal.topRightCorner<7, 1>() * normal.bottomLeftCorner<1, 7>() / normal(7, 7));
-  result.gradient = weight * (gradient.head<7>() - normal.topRightCorner<7, 1>() * (gradient(7) / normal(7, 7)));
+                            normal.topRightCorner<7, 2>() * inverse * normal.bottomLeftCorner<2, 7>());
+  result.gradient = weight * (gradient.head<7>() - normal.topRightCorner<7, 2>() * step);
   return result;
 }
 
 struct ManyQuads {
-  explicit ManyQuads(int quads) {
+  explicit ManyQuads(int quads, double disparity_error = 0.4) : noise(config, disparity_error) {
     generated::Random random(50);
     problem.rig = generated::crooked_rig();
     problem.near = 2;
@@ -63,7 +66,7 @@ struct ManyQuads {
 
   generated::Problem problem;
   quadedge::PoseConfig config;
-  NoiseModel noise{config};
+  NoiseModel noise;
   QuadObservations quads_of;
   Eigen::Isometry3d pose;
   std::vector<std::int32_t> rows;
@@ -120,6 +123,31 @@ TEST_CASE("Sums over reprojection terms equal those of the Jacobians with the de
       }
     }
   }
+}
+
+TEST_CASE("The size of disparity errors is read from the scatter of quads", "[pose][reprojection_terms]") {
+  for (const double size : {0.0, 0.2, 0.6}) {
+    for (const double assumed : {0.0, 0.3}) {
+      ManyQuads scene(20000, assumed);
+      scene.problem.noise = {scene.config.sigma_across, kSigmaAlong, 0.03};
+      QuadObservations quads = generated::generate(scene.problem, 52).quads;
+      quads.scoring.half_length = 0;
+      generated::Random random(53);
+      for (std::size_t i = 0; i < quads.size(); ++i) {
+        const double error = size * random.normal();
+        for (StereoMeasurement* at : {&quads.previous[i], &quads.current[i]})
+          at->inverse_depth += error * at->inverse_depth_per_pixel;
+      }
+      scene.terms.assign(quads, scene.rows, scene.problem.rig.left, scene.noise);
+      for (int round = 0; round < 3; ++round) normal_by_pose(scene.terms, scene.problem.motion, 0, {});
+      const DisparityErrors found = disparity_errors(scene.terms, scene.problem.motion, 0);
+      CAPTURE(size, assumed, found.information);
+      CHECK(found.information > 5);
+      CHECK(found.variance == Approx(size * size).epsilon(0.15).margin(0.01));
+    }
+  }
+  ManyQuads none(1);
+  CHECK(disparity_errors(none.terms, none.pose, 0).information == 0);
 }
 
 TEST_CASE("A quad behind the camera does not count and keeps its depth and error", "[pose][reprojection_terms]") {

@@ -73,6 +73,7 @@ void observe_rig(const StereoOdometry& odometry, const FrameResult& result, repo
   observe_rows(frame, odometry.rig().right, maps);
   if (frame.step == nullptr || !frame.step->ok()) return;
   maps.offset_end = {result.rig.disparity_offset, result.rig.disparity_offset_sigma};
+  maps.disparity_error = result.rig.disparity_error;
   if (!result.new_key_rig) return;
   observe_columns(frame, odometry.rig(),
                   {{0, &maps.columns_before}, {result.rig.disparity_offset, &maps.columns_after}});

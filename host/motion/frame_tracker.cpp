@@ -111,7 +111,7 @@ void FrameTracker::restart() {
   velocity_.forget();
   earlier_.clear();
   keeps_key_ = true;
-  learned_.forget_displacements();
+  learned_.restart();
   lenses_.emplace();
   has_returned_ = was_lost_ = at_start_ = false;
   current_from_last_ = std::nullopt;

@@ -17,8 +17,9 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kReprojectionSize = 3, kDirectionSize = 2;  ///< residuals per block
-/// Medians of the chi-squared distribution with 3 and 2 degrees of freedom.
-constexpr double kReprojectionMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
+/// Medians of the chi-squared distribution with 3, 2 and 1 degrees of freedom.
+constexpr double kReprojectionMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906,
+                 kOffsetMedian = 0.4549364231195724;
 
 /// Applies exp(rotation) and the translation from the left.
 Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);
@@ -123,9 +124,11 @@ struct Eliminated {
   }
 };
 
-/// Contribution of one quad to the normal equations. With M = w G^T P G and b = w G^T P e, where w is its weight and e
+/// Contribution of one quad to the normal equations. With M = w G^T Q G and b = w G^T Q e, where w is its weight and e
 /// its residuals, a perturbation (w, v) of the pose, which moves the homogeneous point y by w x y + rho v, gives
 ///   matrix: [y] M [y]^T, rho [y] M, rho^2 M;   gradient: y x b, rho b.
+/// The quad's own disparity error has the derivative o of a common offset and the variance s^2, so that
+///   Q = P - P o o^T P / (1 / s^2 + o^T P o).
 /// \param term per unit of a ray, see per_ray_unit() \param depth the depth unknown of the quad \param lane of `result`
 template <std::size_t Values, std::size_t Width>
 [[gnu::always_inline]] inline void contribute(const ReprojectionTerm& term, double depth, const Evaluation& at,
@@ -143,29 +146,38 @@ template <std::size_t Values, std::size_t Width>
 
   const Eliminated eliminated(residual);
   const double he = dot(h, e), taken = eliminated.shrink * he;
-  const double cost = dot(e, e) - taken * he;
+  const double ho = dot(h, o), taken_o = eliminated.shrink * ho;
+  // The error of the quad's own disparities is eliminated after its depth.
+  const double oo = dot(o, o) - taken_o * ho, oe = dot(o, e) - taken_o * he;
+  const double left_over = 1.0 / (1.0 + term.disparity_variance * oo), gain = term.disparity_variance * left_over;
+  const double cost = dot(e, e) - taken * he - gain * oe * oe;
   const double in_front_weight =
       student_weight(cost, at.weights.scale, kReprojectionSize, at.weights.dof) / at.weights.scale;
   const double weight = residual.in_front ? in_front_weight : 0.0;
-  result.depth[lane] = residual.in_front ? -taken : depth;
+  result.depth[lane] = residual.in_front ? gain * oe * taken_o - taken : depth;
   result.error[lane] = residual.in_front ? cost : -1.0;
 
-  const Symmetric3 m = weight * eliminated.matrix();
+  const Vector3 g = eliminated.project(o, taken_o);
+  const Symmetric3 a = eliminated.matrix();
+  const Symmetric3 m = weight * Symmetric3{a.xx - gain * g.x * g.x, a.xy - gain * g.x * g.y, a.xz - gain * g.x * g.z,
+                                           a.yy - gain * g.y * g.y, a.yz - gain * g.y * g.z, a.zz - gain * g.z * g.z};
   const Vector3 kx = cross(y, m.column_x()), ky = cross(y, m.column_y()), kz = cross(y, m.column_z());  // [y] M
   const Vector3 turned_x = cross(y, {kx.x, ky.x, kz.x}), turned_y = cross(y, {kx.y, ky.y, kz.y}),
                 turned_z = cross(y, {kx.z, ky.z, kz.z});  // rows of [y] M [y]^T
   const Symmetric3 shifted = rho * rho * m;
-  const Vector3 b = weight * eliminated.project(e, taken), yb = cross(y, b);
+  // Of the residuals without what the error explains, e - gain o^T P e o.
+  const Vector3 b0 = eliminated.project(e, taken), b1 = gain * oe * g;
+  const Vector3 b = weight * Vector3{b0.x - b1.x, b0.y - b1.y, b0.z - b1.z}, yb = cross(y, b);
   result.set(lane, 0, turned_x.x, turned_x.y, turned_x.z, rho * kx.x, rho * ky.x, rho * kz.x,  //
              turned_y.y, turned_y.z, rho * kx.y, rho * ky.y, rho * kz.y,                       //
              turned_z.z, rho * kx.z, rho * ky.z, rho * kz.z,                                   //
              shifted.xx, shifted.xy, shifted.xz, shifted.yy, shifted.yz, shifted.zz,           //
              yb.x, yb.y, yb.z, rho * b.x, rho * b.y, rho * b.z);
   if constexpr (Values == kOffsetValues) {
-    const double ho = dot(h, o), taken_o = eliminated.shrink * ho;
-    const Vector3 c = weight * eliminated.project(o, taken_o), yc = cross(y, c);
+    const double offset_weight = weight * left_over;
+    const Vector3 c = offset_weight * g, yc = cross(y, c);
     result.set(lane, kPoseValues, yc.x, yc.y, yc.z, rho * c.x, rho * c.y, rho * c.z,  //
-               weight * (dot(o, o) - taken_o * ho), weight * (dot(o, e) - taken_o * he));
+               offset_weight * oo, offset_weight * oe);
   }
 }
 

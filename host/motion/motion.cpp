@@ -39,7 +39,7 @@ Refusal MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& 
   motion.inlier.assign(quads.size(), 0);
   if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return Refusal::too_few_quads;
 
-  const Consensus consensus = find_consensus(quads, rig, config, seed, initial, consensus_);
+  const Consensus consensus = find_consensus(quads, rig, config, seed, initial, consensus_, offset.error);
   if (!consensus.found) return Refusal::no_consensus;
 
   motion.current_from_previous = motion.learned.current_from_previous = consensus.current_from_previous;

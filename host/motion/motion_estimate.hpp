@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/uncertain_pose.hpp"
-#include "motion/least_squares.hpp"
+#include "motion/reprojection_terms.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::pose {
@@ -24,13 +24,15 @@ enum class Refusal {
   ambiguous        ///< another motion may be the camera's, and nothing was known of the motion
 };
 
-/// What is known of the disparity offset before a fit. Systematic errors of edges that look like an offset are alike in
-/// all frames of a scene: they are one unknown of unit variance, of which each fit sees a multiple, and do not average
-/// out.
+/// What is known of disparities before a fit: of their common offset, and how far each is off by itself. Systematic
+/// errors of edges that look like an offset are alike in all frames of a scene: they are one unknown of unit variance,
+/// of which each fit sees a multiple, and do not average out.
 struct OffsetPrior {
-  OffsetPrior(double variance_px2 = 0, double shared_px = 0) : variance(variance_px2), shared(shared_px) {}
-  double variance;  ///< [px^2]; 0: disparities are assumed exact
+  OffsetPrior(double variance_px2 = 0, double shared_px = 0, double error_px = 0)
+      : variance(variance_px2), shared(shared_px), error(error_px) {}
+  double variance;  ///< of the offset [px^2]; 0: there is none
   double shared;    ///< covariance with that unknown, which earlier fits have left [px]
+  double error;     ///< see RigEstimate::disparity_error [px]
 };
 
 /// A pose and the disparity offset, with their uncertainties.
@@ -44,6 +46,7 @@ struct PoseAndOffset {
   Vector6d by_offset = Vector6d::Zero();
   double offset_variance = 0;  ///< [px^2], including the prior
   double offset_shared = 0;    ///< see OffsetPrior
+  DisparityErrors errors;      ///< of single disparities
 };
 
 /// Motion between two rigs, estimated from their quads.

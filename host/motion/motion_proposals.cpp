@@ -62,8 +62,9 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
   // A displacement that is not known exactly is that of both frames, as one is measured against the other.
   const double offset = query.rig.disparity_offset_sigma, displacement = step.base->rig().displacement_sigma;
   const double sigma = offset > 0 ? std::hypot(offset, displacement) : 0;
-  step.verdict.refusal = estimator_.estimate(calibration(query), step.quads, limits, query.seed, initial,
-                                             {sigma * sigma, query.rig.disparity_offset_shared}, step.motion, goal);
+  const pose::OffsetPrior prior(sigma * sigma, query.rig.disparity_offset_shared, query.rig.disparity_error);
+  step.verdict.refusal =
+      estimator_.estimate(calibration(query), step.quads, limits, query.seed, initial, prior, step.motion, goal);
   lend_measurements();
   pose_ms_ += milliseconds_since(start);
 }

@@ -34,8 +34,8 @@ void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_
 class Search {
  public:
   Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
-         ConsensusWorkspace& workspace)
-      : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), work_(workspace) {
+         ConsensusWorkspace& workspace, double disparity_error)
+      : quads_(quads), rig_(rig), config_(config), noise_(config, disparity_error), random_(seed), work_(workspace) {
     const std::size_t scored = kScoringQuads, preview = kPreviewQuads;
     if (config.scoring_cell > 0) {
       balanced_subset(random_, quads.scoring, config.scoring_cell, scored, work_.subset, work_.scored_rows);
@@ -192,8 +192,8 @@ class Search {
 
 Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                          std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
-                         ConsensusWorkspace& workspace) {
-  return Search(quads, rig, config, seed, workspace).run(initial);
+                         ConsensusWorkspace& workspace, double disparity_error) {
+  return Search(quads, rig, config, seed, workspace, disparity_error).run(initial);
 }
 
 }  // namespace quadedge::pose

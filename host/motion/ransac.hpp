@@ -56,9 +56,10 @@ struct ConsensusWorkspace {
 /// config.local_optimisation_widening times to config.inlier_distance, and compared over kScoringQuads. The
 /// search ends after kConfidence, max_hypotheses or max_draws; rejected draws count.
 /// \param seed seed of all random numbers; the same seed gives identical bits
+/// \param disparity_error see RigEstimate [px]
 /// \param initial a hypothesis that is scored first (a predicted or frame-to-frame pose), current_from_previous
 Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                          std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
-                         ConsensusWorkspace& workspace);
+                         ConsensusWorkspace& workspace, double disparity_error = 0);
 
 }  // namespace quadedge::pose

@@ -117,12 +117,18 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
 /// State of one run of refine().
 class Refinement {
  public:
-  Refinement(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, RefinementWorkspace& work,
-             MotionEstimate& motion)
-      : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), motion_(motion) {}
+  Refinement(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, const OffsetPrior& offset,
+             RefinementWorkspace& work, MotionEstimate& motion)
+      : quads_(quads),
+        rig_(rig),
+        config_(config),
+        noise_(config, offset.error),
+        offset_(offset),
+        work_(work),
+        motion_(motion) {}
 
   /// Returns whether the last fit had a solution.
-  bool run(const OffsetPrior& offset, RefinementGoal goal) {
+  bool run(RefinementGoal goal) {
     motion_.offset = 0;
     motion_.learned = {};
     // Every n-th quad is used to find the pose, all quads to refine it.
@@ -132,13 +138,15 @@ class Refinement {
     if (is_measured && every > 1) {
       select(1);
       take_selected();
-      if (!(offset.variance > 0)) fit(true);  // with the offset, the final fit follows
+      if (!(offset_.variance > 0)) fit(true);  // with the offset, the final fit follows
     }
-    if (!is_measured || !(offset.variance > 0 && find_offset(offset))) {
-      if (is_measured && offset.variance > 0 && every > 1) fit(true);
+    if (!is_measured || !(offset_.variance > 0 && find_offset())) {
+      if (is_measured && offset_.variance > 0 && every > 1) fit(true);
       if (is_measured && solved_) motion_.learned.covariance = covariance_at(0).inflated();
       motion_.learned.current_from_previous = motion_.current_from_previous;
     }
+    if (is_measured && solved_)
+      motion_.learned.errors = disparity_errors(work_.terms, motion_.current_from_previous, motion_.offset);
     find_inliers();
     return solved_;
   }
@@ -180,13 +188,13 @@ class Refinement {
   }
 
   /// Returns false, with the pose unchanged, if the fit with the offset has no solution.
-  bool find_offset(const OffsetPrior& prior) {
+  bool find_offset() {
     const auto fit_both = [&](const MeasuredCovariance& covariance) {
       PoseAndOffset free;
       free.current_from_previous = motion_.current_from_previous;
       free.offset = motion_.offset;
       const auto learned =
-          fit_offset(config_, covariance, prior, work_.reprojection_scale, rig_.left.fx, work_.terms, free);
+          fit_offset(config_, covariance, offset_, work_.reprojection_scale, rig_.left.fx, work_.terms, free);
       if (!learned) return false;
       motion_.current_from_previous = free.current_from_previous;
       motion_.offset = free.offset;
@@ -209,6 +217,7 @@ class Refinement {
   const StereoRig& rig_;
   const PoseConfig& config_;
   const NoiseModel noise_;
+  const OffsetPrior& offset_;
   RefinementWorkspace& work_;
   MotionEstimate& motion_;
   bool solved_ = false;  ///< whether the last fit had a solution
@@ -242,7 +251,7 @@ std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const Measured
 
 bool refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, const OffsetPrior& offset,
             RefinementWorkspace& workspace, MotionEstimate& motion, RefinementGoal goal) {
-  return Refinement(quads, rig, config, workspace, motion).run(offset, goal);
+  return Refinement(quads, rig, config, offset, workspace, motion).run(goal);
 }
 
 }  // namespace quadedge::pose

@@ -1,6 +1,8 @@
 /// \file reprojection_terms.cpp  Evaluates quads in vector lanes and adds up their equations in blocks of rows.
 #include "motion/reprojection_terms.hpp"
 
+#include <algorithm>
+
 #include "common/parallel.hpp"
 
 namespace quadedge::pose {
@@ -58,6 +60,14 @@ QUADEDGE_VECTOR_CLONES
 void evaluate_few(const Columns& columns, const double* depth, std::size_t first, const Evaluation& at,
                   LaneContributions& result) {
   LaneContributions lanes;
+  evaluate_lanes(columns, depth + first, first, at, lanes);
+  result = lanes;
+}
+
+QUADEDGE_VECTOR_CLONES
+void evaluate_few_with_offset(const Columns& columns, const double* depth, std::size_t first, const Evaluation& at,
+                              Contributions<kOffsetValues, kLanes>& result) {
+  Contributions<kOffsetValues, kLanes> lanes;
   evaluate_lanes(columns, depth + first, first, at, lanes);
   result = lanes;
 }
@@ -124,6 +134,44 @@ Normal<7> normal_by_pose_and_offset(ReprojectionTerms& terms, const Eigen::Isome
   normal.matrix(6, 6) = sums.values[kPoseValues + 6];
   normal.gradient(6) = sums.values[kPoseValues + 7];
   return normal;
+}
+
+DisparityErrors disparity_errors(const ReprojectionTerms& terms, const Eigen::Isometry3d& current_from_previous,
+                                 double offset) {
+  constexpr double kEqualWeights = 1e12;  // degrees of freedom
+  const Columns columns(terms);
+  const Evaluation at(current_from_previous, offset, {1, kEqualWeights});
+  struct Quad {
+    double information, by_offset, others;
+  };
+  std::vector<Quad> quads;
+  const std::size_t every = std::max<std::size_t>(1, terms.size() / kScaleErrors) * kLanes;
+  for (std::size_t first = 0; first + kLanes <= terms.size(); first += every) {
+    Contributions<kOffsetValues, kLanes> lanes;
+    evaluate_few_with_offset(columns, terms.depth.data(), first, at, lanes);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double seen = lanes.values[kPoseValues + 6][k], gradient = lanes.values[kPoseValues + 7][k];
+      const double left_over = 1 - terms.column(ReprojectionTerms::kColumns - 1)[first + k] * seen;
+      if (!(seen > 0) || !(left_over > 0)) continue;
+      // o'P o and o'P e of least_squares.hpp; the cost lacks what the quad's own error explains.
+      const double information = seen / left_over,
+                   by_offset = gradient / left_over * (gradient / left_over) / information;
+      quads.push_back({information, by_offset, lanes.error[k] - by_offset * left_over});
+    }
+  }
+  if (quads.size() < 2) return {};
+  const auto upper = quads.begin() + static_cast<std::ptrdiff_t>(quads.size() / 2);
+  const auto median = [&](double Quad::*of) {
+    const auto middle = upper + (quads.end() - upper) / 2;
+    std::nth_element(upper, middle, quads.end(), [&](const Quad& a, const Quad& b) { return a.*of < b.*of; });
+    return (*middle).*of;
+  };
+  std::nth_element(quads.begin(), upper, quads.end(),
+                   [](const Quad& a, const Quad& b) { return a.information < b.information; });
+  const double noise = median(&Quad::others) / kDirectionMedian, by_offset = median(&Quad::by_offset) / kOffsetMedian;
+  if (!(noise > 0)) return {};
+  const double information = median(&Quad::information) / noise;
+  return {(by_offset / noise - 1) / information, information};
 }
 
 void contributions_by_pose(const ReprojectionTerms& terms, const Evaluation& at, std::size_t first,

@@ -47,6 +47,17 @@ Normal<6> normal_by_pose(ReprojectionTerms& terms, const Eigen::Isometry3d& curr
 Normal<7> normal_by_pose_and_offset(ReprojectionTerms& terms, const Eigen::Isometry3d& current_from_previous,
                                     double offset, const StudentWeights& weights);
 
+/// Errors that the calibration leaves in disparities, as quads show them.
+struct DisparityErrors {
+  double variance = 0;     ///< of the error that a quad's disparities at both times share [px^2]; may be negative
+  double information = 0;  ///< of a single quad about that error, beyond its pose and depth [1/px^2]
+};
+
+/// The errors that explain by how much the residuals scatter more where a disparity error would show than elsewhere:
+/// medians over the half of about kScaleErrors quads that tell most. \param offset [px] as found with the pose
+DisparityErrors disparity_errors(const ReprojectionTerms& terms, const Eigen::Isometry3d& current_from_previous,
+                                 double offset);
+
 /// Contributions of each of kLanes quads to normal_by_pose().
 using LaneContributions = Contributions<kPoseValues, kLanes>;
 

@@ -13,10 +13,17 @@ namespace {
 /// uniform distribution.
 constexpr double kSliding = 0.57735027;
 
+/// Errors that the calibration leaves in the disparities of neighbouring edges are alike and do not average out as
+/// those of independent ones would; they count so much more.
+constexpr double kAlikeErrors = 1.5;
+
 }  // namespace
 
-NoiseModel::NoiseModel(const PoseConfig& config)
-    : across(config.sigma_across), along(kSigmaAlong), direction(kSigmaDirection) {}
+NoiseModel::NoiseModel(const PoseConfig& config, double disparity_px)
+    : across(config.sigma_across),
+      along(kSigmaAlong),
+      disparity(kAlikeErrors * disparity_px),
+      direction(kSigmaDirection) {}
 
 double NoiseModel::on_epipolar_line(double epipolar_sine) const {
   const double by_across = epipolar_sine / across;
@@ -52,6 +59,7 @@ ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size
   term.current_inverse_depth = current.inverse_depth;
   term.current_inverse_depth_weight =
       1.0 / (current.inverse_depth_per_pixel * noise.on_epipolar_line(current.epipolar_sine));
+  term.disparity_variance = noise.disparity * noise.disparity / (scale * scale);
   return term;
 }
 

@@ -17,8 +17,10 @@ namespace quadedge::pose {
 
 /// Standard deviations of an edge's measurement.
 struct NoiseModel {
-  explicit NoiseModel(const PoseConfig& config);
+  /// \param disparity_px see `disparity`
+  explicit NoiseModel(const PoseConfig& config, double disparity_px = 0);
   double across, along;  ///< of an edge's position across and along itself [px]
+  double disparity;      ///< of the error that a quad's disparities at both times share, left by the calibration [px]
   /// Standard deviation along an edge that represents `half_length` px of its curve to both sides, relative to the same
   /// point at another time. \param scale factor by which the other standard deviations are wrong; this one is exact [1]
   double along_in_time(double half_length, double scale) const;
@@ -48,13 +50,14 @@ struct ReprojectionTerm {
   double along_x, along_y;       ///< unit tangent, divided by its sigma [1/px]
   double current_inverse_depth;  ///< as measured [1/m]
   double current_inverse_depth_weight;  ///< 1 / its standard deviation [m]
+  double disparity_variance;            ///< of the error that the disparities at both times share [px^2]
 
   template <class Self>
   [[gnu::always_inline]] static auto members(Self& self) {
     return std::tie(self.ray_x, self.ray_y, self.inverse_depth, self.inverse_depth_sigma, self.inverse_depth_per_pixel,
                     self.current_inverse_depth_per_pixel, self.current_x, self.current_y, self.scale_shift_x,
                     self.scale_shift_y, self.across_x, self.across_y, self.along_x, self.along_y,
-                    self.current_inverse_depth, self.current_inverse_depth_weight);
+                    self.current_inverse_depth, self.current_inverse_depth_weight, self.disparity_variance);
   }
 };
 

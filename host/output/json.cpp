@@ -60,7 +60,8 @@ Json rig_json(const RigMaps& maps) {
           {"row_correction_px", maps.row_correction},
           {"width", maps.width},
           {"height", maps.height},
-          {"disparity_offset", {{"start", offset(maps.offset_start)}, {"end", offset(maps.offset_end)}}}};
+          {"disparity_offset", {{"start", offset(maps.offset_start)}, {"end", offset(maps.offset_end)}}},
+          {"disparity_error_px", maps.disparity_error}};
 }
 
 Json loops_json(const LoopFacts& loops) {

@@ -131,6 +131,7 @@ CsvRow frames_row(int number, const FrameResult& result) {
   row.add("new_key_rig", result.new_key_rig ? 1 : 0);
   row.add("edge_threshold", rounded("%.4g", result.diagnostics.edge_threshold));
   row.add("disparity_range", rounded("%.4g", result.diagnostics.disparity_range));
+  row.add("disparity_error", rounded("%.3f", result.rig.disparity_error));
   for (const auto& [name, count] : named_counts(result.counts)) row.add(name, count);
   row.add("matched_ratio", rounded("%.4g", result.diagnostics.rig_evidence.matched_ratio));
   row.add("epipolar_residual", rounded("%.4g", result.diagnostics.rig_evidence.epipolar_residual));

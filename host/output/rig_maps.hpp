@@ -51,6 +51,7 @@ struct RigMaps {
   };
   CellMap rows_before, rows_after, columns_before, columns_after;
   Offset offset_start, offset_end;  ///< of all disparities
+  double disparity_error = 0;       ///< see RigEstimate
   double row_correction = 0;        ///< largest distance that the search of the last frame allowed for
   double frames = 0;                ///< that the learned rows rest on
   int width = 0, height = 0;        ///< of the right image

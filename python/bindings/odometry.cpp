@@ -309,6 +309,9 @@ void bind_result(nb::module_& module) {
           "disparity_offset_sigma", [](const Self& self) { return self.rig.disparity_offset_sigma; },
           "Its standard deviation [px].")
       .def_prop_ro(
+          "disparity_error", [](const Self& self) { return self.rig.disparity_error; },
+          "How good the calibration is: standard deviation of the errors that it leaves in disparities [px].")
+      .def_prop_ro(
           "displacement", [](const Self& self) { return self.rig.displacement; },
           "By how much the right image of this frame alone is displaced along the epipolar lines, so that its\n"
           "disparities are larger [px]; 0 for most frames.")

@@ -55,7 +55,7 @@ inline auto members(RectificationError& self) {
 }
 inline auto members(RigEstimate& self) {
   return std::tie(self.rows, self.disparity_offset, self.disparity_offset_sigma, self.disparity_offset_shared,
-                  self.displacement, self.displacement_sigma);
+                  self.displacement, self.displacement_sigma, self.disparity_error, self.disparity_error_weight);
 }
 inline auto members(FrameResult& self) {
   return std::tie(self.stamp_ns, self.status, self.segment, self.world_from_left, self.predicted_world_from_left,

@@ -91,8 +91,9 @@ def test_the_base_away_from_the_camera():
 def test_what_a_rig_has_learned_is_told_as_an_error_of_the_depth():
     """0.05 px less than true of the 5 px of a point at 10 m make it appear at 10.1 m."""
     rig = SimpleNamespace(left=SimpleNamespace(fx=500.0), baseline=0.1)
-    words = learned(SimpleNamespace(disparity_offset=0.05, disparity_offset_sigma=0.01), rig)
+    words = learned(SimpleNamespace(disparity_offset=0.05, disparity_offset_sigma=0.01, disparity_error=0.3), rig)
     assert words == {"disparity offset [px]": "+0.050 +- 0.010",
+                     "disparity errors left by the calibration [px]": "0.30",
                      "depth error as calibrated at 1, 2, 5, 10 m [%]": "+0.1, +0.2, +0.5, +1.0"}
 
 

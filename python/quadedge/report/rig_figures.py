@@ -54,7 +54,8 @@ def columns_text(rig: dict) -> str:
     start, end = (f"{round(value['px'], 2) + 0.0:+.2f}{PLUS_MINUS}{value['sigma_px']:.2f} px"
                   for value in map(rig["disparity_offset"].get, ("start", "end")))
     text = (f"Horizontal residuals: a common offset of all disparities is estimated, {start} at the start, {end} at "
-            "the end. The maps show measured minus predicted disparity at new keyframes; the prediction uses the "
+            f"the end. Beside it, the calibration leaves errors of {rig['disparity_error_px']:.2f} px in disparities. "
+            "The maps show measured minus predicted disparity at new keyframes; the prediction uses the "
             "points of the previous keyframe and the estimated motion. Errors of the calibration that both keyframes "
             "share cancel, so only those that depend on depth or image position show.")
     return text + (" No errors above the noise level." if is_noise(rig["columns"]["after"]) else "")

@@ -17,6 +17,7 @@ def learned(result, rig) -> dict[str, str]:
     per_metre = 100 / (rig.left.fx * rig.baseline)  # percent of the depth that a pixel of disparity makes
     errors = ", ".join(f"{offset * metres * per_metre:+.1f}" for metres in _DEPTHS_M)
     return {"disparity offset [px]": f"{offset:+.3f} +- {sigma:.3f}",
+            "disparity errors left by the calibration [px]": f"{result.disparity_error:.2f}",
             f"depth error as calibrated at {', '.join(map(str, _DEPTHS_M))} m [%]": errors}
 
 
