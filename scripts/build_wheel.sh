@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Makes wheels of the Python package, with the program and Debian's libraries that both need inside.
 #   scripts/build_wheel.sh OUT [WORK [BUILD]]
-# WORK (default: build/wheel) keeps the objects for the next call. BUILD: what scripts/test.sh has built; its
-# libraries then go into the wheels.
+# WORK (default: build/wheel) keeps the objects for the next call. The libraries that go into the wheels are those of
+# BUILD, as it is, or those of build/, which scripts/run.sh and scripts/test.sh build, too.
 # PYTHON="python3.10 python3 python3.12" scripts/build_wheel.sh OUT makes a wheel for each of these Pythons, installed
 # with their headers. That of 3.12 is for later ones, too. ARM64_ROOT, QUADEDGE_STUB: see tests/run_arm64.sh.
 set -euo pipefail
@@ -18,7 +18,7 @@ install_missing $build_packages $python_packages
 if [ -n "${3:-}" ]; then
   built="$(realpath "$3")"
 else
-  built="$work/library"
+  built="$repository/build"
   cmake -S "$repository" -B "$built" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON
   cmake --build "$built" --target quadedge_cli
 fi
@@ -34,7 +34,7 @@ for python in ${PYTHON:-python3}; do
     pip=(env _PYTHON_HOST_PLATFORM=linux-aarch64 SETUPTOOLS_EXT_SUFFIX="${suffix/x86_64/aarch64}" "${pip[@]}"
       --no-build-isolation
       -C cmake.define.QUADEDGE_STUB="$QUADEDGE_STUB")
-  elif [ -x "$built/venv/bin/pip" ] && [ "$python" = python3 ]; then
+  elif [ "$python" = python3 ] && "$built/venv/bin/python" -c 'import nanobind' 2>/dev/null; then
     pip=("$built/venv/bin/pip" wheel --no-build-isolation) objects="$built/python"  # as scripts/test.sh installs
   fi
   "${pip[@]}" --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \

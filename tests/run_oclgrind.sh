@@ -8,7 +8,8 @@ tests="$1" kernels="$2" preloaded="$3"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 status=0
-oclgrind --check-api --data-races --num-threads 1 --log "$folder/log" "$tests" "[oclgrind]" >"$folder/out" || status=$?
+env -u QUADEDGE_TEST_CACHE oclgrind --check-api --data-races --num-threads 1 --log "$folder/log" "$tests" "[oclgrind]" \
+  >"$folder/out" || status=$?
 cat "$folder/out"
 if [ -s "$folder/log" ]; then
   echo "oclgrind reports:"
