@@ -24,8 +24,8 @@ using evaluation::mean_of;
 using evaluation::sub_path_errors;
 using Pose = Eigen::Isometry3d;
 
-/// Nearest truth pose for each estimated pose, both in increasing order and each used at most once. Where a segment of
-/// the estimate goes back in time, the search starts anew.
+/// Nearest truth pose for each estimated pose, both in increasing order and each used at most once: by the nearest pose
+/// of an estimate that is denser. Where a segment of the estimate goes back in time, the search starts anew.
 std::vector<MatchedPoses> match_by_stamp(const Trajectory& estimate, const Trajectory& truth,
                                          std::int64_t tolerance_ns) {
   std::vector<MatchedPoses> matches;
@@ -33,9 +33,14 @@ std::vector<MatchedPoses> match_by_stamp(const Trajectory& estimate, const Traje
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     const StampedPose& pose = estimate[i];
     if (i > 0 && pose.stamp_ns < estimate[i - 1].stamp_ns) next = 0;
-    const auto distance = [&](std::size_t row) { return std::abs(truth[row].stamp_ns - pose.stamp_ns); };
-    while (next + 1 < truth.size() && distance(next + 1) <= distance(next)) ++next;
-    if (next >= truth.size() || distance(next) > tolerance_ns) continue;
+    const auto distance = [&](std::size_t row, std::size_t of) {
+      return std::abs(truth[row].stamp_ns - estimate[of].stamp_ns);
+    };
+    while (next + 1 < truth.size() && distance(next + 1, i) <= distance(next, i)) ++next;
+    if (next >= truth.size() || distance(next, i) > tolerance_ns) continue;
+    if (i + 1 < estimate.size() && distance(next, i + 1) < distance(next, i) &&
+        (next + 1 == truth.size() || distance(next, i + 1) < distance(next + 1, i + 1)))
+      continue;
     matches.push_back({pose.stamp_ns, pose.world_from_left, truth[next].world_from_left, pose.segment});
     ++next;
   }
