@@ -10,7 +10,7 @@ from measurements import EXTENSIONS
 
 PRESETS = ("fast", "default", "dense")
 SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense", "opencv": "OpenCV SIFT + PnP",
-           "viso2": "libviso2", "orb_slam3": "ORB-SLAM3", "toy_vo": "toy-vo"}
+           "viso2": "libviso2", "orb_slam3": "ORB-SLAM3"}
 STEPS = "keyframes"  # evaluated step by step only, because frames are lost
 WHOLE = {"street": "KITTI street, 300 m", "karlsruhe": "Karlsruhe, 226 m", "mh_01": "EuRoC MH_01, 30 s"}
 HEADLINE = {"street": (100, 200), "mh_01": (1, 5)}  # lengths of sub-paths on the first page [m]
@@ -258,7 +258,7 @@ def poses(row):
 def whole_recordings(results):
     """The headline: errors of five rows over two lengths of sub-paths."""
     part, rows = results["evidence"], []
-    shown = [row for row in part["rows"] if row["system"] not in ("QuadEdge, fast", "toy_vo") and row["runs"]
+    shown = [row for row in part["rows"] if row["system"] != "QuadEdge, fast" and row["runs"]
              and (row["recording"] in HEADLINE or row["true_length_m"])]
     for row in shown:
         title, lengths = WHOLE[row["recording"]], HEADLINE.get(row["recording"])

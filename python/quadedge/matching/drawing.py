@@ -50,6 +50,7 @@ def drawings(name: str, result: MatchingResult, tolerance: Tolerance) -> list[Fi
                 symbol = "circle-open" if view == "true position" else SYMBOLS[kind]
                 figure.traces.append({"name": f"{kind}, {view} ({len(shown)})", "type": "scattergl", "mode": "markers",
                                       "x": places_of[:, 0], "y": places_of[:, 1], "hoverinfo": "skip",
-                                      "marker": {"color": colours, "colorscale": "Rainbow", "size": 4, "symbol": symbol}})
+                                      "marker": {"color": colours, "colorscale": "Rainbow", "size": 4,
+                                                 "symbol": symbol}})
         figures.append(figure)
     return figures
