@@ -3,8 +3,7 @@
 
     disturb_recording.py alter RECORDING OUT --board 0.4 --photo IMAGE [--speed 4] [--sequence 06] [--frames 40:100]
     disturb_recording.py alter RECORDING OUT --bonnet
-    disturb_recording.py alter RECORDING OUT --late 1 | --jpeg 20 |
-                                             --drops 45 | --lamp
+    disturb_recording.py alter RECORDING OUT --late 1
     disturb_recording.py judge RUN TRUTH [--translation 0.01 0.1] [--rotation 0.3]
 
 `alter` takes recordings in KITTI's and EuRoC's layout. A board shows a photograph with camera noise and covers a part
@@ -12,8 +11,6 @@ of both images, as a plane at one depth in front of the left camera does: --spee
 to the left, 0 fixes it to the camera. With --bonnet the lower half of both images is the first frame's, with noise.
 --late takes right images of that many frames earlier, as a camera does that is late (the left one's if negative).
 `quadedge synth` renders other exposures.
---jpeg stores images at that quality, --drops puts drops on both lenses, each its own, and --lamp lights the middle of
-the view.
 `judge` compares the steps of RUN/trajectory.txt with those of TRUTH, a trajectory in TUM's format, such as that of the
 undisturbed recording, and prints the numbers of steps that are right, lost, wrong and flagged (a frame of the step is
 marked ambiguous), and wrong and not flagged. A step is wrong beyond a length plus a ratio of its length, or an angle.
@@ -22,7 +19,6 @@ Needs NumPy, Pillow and the package quadedge. Exit code: 0 done, 2 wrong usage.
 
 import argparse
 import csv
-import io
 import re
 import shutil
 from pathlib import Path
@@ -128,36 +124,6 @@ def sample(photo, u, v):
             b * ((1 - a) * photo[r + 1, c] + a * photo[r + 1, c + 1]))
 
 
-def drops_of(count, shape, random):
-    """Circles on a lens: centre, radius."""
-    return [(random.uniform(0, shape[1]), random.uniform(0, shape[0]), random.uniform(0.01, 0.03) * shape[1])
-            for _ in range(count)]
-
-
-def with_drops(image, drops):
-    """In a drop, the view is a blurred, mirrored, darker one."""
-    v, u = np.mgrid[:image.shape[0], :image.shape[1]]
-    result = image.copy()
-    for x, y, radius in drops:
-        inside = (u - x) ** 2 + (v - y) ** 2 < radius ** 2
-        result[inside] = 0.5 * image[inside].mean() + 0.2 * image[inside][::-1] if inside.any() else 0
-    return result
-
-
-def with_lamp(image):
-    """A lamp beside the camera lights the middle of the view and leaves its border in the dark."""
-    height, width = image.shape
-    v, u = np.mgrid[:height, :width]
-    distance = ((u - width / 2) / width) ** 2 + ((v - height / 2) / height) ** 2
-    return image * (0.3 + 2.2 * np.exp(-distance / 0.04))
-
-
-def compressed(image, quality):
-    memory = io.BytesIO()
-    Image.fromarray(image).save(memory, "JPEG", quality=quality)
-    return np.asarray(Image.open(memory).convert("L"))
-
-
 def alter(args):
     recording = (Kitti if (args.recording / "sequences").exists() else Euroc)(args.recording, args.sequence)
     frames = slice(*(int(x) if x else None for x in args.frames.split(":")))
@@ -167,13 +133,11 @@ def alter(args):
     recording.start(args.out, frames)
     random = np.random.default_rng(args.seed)
     for side, part in enumerate(recording.parts):
-        still = places = drops = None
+        still = places = None
         taken = files(recording, side)
         for number, file in enumerate(taken[frames]):
             source = taken[frames.start + number + max(args.late if side == 0 else -args.late, 0)]
             image = np.asarray(Image.open(source).convert("L"), float).copy()
-            if drops is None:
-                drops = drops_of(args.drops, image.shape, random)
             if still is None:
                 still = image.copy()
                 places = on_board(recording, side, image.shape) if args.board else None
@@ -188,11 +152,8 @@ def alter(args):
                 shown[image.shape[0] // 2:] = args.bonnet
             noisy = over + random.normal(0, NOISE, image.shape)
             image[shown] = noisy[shown]
-            image = with_drops(with_lamp(image) if args.lamp else image, drops)
             name = file.name if isinstance(recording, Euroc) else f"{number:06d}.png"
             stored = np.clip(np.rint(image), 0, 255).astype(np.uint8)
-            if args.jpeg:
-                stored = compressed(stored, args.jpeg)
             Image.fromarray(stored).save(args.out / part / name)
 
 
@@ -235,9 +196,6 @@ def main():
     kind.add_argument("--board", type=float, help="ratio of the image that it covers")
     kind.add_argument("--bonnet", action="store_true")
     kind.add_argument("--late", type=int, default=0, help="frames by which the right camera is late")
-    kind.add_argument("--jpeg", type=int, default=0, help="quality")
-    kind.add_argument("--drops", type=int, default=0, help="on each lens")
-    kind.add_argument("--lamp", action="store_true")
     command.add_argument("--photo", type=Path, help="shown by the board")
     command.add_argument("--speed", type=float, default=0, help="of the board [px per frame]")
     command.add_argument("--centre", type=float, default=0, help="of the board, from the optical axis [image widths]")

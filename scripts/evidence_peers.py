@@ -1,14 +1,13 @@
 """Other systems on rectified pairs, each in a process of its own: what scripts/recordings.py compares QuadEdge with.
 
-    evidence_peers.py SYSTEM PAIRS OUT [OPTION...]      SYSTEM: orb_slam3, toy_vo
+    evidence_peers.py SYSTEM PAIRS OUT [OPTION...]      SYSTEM: orb_slam3
 
 PAIRS is a folder with image_0, image_1, calib.txt and times.txt as KITTI has them. OUT receives one row per pose, in
 TUM's format, in the coordinates of the rectified left camera; the last line printed is a JSON object with the version
-and the seconds per frame. Nothing of the systems is part of this repository: pyorbslam3 and toy-vo are on PyPI.
+and the seconds per frame. Nothing of the systems is part of this repository: pyorbslam3 is on PyPI.
 """
 
 import json
-import subprocess
 import sys
 import time
 from importlib import metadata
@@ -130,24 +129,7 @@ def orb_slam3(pairs, folder):
     return [(float(row[0]), row[1:]) for row in rows], seconds
 
 
-def toy_vo(pairs, _):
-    """toy-vo, stereo odometry of tracked points in a window of keyframes."""
-    import toy_vo
-
-    width, height = pairs.size()
-    matrix, none = numpy.array([[pairs.f, 0, pairs.cx], [0, pairs.f, pairs.cy], [0, 0, 1.0]]), numpy.zeros(5)
-    camera = (matrix, none, "OpenCVModel5", width, height)
-    estimator = toy_vo.StereoEstimator(*camera, *camera, numpy.zeros(3), numpy.array([-pairs.baseline, 0, 0.0]))
-    poses, seconds = [], []
-    for (left, right), stamp in zip(pairs, pairs.times):
-        start = time.monotonic()
-        pose = numpy.array(estimator.process_frame(left, right)["T_w_cam0"])
-        seconds.append(time.monotonic() - start)
-        poses.append((stamp, [repr(float(value)) for value in (*pose[:3, 3], *quaternion(pose[:3, :3]))]))
-    return poses, seconds
-
-
-SYSTEMS = {"orb_slam3": (orb_slam3, "pyorbslam3"), "toy_vo": (toy_vo, "toy-vo")}
+SYSTEMS = {"orb_slam3": (orb_slam3, "pyorbslam3")}
 
 
 def main():

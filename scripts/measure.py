@@ -16,7 +16,7 @@ The part "evidence" is about whole recordings, the folders street, karlsruhe and
   --viso2   libviso2 (GPL, no part of this repository): a program of yours that is called as
             VISO2 LEFT_FOLDER RIGHT_FOLDER F CU CV BASELINE POSES, writes one row of KITTI's format per pair to POSES
             and prints "median X ms, p99 Y ms"
-  --peers   a Python with pyorbslam3, toy-vo, opencv-python-headless and NumPy (scripts/evidence_peers.py)
+  --peers   a Python with pyorbslam3, opencv-python-headless and NumPy (scripts/evidence_peers.py)
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 

@@ -32,7 +32,6 @@ RECORDINGS = {
 QUADEDGE = {"QuadEdge": [], "QuadEdge, --calibrate": ["--calibrate"], "QuadEdge, fast": ["--preset", "fast"]}
 PEERS = {"viso2": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
          "orb_slam3": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES",
-         "toy_vo": "PYTHON scripts/evidence_peers.py toy_vo PAIRS POSES",
          "OpenCV SIFT + PnP": "opencv_baseline RECORDING -o OUT"}
 SYSTEMS = (*QUADEDGE, *PEERS)
 PEER_SECONDS = 600  # a peer that takes longer for a recording is left out
@@ -155,7 +154,7 @@ def judged(programs, recording, folder):
 def runs_of(programs, recording, system):
     """The version of a system, the command of its first run and the runs of all seeds."""
     options, runs, version = programs.options, [], None
-    single = system in ("viso2", "toy_vo", "OpenCV SIFT + PnP")
+    single = system in ("viso2", "OpenCV SIFT + PnP")
     command = PEERS.get(system) or " ".join(["quadedge run", recording.name, "-o OUT --seed 1", *QUADEDGE[system]])
     for seed in range(1, 2 if single else options.seeds + 1):
         folder = options.work / "evidence" / recording.name / f"{system.replace(', ', '_').replace(' ', '_')}_{seed}"
@@ -178,7 +177,7 @@ def measure_recordings(programs):
     """One row per recording and system, with the runs of all seeds and the commit of each."""
     options, measured = programs.options, commit()
     is_given = dict.fromkeys(QUADEDGE, True) | {
-        "viso2": options.viso2, "orb_slam3": options.peers, "toy_vo": options.peers,
+        "viso2": options.viso2, "orb_slam3": options.peers,
         "OpenCV SIFT + PnP": options.baseline.exists()}
     systems = [system for system in SYSTEMS if is_given[system] and options.only_system in (None, system)]
     file = options.out / "evidence.json"

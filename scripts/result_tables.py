@@ -4,8 +4,7 @@
     scripts/result_tables.py            writes the marked blocks of README.md and the pages in doc/
     scripts/result_tables.py --check    changes nothing; exit code 1 if a table differs from the JSON
 
-A block is enclosed by <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py writes the JSON files, except
-doc/results/peers.json, which is written by hand and names the source of its figures.
+A block is enclosed by <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py writes the JSON files.
 """
 
 import json

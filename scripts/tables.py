@@ -10,7 +10,7 @@ from measurements import EXTENSIONS
 
 PRESETS = ("fast", "default", "dense")
 SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense", "opencv": "OpenCV SIFT + PnP",
-           "viso2": "libviso2", "orb_slam3": "ORB-SLAM3", "toy_vo": "toy-vo"}
+           "viso2": "libviso2", "orb_slam3": "ORB-SLAM3"}
 STEPS = "keyframes"  # evaluated step by step only, because frames are lost
 WHOLE = {"street": "KITTI street, 300 m", "karlsruhe": "Karlsruhe, 226 m", "mh_01": "EuRoC MH_01, 30 s"}
 HEADLINE = {"street": (100, 200), "mh_01": (1, 5)}  # lengths of sub-paths on the first page [m]
@@ -176,33 +176,6 @@ def drift(results):
                   stamp(results["drift"]))
 
 
-def pace(results):
-    """Frames per second, and beside libviso2 where both ran in turn."""
-    others, rows = results["peers"], []
-    head = ("frames per second", "QuadEdge", "`fast`", "libviso2", "OpenCV SIFT + PnP",
-            "processor time per frame: QuadEdge, `fast` [ms]", "QuadEdge commit")
-    for title, timed in others["frames_per_second"].items():
-        own = {row["preset"]: row for row in results["speed"]["rows"] if row["title"].startswith(title)}
-        both = [own[preset] for preset in ("default", "fast")]
-        rows.append([title.removesuffix(", flight"), *(f"{1000 / row['median_ms']:.0f}" for row in both), "-",
-                     timed.get("OpenCV", "-"), ", ".join(f"{row['processor_ms']:.0f}" for row in both),
-                     origin(results["speed"])])
-    for title, timed in others["libviso2"]["in_turn"].items():
-        rates = [f"{1000 / statistics.median(timed[name]):.0f}" for name in ("quadedge_ms", "fast_ms", "libviso2_ms")]
-        rows.append([f"{title}, alternating runs", *rates, "-", "-", origin(timed)])
-    return table(head, rows, others["timed"] + "\n")
-
-
-def peers(results):
-    """Other systems; QuadEdge's time and drift come from the measurements."""
-    times = [f"{row['median_ms']:.0f} ms" for row in results["speed"]["rows"]
-             if row["title"].startswith("KITTI 06") and row["preset"] == "default"]
-    drifts = [f"{row['end_percent']:.2f} %" for row in results["drift"]["rows"]]
-    measured = {1: times[0], 2: ", ".join(drifts)}
-    return table(results["peers"]["head"], [[measured[index] if cell == "measured" else cell
-                                             for index, cell in enumerate(row)] for row in results["peers"]["rows"]])
-
-
 def matching(results):
     def rates(row):
         return {f"{pool}: {name}": percent(row[pool][name]) for pool in ("paired", "all")
@@ -258,7 +231,7 @@ def poses(row):
 def whole_recordings(results):
     """The headline: errors of five rows over two lengths of sub-paths."""
     part, rows = results["evidence"], []
-    shown = [row for row in part["rows"] if row["system"] not in ("QuadEdge, fast", "toy_vo") and row["runs"]
+    shown = [row for row in part["rows"] if row["system"] != "QuadEdge, fast" and row["runs"]
              and (row["recording"] in HEADLINE or row["true_length_m"])]
     for row in shown:
         title, lengths = WHOLE[row["recording"]], HEADLINE.get(row["recording"])
@@ -374,8 +347,7 @@ def paper_extensions(results):
 
 # Table -> part that it is made from, function
 TABLES = {"compared": ("accuracy", compared), "steps": ("accuracy", steps), "nees": ("accuracy", normalised_errors),
-          "presets": ("accuracy", presets), "drift": ("drift", drift), "pace": ("speed", pace),
-          "peers": ("peers", peers), "matching": ("matching", matching), "ros2": ("ros2", ros2),
+          "presets": ("accuracy", presets), "drift": ("drift", drift), "matching": ("matching", matching), "ros2": ("ros2", ros2),
           "whole": ("evidence", whole_recordings), "evidence": ("evidence", evidence),
           "evidence-nees": ("evidence", evidence_nees), "paper-stereo": ("paper", paper_filters("stereo")),
           "paper-temporal": ("paper", paper_filters("temporal_left")),

@@ -5,7 +5,7 @@ import PIL.Image
 import pytest
 import quadedge
 from matching_scene import floats
-from quadedge.matching.sources import RecordedSource, find_sources, read_float_map
+from quadedge.matching.sources import RecordedSource, read_float_map
 from quadedge.matching.surfaces import (OCCLUDED, UNKNOWN, VISIBLE, FrameTruth, from_depth, nearest, nearness,
                                         right_from_left, surface_at, true_later_positions, true_right_positions,
                                         visibility)
@@ -199,17 +199,3 @@ def test_maps_of_both_byte_orders_are_read_from_the_bottom_up(tmp_path):
     for sign, order in ((1, ">"), (-0.5, "<")):
         (tmp_path / "m.pfm").write_bytes(b"Pf\n2 2\n%g\n" % sign + numpy.array([3, 4, 1, 2], order + "f4").tobytes())
         assert read_float_map(tmp_path / "m.pfm").tolist() == [[1, 2], [3, 4]]
-
-
-def test_folders_are_searched_for_recordings_with_truth(pair, tmp_path):
-    (pair.parent / "broken").mkdir()
-    for file in ("im0.png", "disp0GT.pfm"):
-        (pair.parent / "broken" / file).write_bytes((pair / file).read_bytes())
-    skipped = []
-    assert [source.name for source in find_sources(str(tmp_path), skipped.append)] == ["scene"]
-    assert len(skipped) == 1 and "broken" in skipped[0]
-    (pair / "disp0GT.pfm").unlink()
-    with pytest.raises(quadedge.DataError, match="found no recording .*found no ground truth of edges, expected"):
-        find_sources(str(pair), skipped.append)
-    with pytest.raises(quadedge.DataError):
-        find_sources(str(tmp_path), skipped.append)

@@ -1,10 +1,8 @@
 """The page of a run matches its result files."""
 
 import csv
-import json
 import struct
 import zlib
-from pathlib import Path
 
 import numpy as np
 import pytest

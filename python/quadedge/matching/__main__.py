@@ -7,7 +7,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from .. import configuration, synthetic
+from .. import configuration, open_dataset, synthetic
 from ..errors import DataError, UsageError
 from ..report.matching_page import matching_page
 from ..report.matching_tables import summary_tables
@@ -19,7 +19,7 @@ from .counts import Tolerance
 from .document import document, summary
 from .drawing import drawings
 from .observer import observe
-from .sources import RenderedSource, find_sources
+from .sources import RecordedSource, RenderedSource
 
 NAME = "python -m quadedge.matching"
 SCENES, RENDERED_FRAMES = ("room", "cables", "facade", "yard"), 10
@@ -34,8 +34,8 @@ def _parser() -> argparse.ArgumentParser:
                f"  {NAME} two_view_training/terrace_2s --html terrace.html\n"
                f"  {NAME} room --frames 5 --stereo.ncc_min 0.8")
     parser.add_argument("paths", nargs="+", metavar="PATH",
-                        help="stereo pairs with disparities, sequences with depths (`quadedge synth`), folders of "
-                             f"these, or a built-in scene: {', '.join(SCENES)}")
+                        help="stereo pairs with disparities, sequences with depths (`quadedge synth`), "
+                             f"or a built-in scene: {', '.join(SCENES)}")
     parser.add_argument("--frames", type=int, default=0,
                         help=f"evaluate only the first N frames; 0: all, {RENDERED_FRAMES} of a built-in scene")
     parser.add_argument("--path", default="ellipse", help="camera path in a built-in scene")
@@ -124,8 +124,7 @@ def _evaluate(options: argparse.Namespace, words: list[str]) -> None:
     config, sources = configured(options.preset, options.config, words), []
     for path in options.paths:
         is_scene = path in SCENES and not os.path.exists(path)
-        sources += [_scene(path, options)] if is_scene else find_sources(
-            path, lambda reason: _say(f"warning: skipped: {reason}"))
+        sources.append(_scene(path, options) if is_scene else RecordedSource(open_dataset(path)))
     tolerance, results = Tolerance(options.tolerance), []
     for source in sources:
         result, device = observe(source, options.device, options.preset, config, options.frames, tolerance,

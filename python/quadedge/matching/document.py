@@ -3,7 +3,6 @@
 import datetime
 
 import numpy as np
-import pandas
 
 from .. import __version__, configuration
 from .counts import ratio
@@ -137,20 +136,6 @@ def _per_frame(frame) -> dict:
     return entry
 
 
-def _motion_correlation(results: list[MatchingResult]) -> dict:
-    """Of the precision of the pairs that fulfil the constraints so far, and of the error of the motions that they give;
-    one point per frame and constraint."""
-    points = pandas.DataFrame(
-        [(pairs.veridical[order] / pairs.pairs[order], *pairs.errors[order])
-         for order in range(len(CONSTRAINTS)) for result in results for frame in result.frames if frame.temporal
-         for pairs in [frame.temporal.pairs] if pairs.pairs[order] and np.isfinite(pairs.errors[order, 0])],
-        columns=["precision", "rotation", "translation"], dtype=float)
-    ranked = points.rank()  # Spearman's is the correlation of ranks
-    return {"points": len(points)} | {
-        name: _number(ranked["precision"].corr(ranked[name]) if len(points) > 2 else np.nan)
-        for name in ("rotation", "translation")}
-
-
 def _text(value) -> str:
     if isinstance(value, bool):
         return str(value).lower()
@@ -188,6 +173,5 @@ def document(results: list[MatchingResult], device, config: dict, inputs: list[s
             errors.add(frame.disparity_error)
     content["pooled"] = {**summary(results), "distributions": _distributions(cues),
                          "disparity_error_histogram": {"low": -DISPARITY_RANGE, "high": DISPARITY_RANGE,
-                                                       **errors.document()},
-                         "motion_rank_correlation": _motion_correlation(results)}
+                                                       **errors.document()}}
     return content

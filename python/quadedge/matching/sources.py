@@ -1,13 +1,12 @@
 """Pairs and sequences with ground truth of every frame."""
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from .. import Dataset, Synthetic, open_dataset, read_grey_image
-from ..errors import DataError, Error
+from .. import Dataset, Synthetic, read_grey_image
+from ..errors import DataError
 from .surfaces import FrameTruth, from_depth, nearness, right_from_left
 
 MASK_UNKNOWN, MASK_OCCLUDED = 0, 128
@@ -137,29 +136,3 @@ def open_source(source):
     if isinstance(source, Synthetic):
         return RenderedSource(source)
     raise TypeError("expected a Dataset or a Synthetic")
-
-
-def find_sources(path: str, skip) -> list:
-    """The recording at a path, or all with ground truth in the folders below it, by path. `skip` is called with the
-    reason for leaving out one whose ground truth is there. Raises DataError if there is none."""
-    try:
-        return [RecordedSource(open_dataset(path))]
-    except Error as problem:
-        if not os.path.isdir(path):
-            raise
-        of_path = problem
-    found = []
-    for folder, folders, files in os.walk(path, followlinks=True):
-        try:
-            recording = open_dataset(folder)
-            if os.path.samefile(recording.path, folder):  # not one below it
-                found.append(RecordedSource(recording))
-                folders.clear()
-        except Error as problem:
-            is_pair = COMPANIONS.keys() & set(files) and any(name.startswith(("im", "view")) for name in files)
-            if is_pair or {"rgb", "depth"} <= set(folders):
-                skip(str(problem))
-        folders.sort()
-    if not found:
-        raise DataError(f"{path}: found no recording with ground truth of edges, in it or below ({of_path})")
-    return found

@@ -3,7 +3,7 @@
 from .figure import FEWEST_FRAMES, Figure
 from .matching_figures import accuracy_figures, count_figures, cue_figures, disparity_figures, filter_figure
 from .matching_tables import count_table, overview_table, summary_tables
-from .numbers import exists, percent, significant
+from .numbers import percent, significant
 from .origin import device_text, origin
 from .page import Facts, Figures, Page, Section, Text, Tile
 from .run_tables import configuration_table
@@ -134,21 +134,15 @@ def _distributions(pooled: dict) -> list[Section]:
 
 
 def _accuracy(pairs: list[dict], pooled: dict) -> list[Section]:
-    correlation = pooled["motion_rank_correlation"]
-    if correlation["points"] == 0:
+    if not any("pairs" in frame for pair in pairs for frame in pair["counts"]):
         return []
     if sum(pair["frames"] for pair in pairs) < FEWEST_FRAMES:
         return [Section("Precision of pairs and accuracy of motions",
                         [_needs_frames("Precision of pairs and accuracy of motions (Figure 7)")])]
 
-    def text(value: float | None) -> str:
-        return f"{value:.2f}" if exists(value) else "undefined"
-
     caption = ("Figure 7. Single pairs: one point per frame and constraint. Each pair of quads that satisfies the "
                "constraints up to this one yields a motion (Proposition 2); the figure shows the median error of up to "
-               f"2000 such motions. Rank correlation of precision and error: rotation "
-               f"{text(correlation['rotation'])}, translation {text(correlation['translation'])} over "
-               f"{correlation['points']} points. All quads: the error of the motion estimated by the pipeline.")
+               "2000 such motions. All quads: the error of the motion estimated by the pipeline.")
     return [Section("Precision of pairs and accuracy of motions", [Figures(accuracy_figures(pairs, pooled), caption)])]
 
 
