@@ -97,7 +97,8 @@ def write_rig(folder: Path, rows_before: float) -> dict:
     rig = {"rows": {"before": found(rows_before), "after": found(0.01)},
            "columns": {"before": found(0.02), "after": found(0.02)}, "width": 600, "height": 400,
            "row_correction_px": 0,
-           "disparity_offset": {"start": {"px": 0, "sigma_px": 0.3}, "end": {"px": -0.125, "sigma_px": 0.02}}, "disparity_error_px": 0.25}
+           "disparity_offset": {"start": {"px": 0, "sigma_px": 0.3}, "end": {"px": -0.125, "sigma_px": 0.02}},
+           "disparity_error_px": 0.25}
     return write_report(folder, json.loads((folder / "report.json").read_text()), rig=rig)
 
 
