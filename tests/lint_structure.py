@@ -30,7 +30,7 @@ MOST_LINES = {
     "host/device": 4700,
     "host/edges": 3210,
     "host/geometry": 2250,
-    "host/motion": 6230,
+    "host/motion": 6340,
     "host/output": 3160,
     "host/paper": 960,
     "host/places": 2310,
