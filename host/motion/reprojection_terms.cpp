@@ -2,6 +2,7 @@
 #include "motion/reprojection_terms.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "common/parallel.hpp"
 
@@ -60,14 +61,6 @@ QUADEDGE_VECTOR_CLONES
 void evaluate_few(const Columns& columns, const double* depth, std::size_t first, const Evaluation& at,
                   LaneContributions& result) {
   LaneContributions lanes;
-  evaluate_lanes(columns, depth + first, first, at, lanes);
-  result = lanes;
-}
-
-QUADEDGE_VECTOR_CLONES
-void evaluate_few_with_offset(const Columns& columns, const double* depth, std::size_t first, const Evaluation& at,
-                              Contributions<kOffsetValues, kLanes>& result) {
-  Contributions<kOffsetValues, kLanes> lanes;
   evaluate_lanes(columns, depth + first, first, at, lanes);
   result = lanes;
 }
@@ -138,40 +131,40 @@ Normal<7> normal_by_pose_and_offset(ReprojectionTerms& terms, const Eigen::Isome
 
 DisparityErrors disparity_errors(const ReprojectionTerms& terms, const Eigen::Isometry3d& current_from_previous,
                                  double offset) {
+  constexpr std::size_t kMost = 2048;
   constexpr double kEqualWeights = 1e12;  // degrees of freedom
   const Columns columns(terms);
   const Evaluation at(current_from_previous, offset, {1, kEqualWeights});
   struct Quad {
     double information, by_offset, others;
   };
-  std::vector<Quad> quads;
-  const std::size_t every = std::max<std::size_t>(1, terms.size() / kScaleErrors) * kLanes;
-  for (std::size_t first = 0; first + kLanes <= terms.size(); first += every) {
+  std::array<Quad, kMost> quads;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + kLanes <= terms.size(); i += kLanes * (terms.size() / kMost + 1)) {
     Contributions<kOffsetValues, kLanes> lanes;
-    evaluate_few_with_offset(columns, terms.depth.data(), first, at, lanes);
+    evaluate_lanes(columns, terms.depth.data() + i, i, at, lanes);
     for (std::size_t k = 0; k < kLanes; ++k) {
-      const double seen = lanes.values[kPoseValues + 6][k], gradient = lanes.values[kPoseValues + 7][k];
-      const double left_over = 1 - terms.column(ReprojectionTerms::kColumns - 1)[first + k] * seen;
-      if (!(seen > 0) || !(left_over > 0)) continue;
-      // o'P o and o'P e of least_squares.hpp; the cost lacks what the quad's own error explains.
-      const double information = seen / left_over,
-                   by_offset = gradient / left_over * (gradient / left_over) / information;
-      quads.push_back({information, by_offset, lanes.error[k] - by_offset * left_over});
+      // o^T P o and o^T P e; the cost lacks what the quad's own error explains.
+      const double by_offset = lanes.values[kPoseValues + 6][k], gradient = lanes.values[kPoseValues + 7][k];
+      const double variance = row_of<ReprojectionTerm>(columns.values, i + k).disparity_variance;
+      const double left_over = 1 - variance * by_offset, explained = gradient * gradient / (by_offset * left_over);
+      if (by_offset > 0 && left_over > 0)
+        quads[count++] = {by_offset / left_over, explained, lanes.error[k] - left_over * explained};
     }
   }
-  if (quads.size() < 2) return {};
-  const auto upper = quads.begin() + static_cast<std::ptrdiff_t>(quads.size() / 2);
-  const auto median = [&](double Quad::*of) {
-    const auto middle = upper + (quads.end() - upper) / 2;
-    std::nth_element(upper, middle, quads.end(), [&](const Quad& a, const Quad& b) { return a.*of < b.*of; });
-    return (*middle).*of;
-  };
-  std::nth_element(quads.begin(), upper, quads.end(),
+  if (count < 2) return {};
+  Quad *const middle = quads.data() + count / 2, *const end = quads.data() + count;
+  std::nth_element(quads.data(), middle, end,
                    [](const Quad& a, const Quad& b) { return a.information < b.information; });
-  const double noise = median(&Quad::others) / kDirectionMedian, by_offset = median(&Quad::by_offset) / kOffsetMedian;
+  const auto median = [&](double Quad::*of) {
+    Quad* const found = middle + (end - middle) / 2;
+    std::nth_element(middle, found, end, [&](const Quad& a, const Quad& b) { return a.*of < b.*of; });
+    return found->*of;
+  };
+  const double noise = median(&Quad::others) / kDirectionMedian;
   if (!(noise > 0)) return {};
   const double information = median(&Quad::information) / noise;
-  return {(by_offset / noise - 1) / information, information};
+  return {(median(&Quad::by_offset) / (kOffsetMedian * noise) - 1) / information, information};
 }
 
 void contributions_by_pose(const ReprojectionTerms& terms, const Evaluation& at, std::size_t first,

@@ -54,7 +54,7 @@ struct DisparityErrors {
 };
 
 /// The errors that explain by how much the residuals scatter more where a disparity error would show than elsewhere:
-/// medians over the half of about kScaleErrors quads that tell most. \param offset [px] as found with the pose
+/// medians over the half of about a thousand quads that tell most. \param offset [px] as found with the pose
 DisparityErrors disparity_errors(const ReprojectionTerms& terms, const Eigen::Isometry3d& current_from_previous,
                                  double offset);
 

@@ -39,22 +39,16 @@ struct RigEstimate {
   /// larger, and the standard deviation of that [px]; 0 for a frame that is not displaced.
   double displacement = 0, displacement_sigma = 0;
 
-  /// How good the calibration is: standard deviation of the errors that it leaves in single disparities, alike for an
-  /// edge and the same edge some frames later, as far as the recording has shown them [px].
-  double disparity_error = 0;
-  /// Weight of what has been seen of that, in the squared information of a quad about the error of its disparities
-  /// [1/px^4].
-  double disparity_error_weight = 0;
+  /// How good the calibration is: standard deviation of the errors that it leaves in single disparities, the same for
+  /// an edge some frames later [px], and the weight of what the recording has shown of that [1/px^4].
+  double disparity_error = 0, disparity_error_weight = 0;
 
   /// What is added to each disparity of the frame [px].
   double added_disparity() const { return disparity_offset - displacement; }
   /// Another frame of the rig, measured with what this frame knows of the offset.
   RigEstimate of(const RigEstimate& other) const {
-    RigEstimate result = *this;
-    result.rows = other.rows;
-    result.displacement = other.displacement;
-    result.displacement_sigma = other.displacement_sigma;
-    return result;
+    return {other.rows,         disparity_offset,         disparity_offset_sigma, disparity_offset_shared,
+            other.displacement, other.displacement_sigma, disparity_error,        disparity_error_weight};
   }
 };
 
