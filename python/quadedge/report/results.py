@@ -102,8 +102,6 @@ class Run:
     """The trajectory of the map, of a run with --loops."""
     loops: dict[str, list[str]] = field(default_factory=dict)
     """loops.csv."""
-    rig_maps: dict[str, np.ndarray] = field(default_factory=dict)
-    """The maps of rig_maps.csv by name; NaN where a cell has no median [px]."""
     edges: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
     """Some edges in space, of edges.csv [m]."""
 
@@ -146,9 +144,6 @@ ERRORS = dict.fromkeys(("ape_rotation_deg", "ape_translation_m", "rpe_rotation_d
                        dict.fromkeys(("mean", "std", "rmse", "max"), NUMBER))
 ACCURACY = {"origin_aligned": ERRORS, "se3_aligned": ERRORS, "matched_poses": int, "path_length_m": NUMBER,
             "end_drift_percent": NUMBER, "se3_open_rotation?": str}
-MAPS = dict.fromkeys(("before", "after"), {"cells": int} | dict.fromkeys(
-    ("rms_px", "largest_px", "scatter_px", "noise_px"), NUMBER))
-OFFSET = {"px": NUMBER, "sigma_px": NUMBER}
 STAGES = {"*": {"median": NUMBER, "p90": NUMBER}}
 NORMALISED = {"pose": NUMBER, "rotation": NUMBER, "translation": NUMBER}
 LENGTHS = dict.fromkeys(("error_m", "promised_m", "error_deg", "promised_deg"), NUMBER) | {
@@ -163,8 +158,6 @@ REPORT = {
     "ended_early?": str, "segments_text?": str, "segments?": int, "path_length_m?": NUMBER,
     "device?": dict.fromkeys(("name", "platform", "opencl", "driver"), str),
     "memory_mb?": {"host_peak": (int, float), "device_peak": (int, float)},
-    "rig?": {"rows": MAPS, "columns": MAPS, "row_correction_px": NUMBER, "width": int, "height": int,
-             "disparity_offset": {"start": OFFSET, "end": OFFSET}},
     "stages_ms?": STAGES, "kernels_ms?": STAGES, "config?": dict, "config_changed?": dict,
     "accuracy?": ACCURACY | {"segments?": [ACCURACY | {"segment": int}], "truth_file?": str,
                              "normalised_error_squared?": NORMALISED | {"poses": int}, "consistency?": [LENGTHS]}}
@@ -208,8 +201,6 @@ def read_run(folder: Path, name: str = "") -> Run:
         corrected = read_tum(folder / "trajectory_map.txt")
         run.corrected = aligned(corrected, run.truth) if run.truth else corrected
         run.loops = read_columns(folder / "loops.csv")
-    if "rig" in report and (folder / "rig_maps.csv").is_file():
-        run.rig_maps = read_rig_maps(folder / "rig_maps.csv")
     if (folder / "pictures").is_dir():
         run.pictures = sorted((folder / "pictures").iterdir())
     return run
@@ -234,18 +225,6 @@ def read_edges(file: Path) -> np.ndarray:
     if not set(names) <= set(columns):
         raise DamagedResults(f"{file}: no column {' or '.join(names)}; expected the edges of a run")
     return np.stack([numbers(columns[name], file) for name in names], 1)
-
-
-def read_rig_maps(file: Path) -> dict[str, np.ndarray]:
-    """The maps of rig_maps.csv by name. Raises DamagedResults."""
-    columns = read_columns(file)
-    names = [f"{axis}_{state}" for axis in ("rows", "columns") for state in ("before", "after")]
-    places = [numbers(columns.get(name, []), file) for name in ("row", "column")]
-    shape = [int(np.max(place, initial=-1)) + 1 for place in places]
-    values = {name: numbers(columns.get(name, []), file) for name in names}
-    if any(len(value) != shape[0] * shape[1] for value in values.values()) or not np.prod(shape):
-        raise DamagedResults(f"{file}: expected the maps of a run, a row per cell")
-    return {name: value.reshape(shape) for name, value in values.items()}
 
 
 def report_of_killed(folder: Path, frames: dict[str, list[str]]) -> dict:

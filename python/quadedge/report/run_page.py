@@ -9,7 +9,6 @@ from .numbers import DASH, length_text, share_of, significant
 from .origin import device_text, origin
 from .page import Columns, Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
 from .results import Run
-from .rig_figures import finds_something, rig_figures, rig_table
 from .run_tables import (accuracy_table, configuration_table, consistency_tables, consistency_texts, latency_table,
                          loss_tables, segment_tables, stage_table)
 from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
@@ -32,12 +31,6 @@ def run_page(run: Run, detail: Detail) -> Page:
     best, picture = best_picture(run, detail)
     page.sections.append(Section("Overview", [*notices(run), *overview(run, picture, detail), *loss_tables(run)]))
     page.sections += plot_sections(run, detail)
-    if "rig" in report:
-        maps, found = rig_figures(run), finds_something(report["rig"])
-        page.sections.append(Section(
-            "Calibration: errors were found" if found else "Calibration: no errors found",
-            [rig_table(report["rig"]), *([Figures(maps)] if maps else [])], fold=True, open=found,
-            explained="reference.md#maps-of-the-rig"))
     pictures = picture_blocks(run, detail, without=best)
     if pictures:
         page.sections.append(Section("Pictures", pictures, explained="method.md"))
