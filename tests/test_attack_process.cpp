@@ -69,13 +69,6 @@ const std::vector<ProcessAttack> kProcessAttacks = {
      "$QUADEDGE run $DATA -o $OUT.run --save-map $OUT.map --quiet >$OUT.log; cp -r $DATA $OUT.data; echo > "
      "$OUT.data/rgb2/0.100000000.png; $QUADEDGE localise $OUT.map $OUT.data -o $OUT --quiet",
      3, "2 finished frames in", true},
-    {"the file of the rig is a symbolic link to itself",
-     "ln -s $OUT.toml $OUT.toml; $QUADEDGE run $DATA -o $OUT --rig-file $OUT.toml", 3, "out.toml", false},
-    {"the file of the rig is a configuration file, which stays",
-     "printf \"seed = 7\\npose.disparity_offset = 0.1\\n\" >$OUT.toml; cp $OUT.toml $OUT.copy; $QUADEDGE run $DATA -o "
-     "$OUT "
-     "--frames 0:2 --rig-file $OUT.toml; code=$?; cmp $OUT.toml $OUT.copy || exit 99; exit $code",
-     3, "out.toml: found another file", false},
     {"two outputs are one file", "$QUADEDGE run $DATA -o $OUT --save-map $OUT.x --points $OUT.x", 2,
      "out.x: two outputs would be written", false},
     {"two outputs are one file under two names",

@@ -269,10 +269,9 @@ TEST_CASE("run: a device that fails in mid-run costs no finished frame and no fi
     return "LD_PRELOAD='" QUADEDGE_LOST_DEVICE "' QUADEDGE_TEST_LAUNCHES=" + std::to_string(most);
   };
   const auto run = [&](long most) {
-    return run_program(
-        {"run", small_sequence(), "-o", folder / "out", "--force", "--loops", "--save-map", folder / "places.map",
-         "--rig-file", folder / "rig.toml", "--points", folder / "edges.ply", "--quiet"},
-        launches(most));
+    return run_program({"run", small_sequence(), "-o", folder / "out", "--force", "--loops", "--save-map",
+                        folder / "places.map", "--points", folder / "edges.ply", "--quiet"},
+                       launches(most));
   };
   REQUIRE(shared_run().result.code == 0);  // the verdict of the self-test is kept
   CHECK(run(10).code == 4);                // before the first frame
@@ -289,58 +288,8 @@ TEST_CASE("run: a device that fails in mid-run costs no finished frame and no fi
   CHECK(report["input"]["frames"] == 4);
   CHECK_THAT(report["ended_early"].get<std::string>(), Contains("CL_OUT_OF_RESOURCES"));
   CHECK(report["accuracy"]["matched_poses"] == read_lines(folder / "out/trajectory_kitti.txt").size());
-  for (const char* file : {"places.map", "rig.toml", "edges.ply", "out/trajectory_map.txt", "out/errors.csv"}) {
+  for (const char* file : {"places.map", "edges.ply", "out/trajectory_map.txt", "out/errors.csv"}) {
     INFO(file);
     CHECK(fs::file_size(folder / file) > 0);
   }
-}
-
-TEST_CASE("run: --rig-file carries what is learned of a rig from one run to the next", "[cli][device]") {
-  const TemporaryFolder folder;
-  const std::string file = folder / "rig.toml";
-  // A right camera that is rolled by 0.3 degrees, of which the calibration does not know.
-  run_well({"check", small_sequence(), "--write-calibration", folder / "sound.yaml", "--quiet"});
-  run_well(
-      {"synth", folder / "rolled", "--frames", "4", "--size", "320x200", "--right-rotation", "0,0,0.3", "--quiet"});
-  const std::vector<std::string> run = {
-      "run",          folder / "rolled", "--calibration", folder / "sound.yaml", "-o",
-      folder / "out", "--force",         "--quiet",       "--rig-file",          file};
-  const auto value = [&](const std::string& name, const std::string& key) {
-    double number = std::nan("");
-    for (const auto& line : read_lines(folder / name))
-      std::sscanf(line.c_str(), (key.find('%') == std::string::npos ? key + " = %lf" : key).c_str(), &number);
-    return number;
-  };
-  const auto first_edges = [&] { return csv_numbers(folder / "out/frames.csv", "stereo_edges").front(); };
-  run_well(run);
-  const double learned = value("rig.toml", "pose.disparity_offset");
-  const double sigma = value("rig.toml", "pose.disparity_offset_sigma");
-  const double edges = first_edges();
-  CHECK(std::abs(learned) < 0.3);
-  CHECK((sigma > 0 && sigma < 0.3));  // less than is assumed at the start
-  run_well(run);
-  CHECK(value("out/config.toml", "disparity_offset") == learned);
-  CHECK(value("rig.toml", "pose.disparity_offset_sigma") < sigma);
-  CHECK(first_edges() >= edges);
-  CHECK(value("rig.toml", "rows.sums = [%lf") > 7);  // frames of both runs
-
-  const std::string whole = read_text(file);
-  const auto refused = [&](const std::string& text, const std::string& message) {
-    dataset_files::write_text(file, text);
-    check_error(run, 3, {file, message});  // content, not usage
-    CHECK(read_text(file) == text);
-  };
-  const auto changed = [&](const std::string& key, const std::string& by) {
-    const std::size_t at = whole.find(key), end = whole.find_first_of(",\n]", at + key.size());
-    return whole.substr(0, at) + key + by + whole.substr(end);
-  };
-  refused("pose.disparity_ofset = 1\n", "found another file, expected one that an earlier run");
-  refused(changed("left = [", "640"), "another calibration: found left = [640, ");
-  refused(changed("rows.sums = [", "inf"), "rows.sums: expected 3 finite numbers");
-  refused(changed("rows.sums = [", "-1"), "found a row model that no run has written");
-  refused(changed("pose.disparity_offset = ", "nan"), "disparity_offset");
-  // As of release 0.1.
-  dataset_files::write_text(file, "pose.disparity_offset = 0.125\npose.disparity_offset_sigma = 0.1\n");
-  run_well(run);
-  CHECK(value("out/config.toml", "disparity_offset") == 0.125);
 }

@@ -65,6 +65,21 @@ TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame 
   CHECK(odometry.device_bytes() < limits.memory_bytes);
 }
 
+TEST_CASE("limits: the paper's edges are reduced to fit the memory, too", "[opencl][paper]") {
+  RenderedScene scene("room", 320, 200, 1);
+  scene.config = read_preset("paper");
+  opencl::DeviceLimits limits;
+  limits.memory_bytes = 80'000'000;
+  Device device = opencl::open_limited("0", kept_programs(), limits);
+  StereoOdometry odometry(scene.rig, device, scene.config);
+  const auto first = odometry.track(scene.frame(0));
+  REQUIRE(first.warnings.size() == 1);
+  CHECK(first.warnings[0].kind == WarningKind::device_memory);
+  CHECK_THAT(first.warnings[0].text, Contains("80 MB") && Contains("edges.max_edges (") && Contains("is reduced"));
+  CHECK(first.diagnostics.overflow);
+  CHECK(odometry.device_bytes() < limits.memory_bytes);
+}
+
 TEST_CASE("limits: memory_fit keeps what fits and refuses images that fill the memory", "[opencl]") {
   StereoRig rig;
   rig.left.width = rig.right.width = 1226;

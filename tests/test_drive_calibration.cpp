@@ -1,5 +1,6 @@
 /// \file test_drive_calibration.cpp  A rig learned from a drive: from made-up points with every lens model, from
 /// rendered frames, and by the commands.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include "geometry/calibration.hpp"
 #include "geometry/lens_mapping.hpp"
 #include "matching.hpp"
+#include "output/calibration_report.hpp"
 #include "program.hpp"
 #include "quadedge/drive_calibration.hpp"
 #include "quadedge/error.hpp"
@@ -14,6 +16,7 @@
 #include "rig/corner_flow.hpp"
 #include "rig/pair_adjustment.hpp"
 #include "rig/pair_collection.hpp"
+#include "rig/unseen_views.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -120,6 +123,7 @@ TEST_CASE("drive calibration: every lens model learns what is wrong with it", "[
       {LensModel::double_sphere, {-0.2, 0.55}, {0, 0.01}},
       {LensModel::extended_unified, {0.6, 1.1}, {0.01, 0}},
       {LensModel::omnidirectional, {0.8, -0.1, 0.02, 0, 0}, {0, 0.05, 0, 0, 0}},
+      {LensModel::omnidirectional, {0.8}, {0, 0.05, 0, 0, 0}},
   }));
   INFO(to_string(model) << " with " << sound.size() << " parameters");
   const StereoCalibration truth = made_up_rig(model, sound);
@@ -206,6 +210,12 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(sound.calibration.right_from_left.matrix() == truth.right_from_left.matrix());
   CHECK(sound.calibration.left.parameters == truth.left.parameters);
   CHECK_THAT(sound.text(), Contains("as good as given"));
+  // Two cameras that are zoomed alike see what a nearer scene would show; 1.1 f b / d is a tenth more than f b / d.
+  const std::string first_sentence = sound.text().substr(0, sound.text().find(". "));
+  CHECK_THAT(first_sentence, Contains("not observed: focal length, both (10 % would change depths by 10 %)"));
+  const std::string table = report::calibration_table(sound);
+  REQUIRE(sound.numbers[0].is_open());
+  CHECK_THAT(table.substr(0, table.find("focal length, right")), Contains("not observed"));
 
   StereoCalibration wrong = truth;
   wrong.right_from_left.linear() = rotation_by(Eigen::Vector3d(0.1, 0.2, 0.05) * kDegree);
@@ -251,6 +261,118 @@ TEST_CASE("drive calibration: a rig that is far off is not as good as given, eve
   const DriveCalibration result = learned_in_room(wrong);
   INFO(pitch << " degrees: " << result.text());
   CHECK(result.verdict != CalibrationVerdict::as_good);
+}
+
+TEST_CASE("drive calibration: points that one calibration loses count against it", "[rig]") {
+  const StereoCalibration truth = made_up_rig(LensModel::radial_tangential, {});
+  const rig::RigUnknowns unknowns(truth);
+  const auto pairs = made_up_pairs(truth, 8, 0.5);
+  const auto judged = [&](const Eigen::VectorXd& learned) {
+    rig::UnseenViews views;
+    views.add(unknowns, pointers_to(pairs), learned);
+    return views;
+  };
+  Eigen::VectorXd learned = Eigen::VectorXd::Zero(unknowns.count());
+  CHECK(judged(learned).distances(rig::UnseenViews::kLearned) == judged(learned).distances(rig::UnseenViews::kGiven));
+  CHECK_FALSE(judged(learned).fall());
+  CHECK_FALSE(judged(learned).rise_in_parts());
+  // Far off, with hardly a point below the limit of outliers.
+  learned[unknowns.first_rotation()] = 0.1;
+  rig::UnseenViews views = judged(learned);
+  CHECK(views.points() > 900);
+  for (const double distance : views.distances(rig::UnseenViews::kLearned))
+    CHECK(distance == rig::PairAdjustment::kFitLimit);
+  CHECK_FALSE(views.fall());
+  // A strong barrel distortion of the left lens, k1, shows no point beyond half of the image's width.
+  learned.setZero();
+  learned[8] = -0.5;
+  REQUIRE(unknowns[8].name == "k1, left");
+  REQUIRE_FALSE(LensMapping(unknowns.at(learned).left).ray({5, 5}));
+  views = judged(learned);
+  CHECK(views.rise_in_parts());
+  const auto& corner = views.parts(rig::UnseenViews::kLearned).by_place[0][0];
+  CHECK((std::isnan(corner) || corner == rig::PairAdjustment::kFitLimit));
+}
+
+TEST_CASE("drive calibration: a rig that changes from stretch to stretch is not learned", "[rig]") {
+  // The right camera is pitched up in the first and third quarter, down in the others; the calibration is between.
+  const StereoCalibration truth = room_calibration();
+  StereoCalibration given = truth;
+  DriveCalibrator calibrator(given, make_rig(given));
+  SyntheticOptions options;
+  options.width = 400;
+  options.height = 208;
+  options.focal = 230;
+  options.supersampling = 2;
+  options.frames = 64;
+  options.right_rotation = {1.5, 0, 0};
+  const SyntheticSequence up(options);
+  options.right_rotation = {-1.5, 0, 0};
+  const SyntheticSequence down(options);
+  for (int i = 0; i < options.frames; i += 4) calibrator.see((i / 16 % 2 == 0 ? up : down).pair(i).view());
+  const DriveCalibration result = calibrator.finish();
+  INFO(result.text());
+  REQUIRE(result.pairs >= 10);
+  CHECK(result.verdict != CalibrationVerdict::better);
+}
+
+TEST_CASE("drive calibration: nothing is learned where a mask hides the images", "[rig]") {
+  const StereoCalibration truth = room_calibration();
+  const StereoRig rig = make_rig(truth);
+  const Image nothing(400, 208);
+  Image all = nothing;
+  std::fill(all.pixels.begin(), all.pixels.end(), std::uint8_t{255});
+  const auto pairs_with = [&](const StereoRig& used, const Image& left, const Image& right) {
+    DriveCalibrator calibrator(truth, used);
+    for (std::size_t i = 0; i < 4; ++i) {
+      StereoFrame frame = room_frames()[i].view();
+      frame.left_mask = left.view();
+      frame.right_mask = right.view();
+      calibrator.see(frame);
+    }
+    return calibrator.pairs();
+  };
+  CHECK(pairs_with(rig, all, all) > 0);
+  CHECK(pairs_with(rig, nothing, {}) == 0);  // masks of the frames
+  CHECK(pairs_with(rig, {}, nothing) == 0);
+  // The rig's mask, of a pinhole image that shows the middle of the recorded one alone: beyond it, too.
+  StereoRig narrow = make_rig(truth, 40);
+  REQUIRE(narrow.left.fx > 2 * rig.left.fx);
+  CHECK(pairs_with(narrow, all, all) > 0);
+  narrow.left_mask = {narrow.left.width, narrow.left.height,
+                      std::vector<std::uint8_t>(nothing.pixels.size(), std::uint8_t{1})};
+  CHECK(pairs_with(narrow, all, all) == 0);
+}
+
+TEST_CASE("drive calibration: of a long recording every other pair is kept, the first one as well", "[rig]") {
+  const StereoCalibration truth = room_calibration();
+  const auto points_of = [&](int most_pairs) {
+    DriveCalibrator calibrator(truth, make_rig(truth), most_pairs);
+    for (int i = 0; i < 20; ++i) {  // twenty times the same pair
+      calibrator.see(room_frames()[0].view());
+      calibrator.see(room_frames()[1].view());
+      calibrator.restart();
+    }
+    return std::pair(calibrator.pairs(), calibrator.finish().points);
+  };
+  const auto [pairs, points] = points_of(100);
+  REQUIRE(pairs == 20);
+  const auto [kept_pairs, kept_points] = points_of(10);
+  CHECK(kept_pairs == 10);
+  CHECK(std::abs(kept_points - points / 2) < points / 40);  // half of a pair's
+}
+
+TEST_CASE("drive calibration: without k3, where the format to write has none", "[rig]") {
+  const StereoCalibration truth = made_up_rig(LensModel::radial_tangential, {-0.28, 0.07, 0.0002, 0.0001});
+  StereoCalibration given = truth;
+  given.right.parameters[0] += 0.01;
+  const rig::RigUnknowns unknowns(given, false);
+  const auto pairs = made_up_pairs(truth, 16, 0.05);
+  const StereoCalibration learned = unknowns.at(rig::PairAdjustment(unknowns, pointers_to(pairs)).learn());
+  CHECK(largest_displacement(truth, learned) < 0.25 * largest_displacement(truth, given));
+  const TemporaryFolder folder;
+  write_calibration(folder / "chain.yaml", learned, "kalibr");
+  CHECK(read_calibration(folder / "chain.yaml").right.parameters == learned.right.parameters);
 }
 
 TEST_CASE("drive calibration: a camera that stands shows nothing, and says what to do", "[rig]") {

@@ -1,5 +1,8 @@
 #include <Eigen/Eigenvalues>
+#include <atomic>
+#include <chrono>
 #include <tbb/global_control.h>
+#include <thread>
 
 #include "geometry/uncertain_pose.hpp"
 #include "quadedge/error.hpp"
@@ -201,4 +204,22 @@ TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device
     CHECK(edges.size() == 3000);
     CHECK(edges.row_first.back() == 3000);
   }
+}
+
+TEST_CASE("odometry: restart() waits for another user of the device", "[odometry][device]") {
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, room().config);
+  std::atomic<bool> is_done{false};
+  std::thread other;
+  {
+    const auto use = device.use();
+    other = std::thread([&] {
+      odometry.restart();
+      is_done = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    CHECK_FALSE(is_done);
+  }
+  other.join();
+  CHECK(is_done);
 }

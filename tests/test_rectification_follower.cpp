@@ -73,17 +73,6 @@ TEST_CASE("rectification follower: a camera that turns is learned anew after fou
   CHECK(changes == 1);
 }
 
-TEST_CASE("rectification follower: what an earlier recording has shown holds from the first frame on", "[rig]") {
-  const RectificationError error{0.6, 0.4, -0.3, 0, 3, 0};
-  auto earlier = follower(), later = follower();
-  next_after(earlier, error, 20);
-  later.start_from(earlier.rows().sums());
-  later.start_frame();
-  CHECK((later.error() - error).largest() < 0.1);
-  const Image grey(640, 480);
-  CHECK(later.suffices({0, grey.view(), grey.view()}, {}));
-}
-
 TEST_CASE("rectification follower: a single frame shows a large error", "[rig]") {
   const RectificationError error{0, 0, 0, 0, 6, 0};
   auto followed = follower();

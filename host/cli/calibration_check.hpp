@@ -3,9 +3,7 @@
 
 #include <optional>
 
-#include "quadedge/calibration.hpp"
 #include "quadedge/dataset.hpp"
-#include "rig/row_model.hpp"
 
 namespace quadedge::cli {
 
@@ -13,24 +11,21 @@ namespace quadedge::cli {
 /// otherwise empty.
 std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
 
-/// Tests the values of a calibration, its first, middle and last frame, and the rows of some frames, of pairs that
-/// arrive one by one. Without a known number of pairs there is no middle one.
+/// Tests the values of a calibration, and its first, middle and last frame, of pairs that arrive one by one. Without a
+/// known number of pairs there is no middle one.
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
   bool empty() const { return !dataset_; }
   /// The dataset of the pairs, without its stream. Valid after the first see().
   const Dataset& dataset() const { return dataset_.value(); }
-  /// Adds the findings. To be called once, after see(). \returns the corrected calibration
-  StereoCalibration finish(DatasetCheck& check);
+  /// Adds the findings. To be called once, after see().
+  void finish(DatasetCheck& check);
 
  private:
-  void see_rows(const StereoRig& rig, const StereoPair& pair);
-
   DatasetCheck found_;
   std::optional<Dataset> dataset_;
   std::optional<StereoPair> last_;
-  std::optional<rig::RowModel> rows_;  ///< of the right camera
 };
 
 }  // namespace quadedge::cli

@@ -8,7 +8,7 @@
 namespace quadedge::cli {
 
 void CalibrationExport::declare(Options& options) {
-  options.output("--kalibr", kalibr_, "also write it as Kalibr's camera chain");
+  options.output("--kalibr", kalibr_, "also write it as Kalibr's camera chain, whose lenses have no k3");
   options.output("--opencv", opencv_, "also write it as matrices of OpenCV (M1 D1 M2 D2 R T)");
   options.output("--ros", ros_, "also write it as camera_info of ROS, with R and P that rectify: LEFT,RIGHT");
 }

@@ -48,6 +48,7 @@ class CalibrateCommand : public Command {
     set_frames(dataset_, frames_);
     for (const std::string& file : {output_, picture_, json_}) report::check_output_file(file, force_);
     export_.check(force_);
+    limits_.has_k3 = !export_.lacks_k3();
     const Dataset dataset = source_.open(dataset_);
     const Interruption interruption;
     const DriveCalibration result = learn_rig(dataset, limits_, quiet_, interruption);

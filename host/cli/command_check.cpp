@@ -34,8 +34,6 @@ class CheckCommand : public Command {
     options.output("--write-calibration", calibration_,
                    "write the cameras in the program's own format, for --calibration");
     export_.declare(options);
-    options.flag("--correct", correct_,
-                 "also correct the right camera's pitch, roll and focal length, as estimated from vertical residuals");
     options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);
@@ -44,8 +42,6 @@ class CheckCommand : public Command {
   int run() override {
     path_ = source_.path();
     if (!source_.is_given()) throw UsageError("nothing to check: expected PATH, or --left, --right and --calibration");
-    if (correct_ && calibration_.empty() && export_.empty())
-      throw UsageError("--correct is for --write-calibration, --kalibr, --opencv and --ros");
     report::check_output_file(calibration_, force_);
     export_.check(force_);
     if (!source_.is_own_camera() && is_tree()) return check_tree();
@@ -61,10 +57,10 @@ class CheckCommand : public Command {
     DatasetCheck check = source_.is_own_camera() ? check_stereo_source(source_.own_camera(), see)
                                                  : check_dataset(path_, source_.layout(options_), see);
     if (evidence.empty()) return check;
-    const StereoCalibration corrected = evidence.finish(check);
+    evidence.finish(check);
     if (!check.errors.empty()) return check;
     const Dataset& dataset = evidence.dataset();
-    written_ = correct_ ? corrected : dataset.calibration.value_or(pinhole_calibration(dataset.rig));
+    written_ = dataset.calibration.value_or(pinhole_calibration(dataset.rig));
     if (!calibration_.empty()) write_calibration(calibration_, *written_);
     return check;
   }
@@ -118,7 +114,7 @@ class CheckCommand : public Command {
   std::optional<StereoCalibration> written_;  ///< of a recording without errors
   SourceOptions source_;
   DatasetOptions options_;
-  bool correct_ = false, force_ = false, quiet_ = false;
+  bool force_ = false, quiet_ = false;
 };
 
 }  // namespace

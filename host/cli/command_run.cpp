@@ -36,9 +36,6 @@ class RunCommand : public Command {
                  "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
     options.output("--save-map", run_.saved_map,
                    "write the places of the recording for `quadedge localise`; implies --loops");
-    options.output("--rig-file", run_.rig_file,
-                   "row model and disparity offset of the rig, estimated by earlier runs: read if FILE exists, written "
-                   "at the end");
     options.flag(
         "--calibrate", calibrates_,
         "learn the calibration from the start of the recording, as `quadedge calibrate` does, and track all of "

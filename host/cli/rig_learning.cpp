@@ -32,7 +32,8 @@ DriveCalibration learn_from(const std::vector<int>& chosen, const Dataset& datas
     read.frames.clear();
     for (const int frame : chosen) read.frames.push_back(dataset.frames[static_cast<std::size_t>(frame)]);
   }
-  DriveCalibrator calibrator(dataset.calibration.value_or(pinhole_calibration(dataset.rig)), dataset.rig);
+  DriveCalibrator calibrator(dataset.calibration.value_or(pinhole_calibration(dataset.rig)), dataset.rig,
+                             DriveCalibrator::kMostPairs, limits.has_k3);
   FramePrefetcher source(read, 2, [&] { return interruption.signal() != 0; });
   Progress progress(quiet, "frames");
   int done = 0;

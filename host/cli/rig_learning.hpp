@@ -11,6 +11,7 @@ namespace quadedge::cli {
 struct LearningLimits {
   int frames = 300;      ///< of files: evenly spread stretches of so many frames in all
   int enough_pairs = 0;  ///< from the start on, until so many pairs of frames are found; 0: all stretches
+  bool has_k3 = true;    ///< whether k3 of Brown's lenses is learned
 };
 
 /// Reads frames and learns from them, with progress. A signal ends the process. \throws DataError for a frame that

@@ -8,8 +8,6 @@
 #include "cli/console.hpp"
 #include "cli/edge_sample.hpp"
 #include "cli/points_output.hpp"
-#include "cli/rig_file.hpp"
-#include "cli/rig_observation.hpp"
 #include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
@@ -60,13 +58,12 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
 }
 
 /// Builds the pipeline and reports it: where the driver keeps no kernels from an earlier run this takes a while.
-std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet, const RigFile& known,
+std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet,
                                                report::RunRecord& run) {
   StatusLine status(quiet);
   const bool builds = !device.is_reference();
   if (builds) status.show("building kernels for " + device.info().name);
   auto odometry = std::make_unique<StereoOdometry>(rig, device, run.config);
-  known.start(*odometry);
   run.config = odometry->config();
   run.kernel_build_ms = odometry->kernel_build_ms();
   if (builds) status.show(printed("programs built in %.1f s", run.kernel_build_ms / 1000), true);
@@ -124,14 +121,13 @@ void show_progress(const report::RunRecord& run, int lost, Progress& progress) {
 
 /// First pass: poses and latencies. LONG: what a frame passes through, in its order.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  const Interruption& interruption, PointsOutput& points, EdgeSample& sample, RigFile& known,
-                  report::RunRecord& run) {
+                  const Interruption& interruption, PointsOutput& points, EdgeSample& sample, report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
   if (options.profile && device.is_reference())
     throw UsageError("--profile measures kernels, and the reference device has none");
   bench::add_saved_variants(device, run.config);
-  const auto pipeline = start_odometry(source.rig(), device, options.quiet, known, run);
+  const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
   StereoOdometry& odometry = *pipeline;
   std::optional<LoopOutput> loops;
   if (options.loops) loops.emplace(odometry);
@@ -164,8 +160,6 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().result.stamp_ns)
         odometry.restart();
       record.result = odometry.track(frame->view());
-      known.learn(odometry, record.result);
-      observe_rig(odometry, record.result, run.rig);
       files.add(record.result);
       report_warnings(record.result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
@@ -263,13 +257,11 @@ void write_segments(const std::string& folder, const Trajectory& trajectory) {
 
 /// Writes what depends on all frames: accuracy, report.json and the trace.
 void write_results(const FrameSource& source, const SequenceRunOptions& options, const EdgeSample& sample,
-                   const RigFile& known, report::RunRecord& run) {
+                   report::RunRecord& run) {
   write_segments(options.output, tracked_poses(run));
   evaluate(source, options, run);
   data::write_atomically(options.output + "/edges.csv", sample.csv());
-  if (!run.rig.is_empty()) data::write_atomically(options.output + "/rig_maps.csv", report::rig_maps_csv(run.rig));
   data::write_atomically(options.output + "/report.json", report::report_json(run));
-  known.write();
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
 }
 
@@ -291,20 +283,17 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
-  RigFile known(options.rig_file, source.rig());
-  run.config = known.with_offset(run.config);
-  const std::vector<std::string> files = {options.trace, options.rig_file, options.saved_map, options.points.ply};
+  const std::vector<std::string> files = {options.trace, options.saved_map, options.points.ply};
   report::check_beside_results(files, options.output, run.input.path);
   options.points.check_beside(files);
   const report::FolderLock lock = report::prepare_output_folder(options.output, options.force);
   report::check_output_file(options.trace, options.force);
-  report::check_output_file(options.rig_file, true);
   report::check_output_file(options.saved_map, options.force);
   options.points.check(options.force);
   PointsOutput points(options.points, run.config);
   EdgeSample sample;
   try {
-    track_frames(source, method, options, interruption, points, sample, known, run);
+    track_frames(source, method, options, interruption, points, sample, run);
   } catch (const Error& error) {
     if (run.frames.empty()) throw;
     run.ended_early = error.what();
@@ -313,7 +302,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
                       points.write();
                       run.points = points.facts();
                     },
-                    [&] { write_results(source, options, sample, known, run); }});
+                    [&] { write_results(source, options, sample, run); }});
   }
   if (run.frames.empty()) end_if_interrupted(interruption, source);
   points.write();
@@ -323,8 +312,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
       profile_frames(source, method, options, interruption, run);
     } catch (const Error& error) {
       run.kernel_times.clear();
-      end_with_error(error, run.frames.size(), options.output,
-                     {[&] { write_results(source, options, sample, known, run); }});
+      end_with_error(error, run.frames.size(), options.output, {[&] { write_results(source, options, sample, run); }});
     }
   }
   if (interruption.signal() != 0) {
@@ -332,7 +320,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
     run.ended_early = "interrupted after " + (knows_all ? std::to_string(run.frames.size()) + " of " : "") +
                       data::counted(knows_all ? run.input.frames : static_cast<int>(run.frames.size()), "frame");
   }
-  write_results(source, options, sample, known, run);
+  write_results(source, options, sample, run);
   if (interruption.signal() != 0) end_by_signal(interruption, source, options, run);
   return run;
 }

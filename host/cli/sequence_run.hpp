@@ -27,9 +27,8 @@ struct SequenceRunOptions {
   int draw_every = 0;
   int draw_frame = -1;
   PointFiles points;
-  std::string saved_map;  ///< file for the places of the recording, which need `loops`; empty: none
-  bool loops = false;     ///< recognise places, and write the corrected trajectory and the closures
-  std::string rig_file;   ///< what is learned of the rig: read if it exists, written at the end; empty: none
+  std::string saved_map;                    ///< file for the places of the recording, which need `loops`; empty: none
+  bool loops = false;                       ///< recognise places, and write the corrected trajectory and the closures
   std::optional<DriveCalibration> learned;  ///< what the rig was learned to be, if it was; written beside the results
   int thumbnails = 0;  ///< number of quad thumbnails, spread evenly over the frames after the first
 };

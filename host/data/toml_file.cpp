@@ -172,14 +172,6 @@ void assign(const TomlEntry& entry, std::vector<std::string>& value) {
   }
 }
 
-void assign(const TomlEntry& entry, std::vector<double>& value) {
-  const auto* numbers = std::get_if<std::vector<double>>(&entry.value);
-  if (numbers == nullptr || numbers->size() != value.size() ||
-      !std::all_of(numbers->begin(), numbers->end(), [](double number) { return std::isfinite(number); }))
-    refuse(entry, std::to_string(value.size()) + " finite numbers in brackets");
-  value = *numbers;
-}
-
 std::string toml_text(double value) {
   char text[40];  // toml++ writes 17 digits even if fewer read back as the same number
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);

@@ -39,8 +39,6 @@ void assign(const TomlEntry& entry, std::uint64_t& value);
 void assign(const TomlEntry& entry, bool& value);
 void assign(const TomlEntry& entry, std::string& value);
 void assign(const TomlEntry& entry, std::vector<std::string>& value);
-/// As many finite numbers as `value` has.
-void assign(const TomlEntry& entry, std::vector<double>& value);
 
 /// A value in TOML notation, on one line; numbers read back as the same value.
 std::string toml_text(double value);

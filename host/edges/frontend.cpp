@@ -31,11 +31,11 @@ std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, co
                                         std::vector<Warning>* warnings) {
   opencl::check_variants(config.variants);
   if (config.is_paper() && device.is_reference()) return std::make_unique<PaperReferenceFrontend>(rig, config);
-  if (config.is_paper()) return std::make_unique<PaperDeviceFrontend>(rig, *device.context(), config);
-  const StereoRig seen = within_common_view(rig);
+  const StereoRig seen = config.is_paper() ? rig : within_common_view(rig);
   if (device.is_reference()) return std::make_unique<ReferenceFrontend>(seen, config);
   const MemoryFit fit = fit_memory(seen, config, device.context()->limits().memory_bytes);
   if (warnings != nullptr && !fit.message.empty()) warnings->push_back({WarningKind::device_memory, fit.message});
+  if (config.is_paper()) return std::make_unique<PaperDeviceFrontend>(seen, *device.context(), fit.config);
   return std::make_unique<DeviceFrontend>(seen, *device.context(), fit.config);
 }
 

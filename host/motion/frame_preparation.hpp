@@ -61,10 +61,6 @@ class FramePreparation {
   std::vector<Warning> new_warnings();
 
   frontend::Frontend& frontend() const { return *frontend_; }
-  /// What is known of the rows; the front end corrects them.
-  rig::RectificationFollower& rows() const { return *rows_; }
-  /// Of the frame judged last.
-  const std::vector<rig::CornerMatch>& corner_matches() const { return rig_monitor_->matches(); }
 
  private:
   RecordedImages recorded_;

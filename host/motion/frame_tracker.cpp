@@ -407,13 +407,7 @@ FrameDetails FrameTracker::details() const {
 }
 
 LatestFrame FrameTracker::latest_frame() const {
-  return {device_,
-          preparation_.frontend(),
-          current_,
-          learned_.estimate(),
-          preparation_.rows(),
-          step_ ? &*step_ : nullptr,
-          preparation_.corner_matches()};
+  return {device_, preparation_.frontend(), current_, learned_.estimate(), step_ ? &*step_ : nullptr};
 }
 
 }  // namespace quadedge::odometry

@@ -1,13 +1,9 @@
 #pragma once
 /// \file latest_frame.hpp  The frame tracked last, as maps and the commands see it.
 
-#include <vector>
-
 #include "edges/frontend.hpp"
 #include "motion/motion_step.hpp"
 #include "quadedge/odometry.hpp"
-#include "rig/corner_matching.hpp"
-#include "rig/rectification_follower.hpp"
 
 namespace quadedge::odometry {
 
@@ -15,11 +11,9 @@ namespace quadedge::odometry {
 struct LatestFrame {
   Device& device;
   frontend::Frontend& frontend;
-  frontend::FrameEdgesHandle frame_edges;               ///< null before the first frame
-  RigEstimate rig;                                      ///< of the next frame, as far as it is known
-  rig::RectificationFollower& rows;                     ///< what is known of them
-  const MotionStep* step;                               ///< its motion; null if none was searched for
-  const std::vector<rig::CornerMatch>& corner_matches;  ///< what was compared with the calibration
+  frontend::FrameEdgesHandle frame_edges;  ///< null before the first frame
+  RigEstimate rig;                         ///< of the next frame, as far as it is known
+  const MotionStep* step;                  ///< its motion; null if none was searched for
 
   static LatestFrame of(const StereoOdometry& odometry);
 };

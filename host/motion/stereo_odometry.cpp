@@ -55,7 +55,10 @@ FrameResult StereoOdometry::track(const StereoFrame& frame) {
   const auto use = implementation_->device.use();
   return implementation_->processors.run([&] { return implementation_->tracker.track(frame); });
 }
-void StereoOdometry::restart() { implementation_->tracker.restart(); }
+void StereoOdometry::restart() {
+  const auto use = implementation_->device.use();
+  implementation_->tracker.restart();
+}
 FrameDetails StereoOdometry::details() const {
   const auto use = implementation_->device.use();
   return implementation_->tracker.details();

@@ -83,10 +83,11 @@ std::string calibration_json(const DriveCalibration& result, const std::string& 
 
 std::string calibration_table(const DriveCalibration& result) {
   if (result.numbers.empty()) return {};
-  std::string table = line("%-26s %12s %11s %11s", "number", "change", "deviation", "prior");
+  std::string table = line("%-26s %12s %12s %11s", "number", "change", "deviation", "prior");
   for (const LearnedNumber& number : result.numbers) {
-    table += line("%-26s %+12.6f %11.6f %11.6f %s%s", number.name.c_str(), number.change, number.sigma, number.prior,
-                  number.unit.c_str(), number.is_open() ? " (open)" : "");
+    const std::string deviation = number.is_open() ? "not observed" : printed("%.6f", number.sigma);
+    table += line("%-26s %+12.6f %12s %11.6f %s", number.name.c_str(), number.change, deviation.c_str(), number.prior,
+                  number.unit.c_str());
   }
   table += "\nwith the given calibration, if the learned one is true:\n";
   for (const auto& at : result.change.depths)

@@ -44,26 +44,6 @@ Json stages(const std::vector<std::vector<StageTime>>& frames) {
   return object;
 }
 
-Json map_json(const CellMap& map) {
-  const CellMap::Summary summary = map.summary();
-  return {{"cells", summary.cells},
-          {"rms_px", to_json(summary.rms)},
-          {"largest_px", to_json(summary.largest)},
-          {"scatter_px", to_json(summary.scatter)},
-          {"noise_px", to_json(summary.noise)}};
-}
-
-Json rig_json(const RigMaps& maps) {
-  const auto offset = [](const RigMaps::Offset& of) { return Json{{"px", of.value}, {"sigma_px", of.sigma}}; };
-  return {{"rows", {{"before", map_json(maps.rows_before)}, {"after", map_json(maps.rows_after)}}},
-          {"columns", {{"before", map_json(maps.columns_before)}, {"after", map_json(maps.columns_after)}}},
-          {"row_correction_px", maps.row_correction},
-          {"width", maps.width},
-          {"height", maps.height},
-          {"disparity_offset", {{"start", offset(maps.offset_start)}, {"end", offset(maps.offset_end)}}},
-          {"disparity_error_px", maps.disparity_error}};
-}
-
 Json loops_json(const LoopFacts& loops) {
   return {{"compared", loops.compared}, {"kept", loops.kept},
           {"segments", loops.segments}, {"frames", loops.frames},
@@ -108,6 +88,7 @@ std::string report_json(const RunRecord& run) {
   report["segments"] = run.frames.empty() ? 0 : run.frames.back().result.segment + 1;
   if (const std::string text = segments_text(run.frames); !text.empty()) report["segments_text"] = text;
   report["path_length_m"] = path_length_m(run.frames);
+  if (!run.frames.empty()) report["disparity_error_px"] = to_json(run.frames.back().result.rig.disparity_error);
   report["warnings"] = Json::array();
   for (const auto& warning : run.input.warnings) report["warnings"].push_back({{"frame", nullptr}, {"text", warning}});
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -125,7 +106,6 @@ std::string report_json(const RunRecord& run) {
     report["points"] = {
         {"count", run.points->points}, {"key_rigs", run.points->views}, {"dropped", run.points->dropped}};
   }
-  if (!run.rig.is_empty()) report["rig"] = rig_json(run.rig);
   if (run.loops) report["loops"] = loops_json(*run.loops);
   if (run.accuracy) {
     report["accuracy"] = accuracy(*run.accuracy);

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kResultFiles[] = {
     "trajectory.txt", "trajectory_kitti.txt", "groundtruth.txt", "errors.csv",         "frames.csv",
     "poses.csv",      "report.json",          "config.toml",     "trajectory_map.txt", "loops.csv",
-    "locations.csv",  "localisation.json",    "rig_maps.csv",    "edges.csv"};
+    "locations.csv",  "localisation.json",    "edges.csv"};
 
 bool is_result(const fs::path& file) {
   const std::string name = file.string();

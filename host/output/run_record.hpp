@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "output/motion_errors.hpp"
-#include "output/rig_maps.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/evaluation.hpp"
@@ -78,7 +77,6 @@ struct RunRecord {
   double host_peak_mb = 0, device_peak_mb = 0;
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
   std::vector<std::vector<StageTime>> kernel_times;
-  RigMaps rig;                                                ///< empty where nothing was compared
   std::optional<PointFacts> points;                           ///< only if requested
   std::optional<LoopFacts> loops;                             ///< only with --loops
   std::string truth_file;                                     ///< empty without ground truth

@@ -410,32 +410,24 @@ void PairAdjustment::fit(const Eigen::VectorXd& fixed) {
   optimise(values_, false, {{2, 8}, {4, kFitLimit}});
 }
 
-std::vector<PairAdjustment::Residual> PairAdjustment::all_residuals() const {
+std::vector<PairAdjustment::Residual> PairAdjustment::residuals() const {
   const Cameras cameras(unknowns_, values_, false);
   std::vector<Residual> residuals;
   Terms terms;
   for (const Pair& pair : pairs_) {
     for (std::size_t i = 0; i < pair.points.size(); ++i) {
-      if (!pair.points[i].is_alive) continue;
-      terms.measure(cameras, pair.motion, pair.points[i], pair.seen->points[i], kViewScale);
-      for (int view = 0; view < kViews; ++view) {
-        if (!pair.seen->points[i].is_seen[static_cast<std::size_t>(view)]) continue;
-        residuals.push_back({static_cast<View>(view), pair.seen->points[i].at[static_cast<std::size_t>(view)],
-                             terms.error.segment<2>(2 * view), pair.points[i].inverse_depth});
+      const Point& point = pair.points[i];
+      const SeenPoint& seen = pair.seen->points[i];
+      if (point.is_alive) terms.measure(cameras, pair.motion, point, seen, kViewScale);
+      for (std::size_t view = 0; view < kViews; ++view) {
+        if (!seen.is_seen[view]) continue;
+        const double error = terms.error.segment<2>(2 * static_cast<Eigen::Index>(view)).norm(),
+                     distance = point.is_alive ? std::min(error, kFitLimit) : kFitLimit;
+        residuals.push_back({static_cast<View>(view), seen.at[view], distance, point.inverse_depth, point.is_alive});
       }
     }
   }
   return residuals;
-}
-
-std::array<double, 2> PairAdjustment::residuals() const {
-  std::array<std::vector<double>, 2> distances;
-  for (const Residual& residual : all_residuals())
-    distances[static_cast<std::size_t>(index_of(side_of(residual.view)))].push_back(residual.error.norm());
-  std::array<double, 2> medians{};
-  for (std::size_t side = 0; side < 2; ++side)
-    medians[side] = distances[side].empty() ? 0 : upper_median(distances[side]);
-  return medians;
 }
 
 int PairAdjustment::points() const {

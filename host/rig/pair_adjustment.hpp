@@ -52,19 +52,17 @@ class PairAdjustment {
 
   /// Of the last learn(): what the pairs alone tell, at the values.
   const Evidence& evidence() const { return evidence_; }
-  /// Median distances of the points from where they are seen, of the left and the right camera [px]; of all points
-  /// within a limit, so that two calibrations are compared by the same ones.
-  std::array<double, 2> residuals() const;
-  /// A residual of a view, for reports.
+  /// How far a point lies from where a view shows it.
   struct Residual {
     View view;
-    Eigen::Vector2d at, error;  ///< px
-    double inverse_depth;       ///< 1/m
+    Eigen::Vector2d at;    ///< px
+    double distance;       ///< px; kFitLimit for a point that takes no part
+    double inverse_depth;  ///< 1/m
+    bool takes_part;
   };
-  std::vector<Residual> all_residuals() const;
+  /// Of all views of all points, whether they take part or not: two calibrations are compared view by view.
+  std::vector<Residual> residuals() const;
   int points() const;  ///< that take part
-  /// The motion of a pair.
-  const Eigen::Isometry3d& motion(std::size_t pair) const { return pairs_[pair].motion; }
 
  private:
   struct Point {

@@ -67,12 +67,6 @@ double RectificationFollower::observe(const std::vector<CornerMatch>& matches) {
   return change;
 }
 
-void RectificationFollower::start_from(const RowModel::Sums& known) {
-  rows_ = RowModel(rig_.right, known);
-  is_settled_ = known.frames > 0;
-  next_ = judge(rows_);
-}
-
 RectificationError RectificationFollower::judge(const RowModel& rows) const {
   const RectificationError error = rows.error();
   const double largest = error.largest(), released = next_.largest() > 0 ? kReleased : 1;

@@ -24,10 +24,6 @@ class RectificationFollower : public RowCorrection {
   /// Takes the matches of the current frame into account. A frame that is not taken leaves no trace. \returns by how
   /// much the rows have changed, if some frames in a row contradict the earlier ones, which are then forgotten [px]
   double observe(const std::vector<CornerMatch>& matches);
-
-  /// Begins with what earlier recordings with the rig have shown.
-  void start_from(const RowModel::Sums& known);
-  const RowModel& rows() const { return rows_; }
   /// Whether the frame last observed contradicted the earlier ones: its rows are not those of the known rig.
   bool is_contradicted() const { return is_contradicted_; }
 

@@ -45,9 +45,6 @@ constexpr double kMinScale = 0.02;  ///< px
 constexpr double kRowMemory = 100;        ///< frames
 constexpr double kTermSigmas = 4;         ///< standard deviations below which a term counts as 0
 constexpr double kMeanSquare = 1.0 / 12;  ///< of a coordinate from -1/2 to 1/2
-/// By how much rows differ between recordings with one rig, as a standard deviation, in the middle and over half the
-/// image [px]: EuRoC's MH_01 and V1_01 by 0.2.
-constexpr double kRowFloor = 0.05;
 
 // When the corners are searched for again (rig_monitor.cpp).
 

@@ -70,9 +70,6 @@ class RigMonitor {
   /// The distances from the lines that were seen so far are those of another rig.
   void forget_motions() { synchronisation_ = {}; }
 
-  /// The patches aligned in the last frame checked.
-  const std::vector<CornerMatch>& matches() const { return corner_matches_; }
-
   /// Checks a single frame without edges, as `quadedge check` does. \param max_disparity of the cascade [px]
   static RigReport examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity);
 

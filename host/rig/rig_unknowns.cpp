@@ -56,12 +56,7 @@ double corner_radius(const Lens& lens) {
 
 }  // namespace
 
-RigUnknowns::RigUnknowns(StereoCalibration given, double focal_prior)
-    : given_(std::move(given)), focal_prior_(focal_prior) {
-  constexpr std::size_t kBrown = 5;
-  for (Lens* lens : {&given_.left, &given_.right})
-    if (lens->model == LensModel::radial_tangential && lens->parameters.size() < kBrown)
-      lens->parameters.resize(kBrown);
+RigUnknowns::RigUnknowns(StereoCalibration given, bool has_k3) : given_(std::move(given)), has_k3_(has_k3) {
   const Eigen::Vector3d along = -given_.right_from_left.translation().normalized();  // x of a rectified rig
   const Eigen::Vector3d forward = (Eigen::Vector3d::UnitZ() - along.z() * along).normalized(),
                         across = forward.cross(along);
@@ -90,7 +85,7 @@ void RigUnknowns::add_cameras() {
       right(number, unknown) = 1;
     }
   };
-  set(add("focal length, both", "", focal_prior_), true, {kFocalX, kFocalY});
+  set(add(kCommonFocal, "", 1 / kPriorFocal), true, {kFocalX, kFocalY});
   set(add("focal length, right", "", 5 / kPriorFocal), false, {kFocalX, kFocalY});
   set(add("fy / fx, both", "", 3 / kPriorFocal), true, {kFocalY});
   set(add("fy / fx, right", "", 3 / kPriorFocal), false, {kFocalY});
@@ -102,11 +97,14 @@ void RigUnknowns::add_cameras() {
 }
 
 void RigUnknowns::add_lens(Side side) {
-  const Lens& lens = side == Side::left ? given_.left : given_.right;
+  Lens& lens = side == Side::left ? given_.left : given_.right;
   const double radius = corner_radius(lens);
   constexpr double kUsualRadius = 0.8;  // of the corner of the images that the priors were found with
   Eigen::MatrixXd& map = by_unknowns_[index_of(side)];
-  const auto parameters = parameters_of(lens, side == Side::right, is_horizontal_);
+  auto parameters = parameters_of(lens, side == Side::right, is_horizontal_);
+  if (lens.model == LensModel::radial_tangential && !has_k3_) parameters.pop_back();
+  const auto fewest = static_cast<std::size_t>(parameters.back().index) + 1;  // those that are missing are 0
+  lens.parameters.resize(std::max(lens.parameters.size(), fewest));
   map.conservativeResizeLike(
       Eigen::MatrixXd::Zero(kFirstLensParameter + static_cast<Eigen::Index>(parameters.size()), kMostUnknowns));
   for (const LensParameter& parameter : parameters) {

@@ -22,10 +22,10 @@ class RigUnknowns {
   /// Derivative of a pixel by all unknowns.
   using PixelByUnknowns = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 32>;
 
-  /// \param focal_prior standard deviation of the common focal length, relative
-  explicit RigUnknowns(StereoCalibration given, double focal_prior = kFocalPrior);
+  /// \param has_k3 whether k3 of Brown's lenses is unknown; otherwise it stays as given
+  explicit RigUnknowns(StereoCalibration given, bool has_k3 = true);
 
-  static constexpr double kFocalPrior = 1.0 / 985;
+  static constexpr const char* kCommonFocal = "focal length, both";  ///< the name of this unknown
 
   int count() const { return static_cast<int>(unknowns_.size()); }
   const Unknown& operator[](int i) const { return unknowns_[static_cast<std::size_t>(i)]; }
@@ -53,7 +53,7 @@ class RigUnknowns {
   Eigen::Vector3d moved_baseline(const Eigen::VectorXd& values) const;
 
   StereoCalibration given_;
-  double focal_prior_;
+  bool has_k3_;
   std::vector<Unknown> unknowns_;
   Eigen::MatrixXd by_unknowns_[2];
   std::vector<int> lens_parameters_[2];

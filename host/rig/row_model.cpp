@@ -8,10 +8,6 @@
 
 namespace quadedge::rig {
 
-RowModel::RowModel(const PinholeCamera& right, const Sums& known) : right_(right), sums_(known) {
-  if (known.frames > 0) fit_.terms = known.normal.ldlt().solve(known.right_side);
-}
-
 void RowModel::read(const std::vector<CornerMatch>& matches) {
   rows_.clear();
   for (const CornerMatch& match : matches) {
@@ -81,13 +77,6 @@ double RowModel::unexplained() const {
 RectificationError RowModel::error() const {
   const Terms terms = certain_terms();
   return {terms[0] - kMeanSquare * (terms[3] + terms[5]), terms[1], terms[2], terms[3], terms[4], terms[5]};
-}
-
-RowModel::Estimate RowModel::estimate() const {
-  Normal of_error = Normal::Identity();  // the terms of squares are less their mean
-  of_error(0, 3) = of_error(0, 5) = -kMeanSquare;
-  const Normal change = of_error * sums_.normal.inverse();
-  return {of_error * fit_.terms, change * (sums_.shared + sums_.variance * sums_.normal) * change.transpose()};
 }
 
 }  // namespace quadedge::rig

@@ -22,7 +22,7 @@ class RowModel {
   using Fit = RobustFit<kTerms>;
   using Terms = Fit::Terms;
   using Normal = Fit::Matrix;
-  /// All that is known; may be kept between recordings.
+  /// All that is known.
   struct Sums {
     Normal normal = Normal::Zero(), shared = Normal::Zero();  ///< `shared`: squared contributions of frames
     Terms right_side = Terms::Zero();
@@ -31,21 +31,14 @@ class RowModel {
     double frames = 0;          ///< that count
   };
 
-  /// \param right the camera in which the matches lie \param known what earlier recordings have shown
-  RowModel(const PinholeCamera& right, const Sums& known);
-  explicit RowModel(const PinholeCamera& right) : RowModel(right, Sums()) {}
+  /// \param right the camera in which the matches lie
+  explicit RowModel(const PinholeCamera& right) : right_(right) {}
 
   /// Adds the matches of a frame; too few change nothing.
   void add(const std::vector<CornerMatch>& matches);
 
   /// The terms that are certain, each shrunk by its uncertainty; all zero before the first frame.
   RectificationError error() const;
-  /// All terms, certain or not, in the order of RectificationError, and their covariance.
-  struct Estimate {
-    Terms terms;
-    Normal covariance;
-  };
-  Estimate estimate() const;
   /// Distance of the matches from the model, in units of their distance from the lines; 1 before the first frame.
   double unexplained() const;
   const Sums& sums() const { return sums_; }

@@ -16,7 +16,7 @@ namespace quadedge {
 enum class CalibrationVerdict {
   better,       ///< what was learned explains frames better that it was not learned from
   as_good,      ///< the given calibration explains them as well
-  cannot_show,  ///< the recording has too little motion or texture to tell
+  cannot_show,  ///< too little motion or texture to tell, or one is better here and the other one there
 };
 
 /// The name of the enumerator.
@@ -46,7 +46,7 @@ struct CalibrationChange {
 };
 
 /// Where frames that were not learned from contradict a calibration: median distances of points from where they are
-/// seen [px], NaN below 20 of them.
+/// seen [px], NaN below 20 of them. The same points count with every calibration, up to 4 px.
 struct UnseenDistances {
   static constexpr int kColumns = 12, kRows = 8;
   static constexpr std::array<double, 6> kFarthest = {2, 5, 10, 20, 50, 1e9};  ///< [m]
@@ -89,9 +89,13 @@ Eigen::Vector2d displacement(const StereoCalibration& given, const StereoCalibra
 /// frames give identical results.
 class DriveCalibrator {
  public:
+  static constexpr int kMostPairs = 200;
+
   /// \param rig made from `given`; its masks exclude parts of the images
   /// \param most_pairs pairs of frames that are kept: of a longer recording so many to twice as many, evenly spread
-  DriveCalibrator(const StereoCalibration& given, const StereoRig& rig, int most_pairs = 200);
+  /// \param learns_k3 whether k3 of Brown's lenses may change; Kalibr's radtan has none
+  DriveCalibrator(const StereoCalibration& given, const StereoRig& rig, int most_pairs = kMostPairs,
+                  bool learns_k3 = true);
   ~DriveCalibrator();
   DriveCalibrator(DriveCalibrator&&) noexcept;
 

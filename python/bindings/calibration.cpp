@@ -41,7 +41,7 @@ void bind_calibration(nb::module_& module) {
       .def_prop_ro(
           "verdict", [](const Self& self) { return to_string(self.verdict); },
           "\"better\": it explains frames better that it was not learned from; \"as_good\" as the given one; or\n"
-          "\"cannot_show\": the recording has too little motion or texture to tell.")
+          "\"cannot_show\": too little motion or texture to tell, or each of them explains some parts better.")
       .def_prop_ro("text", &Self::text, "The judgement in a few sentences.")
       .def_ro("numbers", &Self::numbers, "What was learned, whatever the verdict: a list of LearnedNumber.")
       .def_prop_ro(

@@ -85,22 +85,6 @@ def write_run(folder: Path, frames: int, drift: float = 0.01, *, lost: int = -1,
     return write_report(folder, report, segments=1 + breaks)
 
 
-def write_rig(folder: Path, rows_before: float) -> dict:
-    """Adds to a run the maps of a rig, of 2 x 3 cells without the last, whose rows are off in the first cell."""
-    def found(rms: float) -> dict:
-        return {"cells": 5, "rms_px": rms, "largest_px": -2 * rms, "scatter_px": 0.1, "noise_px": 0.01}
-
-    rows = [f"{i % 3},{i // 3},,,{-2 * rows_before if i == 0 else 0},0.01,99,0.02,0.02,99" for i in range(5)]
-    (folder / "rig_maps.csv").write_text("column,row,x,y,rows_before,rows_after,rows_samples,columns_before,"
-                                         "columns_after,columns_samples\n" + "\n".join([*rows, "2,1,,,,,3,,,3"]) + "\n")
-    rig = {"rows": {"before": found(rows_before), "after": found(0.01)},
-           "columns": {"before": found(0.02), "after": found(0.02)}, "width": 600, "height": 400,
-           "row_correction_px": 0,
-           "disparity_offset": {"start": {"px": 0, "sigma_px": 0.3}, "end": {"px": -0.125, "sigma_px": 0.02}},
-           "disparity_error_px": 0.25}
-    return write_report(folder, json.loads((folder / "report.json").read_text()), rig=rig)
-
-
 def write_batch(folder: Path, names: list[str], frames: int = 12) -> dict:
     """Writes a batch of made-up runs; returns its summary."""
     entries = []

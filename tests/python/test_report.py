@@ -6,7 +6,7 @@ import zlib
 
 import numpy as np
 import pytest
-from made_up_results import ORIGIN, accuracy, statistics, write_report, write_rig, write_run
+from made_up_results import ORIGIN, accuracy, statistics, write_report, write_run
 from parsed_page import page_of, save_picture
 
 from quadedge import report
@@ -151,46 +151,6 @@ def test_edges_in_space_move_with_the_path_to_the_ground_truth(tmp_path):
         report.make_page(tmp_path / "street")
 
 
-def test_maps_of_the_rig_have_one_scale_before_and_after(tmp_path):
-    write_run(tmp_path / "street", 12)
-    content = write_rig(tmp_path / "street", 0.4)
-    page = page_of(tmp_path / "street")
-    before, after, columns, _ = (page.figure(name)["data"][0] for name in (
-        "rows_before", "rows_after", "columns_before", "columns_after"))
-    assert before["z"] == [[-0.8, 0, 0], [0, 0, None]] and after["z"][0] == [0.01] * 3
-    assert before["x"] == [99.5, 299.5, 499.5] and before["y"] == [99.5, 299.5]
-    assert [before["zmin"], before["zmax"]] == [after["zmin"], after["zmax"]] == [-0.8, 0.8]
-    assert columns["zmax"] == 0.25  # that of a small map
-    assert page.figure("rows_before")["layout"]["yaxis"]["range"] == [399.5, -0.5]  # downwards
-    table = next(rows for title, rows in page.tables.items() if title.startswith("Residuals over the right image"))
-    assert table[1] == ["Vertical residuals", "calibration as given", "5", "0.40", "-0.80", "0.10"]
-    assert "+0.00\u2009\u00b1\u20090.30 px at the start, -0.12\u2009\u00b1\u20090.02 px at the end" in page.text
-    assert "by too little or with too few points" in page.text
-    assert page.text.count("No errors above the noise level") == 1
-    content["rig"]["row_correction_px"] = 0.85
-    write_report(tmp_path / "street", content)
-    page = page_of(tmp_path / "street")
-    assert "The search corrects them by up to 0.85 px" in page.text
-    write_rig(tmp_path / "street", 0.01)
-    assert page_of(tmp_path / "street").text.count("No errors above the noise level") == 2
-    rows = (tmp_path / "street/rig_maps.csv").read_text().splitlines()
-    (tmp_path / "street/rig_maps.csv").write_text("\n".join(rows[:4] + rows[5:]))
-    with pytest.raises(report.DamagedResults, match="rig_maps.csv: expected the maps of a run"):
-        report.make_page(tmp_path / "street")
-
-
-def test_a_run_without_points_at_new_key_rigs_says_nothing_of_horizontal_residuals(tmp_path):
-    write_run(tmp_path / "rest", 9)
-    content = write_rig(tmp_path / "rest", 0.01)
-    nothing = dict.fromkeys(("rms_px", "largest_px", "scatter_px", "noise_px")) | {"cells": 0}
-    content["rig"]["columns"] = {"before": nothing, "after": nothing}
-    write_report(tmp_path / "rest", content)
-    page = page_of(tmp_path / "rest")
-    assert page.text.count("No errors above the noise level") == 1
-    residuals = next(title for title in page.tables if title.startswith("Residuals over"))
-    assert page.row(residuals, "Horizontal residuals")[2:] == ["0", *[numbers.DASH] * 3]
-
-
 def test_an_interrupted_or_killed_run_has_a_page_of_its_finished_frames(tmp_path):
     content = write_run(tmp_path / "interrupted", 12)
     content["input"]["frames"], content["ended_early"] = 60, "interrupted after 12 of 60 frames"
@@ -295,7 +255,6 @@ def test_a_report_of_another_shape_is_named(tmp_path, key, value):
 
 def test_every_table_becomes_a_file(tmp_path):
     write_run(tmp_path / "street", 12)
-    write_rig(tmp_path / "street", 0.4)
     page = page_of(tmp_path / "street", csv=tmp_path / "csv")
     assert len(list((tmp_path / "csv").glob("*.csv"))) == len(page.tables)
     rows = list(csv.DictReader((tmp_path / "csv/errors.csv").read_text().splitlines()))

@@ -102,8 +102,6 @@ class Run:
     """The trajectory of the map, of a run with --loops."""
     loops: dict[str, list[str]] = field(default_factory=dict)
     """loops.csv."""
-    rig_maps: dict[str, np.ndarray] = field(default_factory=dict)
-    """The maps of rig_maps.csv by name; NaN where a cell has no median [px]."""
     edges: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
     """Some edges in space, of edges.csv [m]."""
 
@@ -178,8 +176,6 @@ def read_run(folder: Path, name: str = "") -> Run:
         corrected = read_tum(folder / "trajectory_map.txt")
         run.corrected = aligned(corrected, run.truth) if run.truth else corrected
         run.loops = read_columns(folder / "loops.csv")
-    if "rig" in report and (folder / "rig_maps.csv").is_file():
-        run.rig_maps = read_rig_maps(folder / "rig_maps.csv")
     if (folder / "pictures").is_dir():
         run.pictures = sorted((folder / "pictures").iterdir())
     return run
@@ -204,18 +200,6 @@ def read_edges(file: Path) -> np.ndarray:
     if not set(names) <= set(columns):
         raise DamagedResults(f"{file}: no column {' or '.join(names)}; expected the edges of a run")
     return np.stack([numbers(columns[name], file) for name in names], 1)
-
-
-def read_rig_maps(file: Path) -> dict[str, np.ndarray]:
-    """The maps of rig_maps.csv by name. Raises DamagedResults."""
-    columns = read_columns(file)
-    names = [f"{axis}_{state}" for axis in ("rows", "columns") for state in ("before", "after")]
-    places = [numbers(columns.get(name, []), file) for name in ("row", "column")]
-    shape = [int(np.max(place, initial=-1)) + 1 for place in places]
-    values = {name: numbers(columns.get(name, []), file) for name in names}
-    if any(len(value) != shape[0] * shape[1] for value in values.values()) or not np.prod(shape):
-        raise DamagedResults(f"{file}: expected the maps of a run, a row per cell")
-    return {name: value.reshape(shape) for name, value in values.items()}
 
 
 def report_of_killed(folder: Path, frames: dict[str, list[str]]) -> dict:

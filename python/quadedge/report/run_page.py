@@ -10,7 +10,6 @@ from .numbers import DASH, length_text, share_of, significant
 from .origin import device_text, origin
 from .page import Columns, Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
 from .results import Run
-from .rig_figures import finds_something, rig_figures, rig_table
 from .run_tables import (configuration_table, consistency_tables, consistency_texts, latency_table, loss_tables,
                          stage_table)
 from .sequence_figures import error_figures, frame_figures, trajectory_figures
@@ -33,12 +32,6 @@ def run_page(run: Run, detail: Detail) -> Page:
     best, picture = best_picture(run, detail)
     page.sections.append(Section("Overview", [*notices(run), *overview(run, picture, detail), *loss_tables(run)]))
     page.sections += plot_sections(run, detail)
-    if "rig" in report:
-        maps, found = rig_figures(run), finds_something(report["rig"])
-        page.sections.append(Section(
-            "Calibration: errors were found" if found else "Calibration: no errors found",
-            [rig_table(report["rig"]), *([Figures(maps)] if maps else [])], fold=True, open=found,
-            explained="reference.md#maps-of-the-rig"))
     pictures = picture_blocks(run, detail, without=best)
     if pictures:
         page.sections.append(Section("Pictures", pictures, explained="method.md"))
@@ -182,6 +175,8 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
         facts.append(("Ground truth", f"{truth}, {accuracy['matched_poses']} poses compared"))
     elif "path_length_m" in report:
         facts.append(("Path", f"{length_text(report['path_length_m'])} (estimated)"))
+    if "disparity_error_px" in report:
+        facts.append(("Calibration", f"leaves errors of {report['disparity_error_px']:.2f} px in disparities"))
     loops = report.get("loops")
     if loops:
         facts.append(("Loops", f"{loops['kept']} closures kept of {loops['compared']} compared, {loops['frames']} "
