@@ -42,7 +42,7 @@ MOST_LINES = {
     "python": 11440,
     "ros2": 115,
     "scripts": 3125,
-    "tests": 34940,
+    "tests": 34950,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
