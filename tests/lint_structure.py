@@ -42,7 +42,7 @@ MOST_LINES = {
     "python": 11440,
     "ros2": 115,
     "scripts": 3125,
-    "tests": 34940,
+    "tests": 34950,
 }
 WORKBENCH = ("host/benchmark/", "host/cli/", "host/data/", "host/output/", "host/paper/", "host/reference/",
              "host/scenes/")
