@@ -122,6 +122,24 @@ TEST_CASE("rig estimate: a known offset holds for the first frame and for the fi
   }
 }
 
+TEST_CASE("rig estimate: disparity errors are hundredths of a pixel with the true calibration", "[rig][device]") {
+  Device device(all_devices().front(), kept_programs());
+  StereoRig off = room().rig;
+  off.right.fx *= 1.02;  // disparities are wrong by up to 2.4 px, at the sides
+  StereoOdometry right(room().rig, device, room().config), wrong(off, device, room().config);
+  const double before = right.track(room().frame(0)).rig.disparity_error;
+  CHECK(wrong.track(room().frame(0)).rig.disparity_error == before);
+  double with_right = 0, with_wrong = 0;
+  for (std::size_t i = 1; i < 8; ++i) {
+    with_right = right.track(room().frame(i)).rig.disparity_error;
+    with_wrong = wrong.track(room().frame(i)).rig.disparity_error;
+  }
+  CHECK(with_right < 0.08);
+  CHECK(with_wrong > 1.15 * before);
+  wrong.restart();
+  CHECK(wrong.track(at(0, room().frame(0))).rig.disparity_error == before);
+}
+
 TEST_CASE("rig estimate: the points and the kept edges of a displaced keyframe are those of its rig", "[rig][device]") {
   Config config = room().config;
   config.odometry.key_rig = false;  // every frame becomes one
