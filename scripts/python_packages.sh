@@ -15,10 +15,8 @@ prepare_python() {
   [ -e "$stamp" ] && [ -z "$(find "${sources[@]}" -type f -newer "$stamp" ! -name '*.pyc')" ] && return 0
   echo "Installing the Python package into $1"
   { [ -x "$1/bin/pip" ] || python3 -m venv "$1"; } &&
-    "$1/bin/python" -c 'import sys, tomllib
-it = tomllib.load(open(sys.argv[1], "rb"))
-project = it["project"]
-print(*it["build-system"]["requires"], *project["dependencies"], *project["optional-dependencies"]["batch"], sep="\n")' \
+    "$1/bin/python" -c 'import sys, tomllib; it = tomllib.load(open(sys.argv[1], "rb")); own = it["project"]
+print(*it["build-system"]["requires"], *own["dependencies"], *own["optional-dependencies"]["batch"], sep="\n")' \
       "$repository/pyproject.toml" >"$1/requires.txt" &&
     "$1/bin/pip" install --quiet --disable-pip-version-check --requirement "$1/requires.txt" &&
     install_python "$1"
