@@ -63,7 +63,7 @@ void bind_trajectories(nb::module_& module) {
           "matrices that are not rigid transforms.")
       .def_static(
           "from_file", [](const std::filesystem::path& path) { return read_trajectory(path.string()); }, "path"_a,
-          "Reads a TUM file (8 columns) or a KITTI file (12 columns, where the row number serves as the stamp).\n\n"
+          "Reads TUM (8 columns), KITTI (12; stamps are row numbers) or EuRoC's CSV (a data.csv: beside cam0).\n\n"
           "Raises DataError that names file, line, what was found and what was expected.")
       .def(
           "write_tum",
