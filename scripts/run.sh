@@ -7,9 +7,10 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/python_packages.sh"
 
 install_missing $build_packages python3-venv
+install_for_pages "$repository/build/venv" &
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON
 cmake --build "$repository/build" --target quadedge_program
-install_for_pages "$repository/build/venv" || echo "There will be no pages." >&2
+wait %1 || echo "There will be no pages." >&2
 
 if [ $# -eq 0 ]; then
   "$repository/build/quadedge" demo --output quadedge_demo --force
