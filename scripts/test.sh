@@ -22,19 +22,21 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/python_packages.sh"
 
 install_missing $build_packages $python_packages $test_packages
+# One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list
+# changes, beside the build.
+venv="$repository/build/venv" requirements="$repository/tests/requirements.txt"
+make_venv() {
+  cmp -s "$requirements" "$venv/requirements.txt" && return
+  echo "Installing the Python packages of $requirements into $venv"
+  python3 -m venv --clear "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check --no-compile --requirement "$requirements"
+  cp "$requirements" "$venv/requirements.txt"
+}
+(set -e; make_venv) &
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON \
   -DQUADEDGE_UNITY=ON "${strict[@]}"
 cmake --build "$repository/build"
-
-# One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list
-# changes.
-venv="$repository/build/venv" requirements="$repository/tests/requirements.txt"
-if ! cmp -s "$requirements" "$venv/requirements.txt"; then
-  echo "Installing the Python packages of $requirements into $venv"
-  python3 -m venv --clear "$venv"
-  "$venv/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements"
-  cp "$requirements" "$venv/requirements.txt"
-fi
+wait %1
 
 install_python "$venv" -C cmake.define.QUADEDGE_WARNINGS_AS_ERRORS=ON
 
