@@ -295,28 +295,6 @@ TEST_CASE("drive calibration: points that one calibration loses count against it
   CHECK((std::isnan(corner) || corner == rig::PairAdjustment::kFitLimit));
 }
 
-TEST_CASE("drive calibration: a rig that changes from stretch to stretch is not learned", "[rig]") {
-  // The right camera is pitched up in the first and third quarter, down in the others; the calibration is between.
-  const StereoCalibration truth = room_calibration();
-  StereoCalibration given = truth;
-  DriveCalibrator calibrator(given, make_rig(given));
-  SyntheticOptions options;
-  options.width = 400;
-  options.height = 208;
-  options.focal = 230;
-  options.supersampling = 2;
-  options.frames = 64;
-  options.right_rotation = {1.5, 0, 0};
-  const SyntheticSequence up(options);
-  options.right_rotation = {-1.5, 0, 0};
-  const SyntheticSequence down(options);
-  for (int i = 0; i < options.frames; i += 4) calibrator.see((i / 16 % 2 == 0 ? up : down).pair(i).view());
-  const DriveCalibration result = calibrator.finish();
-  INFO(result.text());
-  REQUIRE(result.pairs >= 10);
-  CHECK(result.verdict != CalibrationVerdict::better);
-}
-
 TEST_CASE("drive calibration: nothing is learned where a mask hides the images", "[rig]") {
   const StereoCalibration truth = room_calibration();
   const StereoRig rig = make_rig(truth);
