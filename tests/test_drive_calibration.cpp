@@ -210,9 +210,9 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(sound.calibration.right_from_left.matrix() == truth.right_from_left.matrix());
   CHECK(sound.calibration.left.parameters == truth.left.parameters);
   CHECK_THAT(sound.text(), Contains("as good as given"));
-  // Two cameras that are zoomed alike see what a nearer scene would show; 1.1 f b / d is a tenth more than f b / d.
+  // Depths are f b / d in a rig without rotation.
   const std::string first_sentence = sound.text().substr(0, sound.text().find(". "));
-  CHECK_THAT(first_sentence, Contains("not observed: focal length, both (10 % would change depths by 10 %)"));
+  CHECK_THAT(first_sentence, Contains("not observed: focal length, both (10 % would change depths of 10 m by 10 %)"));
   const std::string table = report::calibration_table(sound);
   REQUIRE(sound.numbers[0].is_open());
   CHECK_THAT(table.substr(0, table.find("focal length, right")), Contains("not observed"));
