@@ -210,9 +210,9 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(sound.calibration.right_from_left.matrix() == truth.right_from_left.matrix());
   CHECK(sound.calibration.left.parameters == truth.left.parameters);
   CHECK_THAT(sound.text(), Contains("as good as given"));
-  // Two cameras that are zoomed alike see what a nearer scene would show; 1.1 f b / d is a tenth more than f b / d.
+  // Depths are f b / d in a rig without rotation.
   const std::string first_sentence = sound.text().substr(0, sound.text().find(". "));
-  CHECK_THAT(first_sentence, Contains("not observed: focal length, both (10 % would change depths by 10 %)"));
+  CHECK_THAT(first_sentence, Contains("not observed: focal length, both (10 % would change depths of 10 m by 10 %)"));
   const std::string table = report::calibration_table(sound);
   REQUIRE(sound.numbers[0].is_open());
   CHECK_THAT(table.substr(0, table.find("focal length, right")), Contains("not observed"));
@@ -266,7 +266,8 @@ TEST_CASE("drive calibration: a rig that is far off is not as good as given, eve
 TEST_CASE("drive calibration: points that one calibration loses count against it", "[rig]") {
   const StereoCalibration truth = made_up_rig(LensModel::radial_tangential, {});
   const rig::RigUnknowns unknowns(truth);
-  const auto pairs = made_up_pairs(truth, 8, 0.5);
+  auto pairs = made_up_pairs(truth, 8, 0.5);
+  for (rig::FramePair& pair : pairs) rig::find_motion(unknowns, pair);  // as pairs are collected
   const auto judged = [&](const Eigen::VectorXd& learned) {
     rig::UnseenViews views;
     views.add(unknowns, pointers_to(pairs), learned);
@@ -279,7 +280,7 @@ TEST_CASE("drive calibration: points that one calibration loses count against it
   // Far off, with hardly a point below the limit of outliers.
   learned[unknowns.first_rotation()] = 0.1;
   rig::UnseenViews views = judged(learned);
-  CHECK(views.points() > 900);
+  CHECK(views.points() == 8 * 120);
   for (const double distance : views.distances(rig::UnseenViews::kLearned))
     CHECK(distance == rig::PairAdjustment::kFitLimit);
   CHECK_FALSE(views.fall());
@@ -290,30 +291,8 @@ TEST_CASE("drive calibration: points that one calibration loses count against it
   REQUIRE_FALSE(LensMapping(unknowns.at(learned).left).ray({5, 5}));
   views = judged(learned);
   CHECK(views.rise_in_parts());
-  const auto& corner = views.parts(rig::UnseenViews::kLearned).by_place[0][0];
+  const double corner = views.parts(rig::UnseenViews::kLearned).by_place[0][0];
   CHECK((std::isnan(corner) || corner == rig::PairAdjustment::kFitLimit));
-}
-
-TEST_CASE("drive calibration: a rig that changes from stretch to stretch is not learned", "[rig]") {
-  // The right camera is pitched up in the first and third quarter, down in the others; the calibration is between.
-  const StereoCalibration truth = room_calibration();
-  StereoCalibration given = truth;
-  DriveCalibrator calibrator(given, make_rig(given));
-  SyntheticOptions options;
-  options.width = 400;
-  options.height = 208;
-  options.focal = 230;
-  options.supersampling = 2;
-  options.frames = 64;
-  options.right_rotation = {1.5, 0, 0};
-  const SyntheticSequence up(options);
-  options.right_rotation = {-1.5, 0, 0};
-  const SyntheticSequence down(options);
-  for (int i = 0; i < options.frames; i += 4) calibrator.see((i / 16 % 2 == 0 ? up : down).pair(i).view());
-  const DriveCalibration result = calibrator.finish();
-  INFO(result.text());
-  REQUIRE(result.pairs >= 10);
-  CHECK(result.verdict != CalibrationVerdict::better);
 }
 
 TEST_CASE("drive calibration: nothing is learned where a mask hides the images", "[rig]") {
@@ -346,11 +325,19 @@ TEST_CASE("drive calibration: nothing is learned where a mask hides the images",
 
 TEST_CASE("drive calibration: of a long recording every other pair is kept, the first one as well", "[rig]") {
   const StereoCalibration truth = room_calibration();
+  std::size_t second = 0;  // the first frame that has moved enough
+  for (int pairs = 0; pairs == 0;) {
+    REQUIRE(++second < room_frames().size());
+    DriveCalibrator calibrator(truth, make_rig(truth));
+    calibrator.see(room_frames()[0].view());
+    calibrator.see(room_frames()[second].view());
+    pairs = calibrator.pairs();
+  }
   const auto points_of = [&](int most_pairs) {
     DriveCalibrator calibrator(truth, make_rig(truth), most_pairs);
     for (int i = 0; i < 20; ++i) {  // twenty times the same pair
       calibrator.see(room_frames()[0].view());
-      calibrator.see(room_frames()[1].view());
+      calibrator.see(room_frames()[second].view());
       calibrator.restart();
     }
     return std::pair(calibrator.pairs(), calibrator.finish().points);

@@ -12,7 +12,7 @@ namespace {
 struct Bytes {
   double per_pixel, per_edge;
 };
-constexpr Bytes kDefault = {160, 5000}, kPaper = {320, 10000};
+constexpr Bytes kDefault = {160, 5000}, kPaper = {320, 12000};
 constexpr double kFixedBytes = 16e6;
 constexpr double kUsable = 0.75;        // of the memory; the rest is left to the driver and other programs
 constexpr double kEdgesPerPixel = 0.2;  // in densely textured images if all edges are used

@@ -16,9 +16,9 @@ struct MemoryFit {
 };
 
 /// Lowers edges.budget and edges.max_edges if the memory of a device might not suffice. The estimate is conservative:
-/// 160 bytes per pixel of the left image, and 5 KB per edge of an image, twice the demand of the rendered scenes; for the
-/// method of the paper, which has no budget, twice as much.
-/// \throws DeviceError if the images alone need too much memory
+/// 160 bytes per pixel of the left image, and 5 KB per edge of an image, twice the demand of the rendered scenes; for
+/// the method of the paper, which has no budget, 320 bytes and 12 KB. \throws DeviceError if the images alone need too
+/// much memory
 MemoryFit fit_memory(const StereoRig& rig, const Config& config, std::size_t memory_bytes);
 
 /// Whether a buffer of `bytes` fits beside what fit_memory() reckons with.

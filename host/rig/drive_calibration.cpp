@@ -61,7 +61,8 @@ std::string not_observed(const DriveCalibration& result) {
       camera->fy *= 1.1;
     }
     constexpr double kDepth = 10;  // m
-    names += printed(" (10 %% would change depths by %.0f %%)", 100 * rig::depth_error(longer, result.given, kDepth));
+    names += printed(" (10 %% would change depths of %.0f m by %.0f %%)", kDepth,
+                     100 * rig::depth_error(longer, result.given, kDepth));
   }
   return names;
 }
