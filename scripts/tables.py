@@ -347,8 +347,8 @@ def paper_extensions(results):
 
 # Table -> part that it is made from, function
 TABLES = {"compared": ("accuracy", compared), "steps": ("accuracy", steps), "nees": ("accuracy", normalised_errors),
-          "presets": ("accuracy", presets), "drift": ("drift", drift), "matching": ("matching", matching), "ros2": ("ros2", ros2),
-          "whole": ("evidence", whole_recordings), "evidence": ("evidence", evidence),
+          "presets": ("accuracy", presets), "drift": ("drift", drift), "matching": ("matching", matching),
+          "ros2": ("ros2", ros2), "whole": ("evidence", whole_recordings), "evidence": ("evidence", evidence),
           "evidence-nees": ("evidence", evidence_nees), "paper-stereo": ("paper", paper_filters("stereo")),
           "paper-temporal": ("paper", paper_filters("temporal_left")),
           "paper-constraints": ("paper", paper_filters("constraints")),

@@ -5,9 +5,7 @@
 #include "dataset_files.hpp"
 #include "program.hpp"
 
-using Catch::Matchers::Contains;
 using dataset_files::write_text;
-using namespace quadedge;
 namespace fs = std::filesystem;
 
 namespace {

@@ -118,6 +118,12 @@ SceneMakers& scene_makers() {
   return makers;
 }
 
+Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
+  const SceneMakers& makers = scene_makers();
+  return std::find_if(makers.begin(), makers.end(), [&](const auto& known) { return known.first == name; })
+      ->second(seed, focal);
+}
+
 Scene make_room(std::uint64_t seed, double focal) {
   // Room: x right, y down, z into the scene; rotated so that no wall is parallel to the first image.
   SceneBuilder build(combine(seed, 1), focal, pose(Vector3d::Zero(), 0.2, 0.05, 0.03));

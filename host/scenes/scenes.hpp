@@ -71,6 +71,9 @@ class SceneBuilder {
 using SceneMakers = std::vector<std::pair<std::string, std::function<Scene(std::uint64_t seed, double focal)>>>;
 SceneMakers& scene_makers();
 
+/// Scene with this name, one of synthetic_scenes().
+Scene make_scene(const std::string& name, std::uint64_t seed, double focal);
+
 /// A room of about 6 x 3 x 8 m with boxes, boards, balls and pillars at 1.3 to 4 m, all richly textured.
 Scene make_room(std::uint64_t seed, double focal);
 

@@ -107,12 +107,6 @@ StereoRig rig_of(const StereoCalibration& calibration, int bits) {
   return rig;
 }
 
-synthetic::Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
-  const auto& makers = synthetic::scene_makers();
-  return std::find_if(makers.begin(), makers.end(), [&](const auto& known) { return known.first == name; })
-      ->second(seed, focal);
-}
-
 /// Exposure time for the requested blur [frame periods].
 double exposure_of(const SyntheticOptions& options, const synthetic::CameraPath& path, const PinholeCamera& camera) {
   if (options.blur == 0.0) return 0.0;
@@ -150,7 +144,7 @@ class SyntheticSequence::Implementation {
         rig(rig_of(calibration, asked.bits)),
         left_rays(calibration.left),
         right_rays(calibration.right),
-        scene(make_scene(asked.scene, asked.seed, options.focal)),
+        scene(synthetic::make_scene(asked.scene, asked.seed, options.focal)),
         path(asked.path, asked.seed, asked.frames, scene.lane),
         exposure(exposure_of(options, path, rig.left)) {
     rig.max_disparity = std::ceil(rig.left.fx * options.baseline / scene.nearest);

@@ -150,4 +150,5 @@ def made_up_matching(names: list[str], frames: int) -> dict:
     return ORIGIN | {
         "device": DEVICE, "input": names, "tolerance_px": 1.0, "wrong_px": 10.0,
         "pairs": pairs, "pooled": _summary() | {
-            "distributions": [cue], "disparity_error_histogram": {"low": -1.5, "high": 1.5} | histogram}} | CONFIGURATION
+            "distributions": [cue],
+            "disparity_error_histogram": {"low": -1.5, "high": 1.5} | histogram}} | CONFIGURATION

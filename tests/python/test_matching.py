@@ -8,7 +8,7 @@ import quadedge
 from matching_scene import (STEEP, candidates, edges, floats, images_of, plane_truth, result, small_rig, stereo_edges)
 from quadedge import StereoFilter, TemporalFilter
 from quadedge.matching.counts import Counts, FilterRow, Nearby, Pools, Tolerance
-from quadedge.matching.cues import DRAWN_OTHERS, Histogram, Judge, make_cues
+from quadedge.matching.cues import DRAWN_OTHERS, Judge, histogram, histogram_document, make_cues
 from quadedge.matching.document import summary
 from quadedge.matching.observer import FrameMatching, MatchingObserver, MatchingResult, add_cues
 from quadedge.matching.quad_pairs import check_constraints, measure_pairs, motion_errors
@@ -20,8 +20,9 @@ def observer_of(**config):
                             Tolerance())
 
 
-def in_bin(histogram, value):
-    return histogram.bins[int((value - histogram.low) / ((histogram.high - histogram.low) / len(histogram.bins)))]
+def in_bin(cue, kind, value):
+    low, high, count = cue.bins
+    return cue.of[kind][1 + int((value - low) / (high - low) * count)]
 
 
 def test_a_scene_has_the_recall_precision_and_ambiguity_calculated_by_hand():
@@ -194,18 +195,19 @@ def test_cues_of_a_scene_are_sorted_by_the_ground_truth():
     assert measured.stereo[0].paired.pool == 1
 
     def of(order):
-        return cues["stereo", order].of["veridical"], cues["stereo", order].of["other"]
+        cue = cues["stereo", order]
+        return cue, cue.of["veridical"].sum(), cue.of["other"].sum()
 
-    veridical, other = of(1)
-    assert veridical.total == 1 and in_bin(veridical, 0.22) == 1
+    line, veridical, other = of(1)
+    assert veridical == 1 and in_bin(line, "veridical", 0.22) == 1
     # The pairs drawn for edge 0: right edge 1 lies on the line, right edge 2 four pixels off; the veridical edge is not
     # among them.
-    assert DRAWN_OTHERS / 3 < other.total < DRAWN_OTHERS
-    assert in_bin(other, 4.01) > 0 and in_bin(other, 0.01) + in_bin(other, 4.01) == other.total
+    assert DRAWN_OTHERS / 3 < other < DRAWN_OTHERS
+    assert in_bin(line, "other", 4.01) > 0 and in_bin(line, "other", 0.01) + in_bin(line, "other", 4.01) == other
     for order, true, false in ((2, 9.6, 15.0), (3, numpy.degrees(0.05), numpy.degrees(0.3)), (4, 100, 300),
                                (6, 0.999, 0.5)):
-        veridical, other = of(order)
-        assert in_bin(veridical, true) == 1 and in_bin(other, false) == 1 and other.total == 1, order
+        cue, veridical, other = of(order)
+        assert in_bin(cue, "veridical", true) == 1 and in_bin(cue, "other", false) == 1 and other == 1, order
 
 
 def test_ratios_to_the_best_sift_distance_are_inverted_so_that_the_best_has_one():
@@ -213,13 +215,12 @@ def test_ratios_to_the_best_sift_distance_are_inverted_so_that_the_best_has_one(
     judge = Judge(truth, Pools(numpy.array([True]), numpy.array([True])), Tolerance(), edges((5, 5), (9, 5)))
     cue = make_cues(small_rig(), quadedge.configuration())["stereo", 7]
     judge.collect_scores(candidates([0, 1], cue=[50, 200]), cue, "lowest")
-    assert in_bin(cue.of["veridical"], 0.999) == 1 and in_bin(cue.of["other"], 0.25) == 1
+    assert in_bin(cue, "veridical", 0.999) == 1 and in_bin(cue, "other", 0.25) == 1
 
 
 def test_a_histogram_counts_every_value_once_and_those_out_of_range():
-    histogram = Histogram.empty(0, 1, 4)
-    histogram.add([0, 0.1, 0.3, 0.99, 1, -0.5, 7, numpy.nan])
-    assert histogram.document() == {"below": 1, "bins": [2, 1, 0, 2], "above": 1} and histogram.total == 7
+    counts = histogram([0, 0.1, 0.3, 0.99, 1, -0.5, 7, numpy.nan], 0, 1, 4)
+    assert histogram_document(counts) == {"below": 1, "bins": [2, 1, 0, 2], "above": 1}
 
 
 def test_pooled_cues_add_up_and_keep_all_thresholds():
@@ -229,7 +230,7 @@ def test_pooled_cues_add_up_and_keep_all_thresholds():
         cues["stereo", 2].add([limit], numpy.array([True]), numpy.array([True]))
         add_cues(pooled, cues)
     assert pooled["stereo", 2].thresholds == [20, 60] and len(pooled["stereo", 3].thresholds) == 1
-    assert pooled["stereo", 2].of["veridical"].total == 3 and ("stereo", 8) not in pooled
+    assert pooled["stereo", 2].of["veridical"].sum() == 3 and ("stereo", 8) not in pooled
 
 
 def random_points(random, count):
@@ -277,9 +278,9 @@ def test_pairs_of_true_quads_give_the_true_motion_and_wrong_quads_lower_precisio
     # A true pair fulfils 1 to 4; 5 depends on its directions.
     assert (measured.veridical[1:5] == measured.veridical[0]).all() and (numpy.diff(measured.pairs[:5]) < 0).all()
     assert (measured.errors[6] < [1e-4, 1e-5]).all()
-    length = cues["constraints", 1].of
-    assert in_bin(length["veridical"], 0.001) == measured.veridical[0]
-    assert length["other"].total == measured.pairs[0] - measured.veridical[0]
+    length = cues["constraints", 1]
+    assert in_bin(length, "veridical", 0.001) == measured.veridical[0]
+    assert length.of["other"].sum() == measured.pairs[0] - measured.veridical[0]
     # If all were wrong, no motion would be near.
     nothing = measure_pairs(before, others, numpy.zeros(400, bool), 1, motion, {})
     assert nothing.veridical[6] == 0 and nothing.errors[0, 0] > 20

@@ -17,42 +17,15 @@ _SLACK = 1e-3
 """Bins: in single precision, an NCC of one may slightly exceed one."""
 
 
-@dataclass
-class Histogram:
-    """Counts of values in bins of equal width, and of those outside low .. high."""
+def histogram(values: np.ndarray, low: float, high: float, count: int) -> np.ndarray:
+    """(count + 2,): numbers of values below low .. high, in its bins of equal width, and above; NaN is ignored."""
+    values, ends = np.asarray(values, float), np.linspace(low, high, count + 1)
+    ends[[0, -1]] += _SLACK * (ends[1] - ends[0]) * np.array([-1, 1])
+    return np.concatenate([[(values < ends[0]).sum()], np.histogram(values, ends)[0], [(values > ends[-1]).sum()]])
 
-    low: float
-    high: float
-    bins: np.ndarray
-    below: int = 0
-    above: int = 0
 
-    @classmethod
-    def empty(cls, low: float, high: float, count: int) -> "Histogram":
-        return cls(low, high, np.zeros(count, int))
-
-    def add(self, values: np.ndarray) -> None:
-        """NaN is ignored."""
-        values = np.asarray(values, float)
-        place = (values[~np.isnan(values)] - self.low) / ((self.high - self.low) / len(self.bins))
-        below, above = place < -_SLACK, place > len(self.bins) + _SLACK
-        inside = np.clip(place[~below & ~above], 0, len(self.bins) - 1).astype(int)
-        self.bins += np.bincount(inside, minlength=len(self.bins))
-        self.below += int(below.sum())
-        self.above += int(above.sum())
-
-    def __iadd__(self, other: "Histogram") -> "Histogram":
-        self.bins = self.bins + other.bins
-        self.below += other.below
-        self.above += other.above
-        return self
-
-    @property
-    def total(self) -> int:
-        return self.below + int(self.bins.sum()) + self.above
-
-    def document(self) -> dict:
-        return {"below": self.below, "bins": self.bins.tolist(), "above": self.above}
+def histogram_document(counts: np.ndarray) -> dict:
+    return {"below": int(counts[0]), "bins": counts[1:-1].tolist(), "above": int(counts[-1])}
 
 
 KINDS = ("veridical", "other", "veridical_all", "other_all")
@@ -69,15 +42,16 @@ class Cue:
     bins: tuple[float, float, int]
     sampled: bool = False
     """The other pairs are a random sample, because there are too many."""
-    of: dict[str, Histogram] = field(default_factory=dict)
+    of: dict[str, np.ndarray] = field(default_factory=dict)
+    """Histograms by KINDS."""
 
     def __post_init__(self):
-        self.of = self.of or {kind: Histogram.empty(*self.bins) for kind in KINDS}
+        self.of = self.of or {kind: np.zeros(self.bins[2] + 2, int) for kind in KINDS}
 
     def add(self, values: np.ndarray, veridical: np.ndarray, paired: np.ndarray) -> None:
         """Values of pairs of the pool of all edges; `paired` marks those of the other pool."""
         for kind, chosen in zip(KINDS, (veridical & paired, ~veridical & paired, veridical, ~veridical)):
-            self.of[kind].add(np.asarray(values)[chosen])
+            self.of[kind] += histogram(np.asarray(values)[chosen], *self.bins)
 
     def __iadd__(self, other: "Cue") -> "Cue":
         for kind in KINDS:

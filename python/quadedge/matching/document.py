@@ -6,7 +6,7 @@ import numpy as np
 
 from .. import __version__, configuration
 from .counts import ratio
-from .cues import Cues, Histogram
+from .cues import Cues, histogram, histogram_document
 from .observer import CENSUS, CLASSES, SIDES, MatchingResult, Tolerance, add_cues
 from .quad_pairs import CONSTRAINTS
 
@@ -109,13 +109,13 @@ def summary(results: list[MatchingResult]) -> dict:
 def _distributions(cues: Cues) -> list[dict]:
     shown = []
     for (table, order), cue in cues.items():
-        if cue.of["veridical"].total + cue.of["other"].total == 0:
+        if cue.of["veridical"].sum() + cue.of["other"].sum() == 0:
             continue
         low, high, _ = cue.bins
         entry = {"table": table, "order": order, "cue": cue.name, "unit": cue.unit, "keeps_small": cue.keeps_small,
                  "thresholds": cue.thresholds, "low": float(low), "high": float(high), "other_is_sample": cue.sampled}
-        both = cue.of["veridical_all"].total + cue.of["other_all"].total > 0
-        shown.append(entry | {kind: histogram.document() for kind, histogram in cue.of.items()
+        both = cue.of["veridical_all"].sum() + cue.of["other_all"].sum() > 0
+        shown.append(entry | {kind: histogram_document(counts) for kind, counts in cue.of.items()
                               if both or not kind.endswith("_all")})
     return shown
 
@@ -166,12 +166,12 @@ def document(results: list[MatchingResult], device, config: dict, inputs: list[s
     content["pairs"] = [{"name": result.name, "frames": len(result.frames),
                          "counts": [_per_frame(frame) for frame in result.frames], **summary([result])}
                         for result in results]
-    cues, errors = {}, Histogram.empty(-DISPARITY_RANGE, DISPARITY_RANGE, 300)
+    cues = {}
     for result in results:
         add_cues(cues, result.cues)
-        for frame in result.frames:
-            errors.add(frame.disparity_error)
+    errors = np.concatenate([frame.disparity_error for result in results for frame in result.frames])
     content["pooled"] = {**summary(results), "distributions": _distributions(cues),
                          "disparity_error_histogram": {"low": -DISPARITY_RANGE, "high": DISPARITY_RANGE,
-                                                       **errors.document()}}
+                                                       **histogram_document(histogram(
+                                                           errors, -DISPARITY_RANGE, DISPARITY_RANGE, 300))}}
     return content

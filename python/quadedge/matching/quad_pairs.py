@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cues import ANGLE, LENGTH, MIN_ANGLE, MIN_DETERMINANT, TANGENT, Cues
+from .cues import ANGLE, LENGTH, MIN_ANGLE, MIN_DETERMINANT, TANGENT, Cues, histogram
 
 CONSTRAINTS = ("all pairs", "length of D", "angle of D and T1", "angle of D and T2", "angle of T1 and T2",
                "D not along T1", "handedness")
@@ -128,8 +128,8 @@ def measure_pairs(before, now, veridical: np.ndarray, seed: int, now_from_before
         measured.pairs[order], measured.veridical[order] = left.sum(), (left & both).sum()
         if ("constraints", order + 1) in cues:
             cue = cues["constraints", order + 1]
-            cue.of["veridical"].add(values[order, left & both])
-            cue.of["other"].add(values[order, left & ~both])
+            cue.of["veridical"] += histogram(values[order, left & both], *cue.bins)
+            cue.of["other"] += histogram(values[order, left & ~both], *cue.bins)
         rows = np.nonzero(left & solvable)[0][:MOST_MOTIONS]
         motions = motion_of_pairs(*(each[:, rows] for each in pairs))
         measured.errors[order] = _median(motion_errors(motions, now_from_before))
