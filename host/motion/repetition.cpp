@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -28,8 +26,9 @@ constexpr double kShiftStep = 4, kLeastMotion = 0.25;
 /// An equal lies this close to the line of motion, and in disparity [px], with a direction of this cosine to that of
 /// the edge.
 constexpr double kEqualDistance = 1.5, kEqualCosine = 0.966;
-/// The scene repeats if this fraction of the voters in view have equals; at least a third of them count as in view.
-constexpr double kRepeatingRatio = 0.35, kLeastInView = 1.0 / 3.0;
+/// The scene repeats if this fraction of the voters in view have equals; at least half of them count as in view. The
+/// nearest shift that nearly as many have is the period.
+constexpr double kRepeatingRatio = 0.35, kLeastInView = 0.5, kNearlyMost = 0.8;
 /// Motions differ by periods if this fraction of one is left.
 constexpr double kPeriodRest = 0.15;
 /// Border of the image in which partners in the other one may be out of view [image width].
@@ -42,7 +41,7 @@ constexpr double kSameSize = 0.075, kLeastShift = 8;
 constexpr float kSimilar = 0.7F;
 /// Edges that only one motion finds show that it is the camera's if they are so many times those of the other, more
 /// than that, and this fraction of what both find.
-constexpr double kDecisiveRatio = 2, kDecisiveEdges = 20, kDecisiveShare = 0.3;
+constexpr double kDecisiveRatio = 2, kDecisiveEdges = 20, kDecisiveShare = 0.5;
 
 Vector3d point_of(const StereoMeasurement& edge) { return edge.ray / edge.inverse_depth; }
 
@@ -89,8 +88,6 @@ double period_along(const PinholeCamera& camera, const pose::MeasuredEdges& meas
   const auto faster = [](const auto& a, const auto& b) { return a.first > b.first; };
   std::stable_sort(voters.begin(), voters.end(), faster);
   voters.resize(voters.size() / 2);
-  if (std::getenv("ALIAS_DEBUG"))
-    std::fprintf(stderr, "voters all %zu agrees %zu t %g\n", voters.size(), step.agrees.size(), motion.norm());
   if (static_cast<double>(voters.size()) < kDecisiveEdges) return 0;
   const double unit = kShiftStep / voters.back().first;
   if (motion.norm() < kLeastMotion * unit) return 0;
@@ -98,7 +95,7 @@ double period_along(const PinholeCamera& camera, const pose::MeasuredEdges& meas
     double in_view = 0, votes = 0, sum = 0;
     const StereoMeasurement* last = nullptr;
     double count = 0;
-    double ratio() const { return votes / std::max(in_view, kLeastInView * count); }
+    double ratio() const { return votes / std::max({in_view, kLeastInView * count, 1.0}); }
   };
   std::vector<Shift> shifts(2 * kShifts + 3);  // with one more at both ends
   const auto at = [&](int k) -> Shift& { return shifts[static_cast<std::size_t>(k + kShifts + 1)]; };
@@ -116,16 +113,12 @@ double period_along(const PinholeCamera& camera, const pose::MeasuredEdges& meas
       at(k).sum += shift;
     }
   }
-  if (std::getenv("ALIAS_DEBUG")) {
-    std::fprintf(stderr, "voters %g unit %g t %g:", at(0).count, unit, motion.norm());
-    for (int k = -kShifts; k <= kShifts; ++k)
-      if (at(k).ratio() > 0.2) std::fprintf(stderr, " %.2f:%.2f(%g)", k * unit, at(k).ratio(), at(k).in_view);
-    std::fprintf(stderr, "\n");
-  }
+  double most = kRepeatingRatio / kNearlyMost;
+  for (const Shift& shift : shifts) most = std::max(most, shift.ratio());
   for (int distance = kNeighbours; distance <= kShifts; ++distance)
     for (const int k : {distance, -distance}) {
       const double ratio = at(k).ratio();
-      if (ratio > kRepeatingRatio && ratio >= at(k - 1).ratio() && !(at(k + 1).ratio() > ratio))
+      if (ratio >= kNearlyMost * most && ratio >= at(k - 1).ratio() && !(at(k + 1).ratio() > ratio))
         return at(k).sum / at(k).votes;
     }
   return 0;
@@ -163,11 +156,6 @@ SharedEdges compare_shifted(const PinholeCamera& camera, const pose::MeasuredEdg
     if (!is_in_view(camera, back_by_one * point) || !is_in_view(camera, back_by_other * point)) continue;
     (finds[i] == 3 ? shared.both : finds[i] == 1 ? shared.first : shared.second) += 1;
   }
-  if (std::getenv("ALIAS_DEBUG"))
-    std::fprintf(stderr, "compare t1 %g %g %g, t2 %g %g %g: both %g first %g second %g matches %zu %zu\n",
-                 one.translation().x(), one.translation().y(), one.translation().z(), other.translation().x(),
-                 other.translation().y(), other.translation().z(), shared.both, shared.first, shared.second,
-                 first.matches.size(), second.matches.size());
   return shared;
 }
 
