@@ -51,14 +51,15 @@ struct Choice : Verdict {
 /// Motions with the same number are the same; by default, all differ. \param shared fraction of a motion's explained
 /// area that the others explain, too
 Choice choose(std::vector<Verdict> verdicts, const Expectation& expectation, std::vector<int> motion = {},
-              double shared = 0) {
+              double shared = 0, bool repeats = false) {
   if (motion.empty()) {
     motion.resize(verdicts.size());
     std::iota(motion.begin(), motion.end(), 0);
   }
   const auto chosen = select(verdicts, expectation,
                              {[&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; },
-                              [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].area; }});
+                              [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].area; },
+                              [&](std::size_t, std::size_t) { return repeats; }});
   return {verdicts[chosen], chosen};
 }
 

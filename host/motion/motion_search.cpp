@@ -8,6 +8,7 @@
 
 #include "edges/prediction.hpp"
 #include "motion/odometry_constants.hpp"
+#include "motion/repetition.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::odometry {
@@ -58,7 +59,7 @@ bool MotionSearch::advance(State& state) {
   const MotionQuery& query = state.query;
   Candidates& candidates = state.candidates_;
   if (state.found) {
-    check(query, *state.found);
+    check(query, state.found);
     return true;
   }
   const std::vector<Hypothesis>& hypotheses = hypotheses_at(state.level_);
@@ -88,7 +89,7 @@ bool MotionSearch::advance(State& state) {
     candidates.clear();
   }
   if (!state.found || state.found->ok()) return false;
-  check(query, *state.found);
+  check(query, state.found);
   return true;
 }
 
@@ -104,18 +105,50 @@ StepHandle MotionSearch::find_by_few_matches(const MotionQuery& query) {
   if (verdicts.front().needed > SearchLevel::prediction) return nullptr;
   StepHandle found = std::move(candidates.front().outcome());
   found->verdict = verdicts.front();
-  check(query, *found);
+  check(query, found);
   return found->verdict.ambiguity.exists() ? nullptr : std::move(found);
 }
 
 /// Completes the verdict on the motion chosen, which the rest of the image may contradict.
-void MotionSearch::check(const MotionQuery& query, MotionStep& found) {
+void MotionSearch::check(const MotionQuery& query, StepHandle& handle) {
+  Ambiguity repeated;
+  if (handle->ok() && !(query.prediction && handle->verdict.is_predicted)) repeated = try_periods(query, handle);
+  MotionStep& found = *handle;
+  if (repeated.exists()) found.verdict.ambiguity = repeated;
   found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);
   Ambiguity other_part;
   if (found.is_checked) other_part = search_free_cells(query, found);
   found.shows_other_part = other_part.exists();
   if (!other_part.exists() && query.accepts_ambiguous) other_part = record_.recent_other_part();
   decide(query.accepts_ambiguous, other_part, found.verdict);
+}
+
+/// Tries what differs from the chosen motion by a period of a scene that repeats. Unless edges that are not repeated
+/// tell for the chosen motion, it is ambiguous; if they tell for another one, that takes its place.
+Ambiguity MotionSearch::try_periods(const MotionQuery& query, StepHandle& found) {
+  const pose::MeasuredEdges& measured = fits_.measured(*query.current, query);
+  const StereoRig rig = fits_.calibration(query);
+  const double period = period_along(rig.left, measured, *found);
+  if (period == 0) return {};
+  const Eigen::Isometry3d chosen = found->motion.learned.current_from_previous;
+  const frontend::FrameEdgesHandle base = found->base;
+  Ambiguity ambiguity;
+  TemporalMatches matches;
+  for (const double shift : {period, -period}) {
+    Eigen::Isometry3d shifted = chosen;
+    shifted.pretranslate(shift * chosen.translation().normalized());
+    frontend::predict_positions(rig, base->edges, fits_.measured(*base, query), shifted, config_.temporal.radius, 1,
+                                search_);
+    frontend_.match(*base, *query.current, search_, matches);
+    const SharedEdges shared = compare_shifted(rig.left, measured, {found->matches, chosen}, {matches, shifted});
+    if (shared.tell_for_first()) continue;
+    StepHandle other = shared.tell_for_second() ? confirm_with(base, query, config_.pose, shifted, {}) : nullptr;
+    if (other && other->ok())
+      std::swap(found, other);
+    else
+      ambiguity = {AmbiguityKind::repeated_scene, std::abs(period)};
+  }
+  return ambiguity;
 }
 
 /// Tries the prediction, unless that has been tried. If the matches near it show that the right image is displaced, it
@@ -350,6 +383,17 @@ std::size_t MotionSearch::choose(const Candidates& candidates, const MotionQuery
     const MotionStep &found = candidates[one].outcome(), &its = candidates[other].outcome();
     return evidence_.area_beside(found, its, motion_since(found.base, query, its));
   };
+  comparison.is_repeated = [&](std::size_t one, std::size_t other) {
+    const MotionStep &expected = candidates[one].outcome(), &its = candidates[other].outcome();
+    const PinholeCamera camera = fits_.calibration(query).left;
+    const pose::MeasuredEdges& measured = fits_.measured(*query.current, query);
+    const Eigen::Isometry3d motion = motion_since(its.base, query, expected);
+    const double period = period_along(camera, measured, its);
+    if (period == 0 || !differs_by_periods(its, motion, period)) return false;
+    return !compare_shifted(camera, measured, {expected.matches, motion},
+                            {its.matches, its.motion.current_from_previous})
+                .tell_for_second();
+  };
   return select(verdicts, expectation, comparison);
 }
 
@@ -389,7 +433,10 @@ OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const Mo
   part.ratio = count / std::max(1.0, searched);
   part.spread = (cells.spreads(true) / chosen.cells.spreads().max(1e-9)).minCoeff();
   evidence_.compare_globally(matches, other->motion.current_from_previous, chosen, by_chosen, part);
-  return part;
+  if (!chosen.verdict.is_predicted || !ambiguity_of(part, false, record_.at_start()).exists()) return part;
+  const double period = period_along(fits_.calibration(query).left, fits_.measured(*query.current, query), chosen);
+  const Eigen::Isometry3d motion = motion_since(chosen.base, query, *other);
+  return period != 0 && differs_by_periods(chosen, motion, period) ? OtherPart() : part;
 }
 
 }  // namespace quadedge::odometry

@@ -67,7 +67,8 @@ class MotionSearch : public MotionFinder {
   void try_prediction(MotionQuery& query, Candidates& candidates);
   bool follow_displacement(const MotionStep& near_prediction, MotionQuery& query);
   const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
-  void check(const MotionQuery& query, MotionStep& found);
+  void check(const MotionQuery& query, StepHandle& found);
+  Ambiguity try_periods(const MotionQuery& query, StepHandle& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,

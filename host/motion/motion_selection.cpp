@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/printed.hpp"
 #include "motion/motion_step.hpp"
 #include "motion/odometry_constants.hpp"
 
@@ -101,6 +102,9 @@ std::string to_string(const Ambiguity& ambiguity) {
       return percent(ambiguity.ratio) + " of the edges are where they were, although the motion would have moved them";
     case AmbiguityKind::competing_motion:
       return "another motion explains " + percent(ambiguity.ratio) + " of the area that this one explains";
+    case AmbiguityKind::repeated_scene:
+      return printed("the scene repeats after %.2f m, and a motion that differs by that explains it as well",
+                     ambiguity.ratio);
     case AmbiguityKind::other_part:
       return percent(ambiguity.ratio) + " of the image follow another motion and not this one";
     case AmbiguityKind::recent_other_part:
@@ -124,8 +128,17 @@ std::string refusal_text(const Verdict& verdict) {
 }
 
 std::size_t select(std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison) {
-  const std::size_t index = with_all_inliers(largest(verdicts, expectation.predicted), verdicts, comparison);
+  std::size_t index = with_all_inliers(largest(verdicts, expectation.predicted), verdicts, comparison);
+  const std::optional<std::size_t>& predicted = expectation.predicted;
+  const bool is_compared = predicted && verdicts[index].is_confirmed();
+  bool is_predicted = is_compared && (index == *predicted || comparison.is_same(index, *predicted));
+  if (is_compared && !is_predicted && verdicts[*predicted].is_confirmed() &&
+      comparison.is_repeated(*predicted, index)) {
+    index = *predicted;
+    is_predicted = true;
+  }
   Verdict& chosen = verdicts[index];
+  chosen.is_predicted = is_predicted && !expectation.was_ambiguous;
   const bool is_expected =
       chosen.is_confirmed() && index == expectation.predicted && chosen.support >= expectation.confident_support;
   chosen.needed = level_for(chosen, is_expected, expectation.was_ambiguous);

@@ -31,6 +31,7 @@ enum class AmbiguityKind {
   moving_sides,      ///< the camera seems to stand still, while a part of the image on all sides moves
   static_scene,      ///< a part of the image is static that the motion would have moved
   competing_motion,  ///< another motion explains nearly as much
+  repeated_scene,    ///< a motion that differs by a period of the scene explains the same
   other_part,        ///< another motion explains parts of the image of which the motion explains nothing
   recent_other_part  ///< one did in one of the last frames
 };
@@ -65,6 +66,7 @@ struct Verdict {
   Refusal refusal = Refusal::no_consensus;
   // Of the motion that select() chose:
   Ambiguity ambiguity;
+  bool is_predicted = false;  ///< whether it is the prediction's, which repeats a motion that was not ambiguous
   SearchLevel needed = SearchLevel::everything;  ///< if less was tried, the choice is preliminary
 
   bool is_confirmed() const { return refusal == Refusal::none; }
@@ -93,6 +95,8 @@ struct Comparison {
   /// Explained area of the first motion in cells that do not follow the second one, without edges that the latter
   /// explains closely as well.
   std::function<double(std::size_t, std::size_t)> area_beside;
+  /// Whether the motions differ by a period of a scene that repeats, which does not tell them apart.
+  std::function<bool(std::size_t, std::size_t)> is_repeated;
 };
 
 /// Takes the motion that explains the largest area of the image and completes the verdict on it.
