@@ -124,7 +124,7 @@ TEST_CASE("static region: the mask of a cage is hardly larger than its bars, and
   scene.has_bars = true;
   for (const int rest : {0, 10, 50}) {
     scene.upper_start = rest;
-    const auto found = regions(scene, rest + kCertainAfter + 2 * kStaticPeriod);
+    const auto found = regions(scene, rest + kCertainAfter + 1);
     REQUIRE(found.size() == 1);
     REQUIRE(found[0].mask.hidden.size() == static_cast<std::size_t>(kWidth * kHeight));
     int bars = 0, masked = 0, missed = 0;
