@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "quadedge/dataset.hpp"
+#include "rig/image_delay.hpp"
+#include "rig/interlacing.hpp"
 
 namespace quadedge::cli {
 
@@ -11,8 +13,8 @@ namespace quadedge::cli {
 /// otherwise empty.
 std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
 
-/// Tests the values of a calibration, and its first, middle and last frame, of pairs that arrive one by one. Without a
-/// known number of pairs there is no middle one.
+/// Tests the values of a calibration, its first, middle and last frame, and delay and combing of some frames, of
+/// pairs that arrive one by one. Without a known number of pairs there is no middle one.
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
@@ -26,6 +28,8 @@ class RigEvidenceCollector {
   DatasetCheck found_;
   std::optional<Dataset> dataset_;
   std::optional<StereoPair> last_;
+  rig::ImageDelaySearch delays_;
+  rig::Combing combing_;
 };
 
 }  // namespace quadedge::cli

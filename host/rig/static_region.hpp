@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geometry/undistortion.hpp"
@@ -19,6 +20,9 @@ struct StaticRegion {
   /// What is static and the gaps in it, if it certainly does not belong to the scene; else empty.
   PixelMask mask;
   bool is_released = false;  ///< what an earlier mask covers moves after all
+
+  /// Where nothing moves, and what follows from it.
+  std::string text() const;
 };
 
 /// Compares cells of the left image with the same cells some frames before, since anything moved. What is static
