@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "data/sequence_writer.hpp"
 #include "data/float_map.hpp"
+#include "data/sequence_writer.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
