@@ -49,7 +49,7 @@ struct Choice : Verdict {
 };
 
 /// Motions with the same number are the same; by default, all differ. \param shared fraction of a motion's explained
-/// area that the others explain, too
+/// area that the others explain, too \param repeats whether they differ by periods of a scene that repeats
 Choice choose(std::vector<Verdict> verdicts, const Expectation& expectation, std::vector<int> motion = {},
               double shared = 0, bool repeats = false) {
   if (motion.empty()) {
@@ -328,4 +328,16 @@ TEST_CASE("motion selection: another part of the image is remembered for three s
   step.is_checked = step.shows_other_part = false;
   record.remember(step);
   CHECK_FALSE(record.recent_other_part().exists());
+}
+
+TEST_CASE("motion selection: a motion that differs by a period does not take the place of the prediction's",
+          "[odometry]") {
+  const std::vector<Verdict> verdicts = {found(0.3), found(0.8)};
+  CHECK(choose(verdicts, kPredicted).chosen == 1);
+  CHECK_FALSE(choose(verdicts, kPredicted).is_predicted);
+  const Choice kept = choose(verdicts, kPredicted, {}, 0, true);
+  CHECK(kept.chosen == 0);
+  CHECK(kept.is_predicted);
+  CHECK_FALSE(choose(verdicts, kDoubtful, {}, 0, true).is_predicted);
+  CHECK(choose(verdicts, kUnpredicted, {}, 0, true).chosen == 1);
 }

@@ -26,9 +26,10 @@ constexpr double kShiftStep = 4, kLeastMotion = 0.25;
 /// An equal lies this close to the line of motion, and in disparity [px], with a direction of this cosine to that of
 /// the edge.
 constexpr double kEqualDistance = 1.5, kEqualCosine = 0.966;
-/// The scene repeats if this fraction of the voters in view have equals; at least half of them count as in view. The
-/// nearest shift that nearly as many have is the period.
-constexpr double kRepeatingRatio = 0.35, kLeastInView = 0.5, kNearlyMost = 0.8;
+/// The scene repeats if this fraction of the voters in view have equals, more than by chance (below 0.2), as equals may
+/// be shared by two steps; at least half of them count as in view. The nearest shift that nearly as many have as the
+/// most frequent one is the period.
+constexpr double kRepeatingRatio = 0.25, kLeastInView = 0.5, kNearlyMost = 0.8;
 /// Motions differ by periods if this fraction of one is left.
 constexpr double kPeriodRest = 0.15;
 /// Border of the image in which partners in the other one may be out of view [image width].
