@@ -21,7 +21,8 @@ std::vector<float> reduced_levels(const PinholeView& view, int columns, int rows
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const Eigen::Vector2d corner(column * kStaticCell, row * kStaticCell);
-      view.reduced(corner.array() + 0.5 * (kStaticCell - 1), static_cast<double>(kReduction) * Eigen::Matrix2d::Identity(), block);
+      view.reduced(corner.array() + 0.5 * (kStaticCell - 1),
+                   static_cast<double>(kReduction) * Eigen::Matrix2d::Identity(), block);
       for (int y = 0; y < kReducedCell; ++y)
         std::copy_n(block + y * kReducedCell, kReducedCell,
                     &levels[static_cast<std::size_t>((row * kReducedCell + y) * width + column * kReducedCell)]);
