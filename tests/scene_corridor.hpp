@@ -95,10 +95,9 @@ class Corridor {
   TexturePointer wall_, skirting_, frame_, door_, plate_, lamp_;
 };
 
-inline const bool kIsKnown = [] {
-  scene_makers().emplace_back("corridor",
-                              [](std::uint64_t seed, double focal) { return Corridor(seed, focal).finish(); });
-  return true;
-}();
+inline const bool kIsNew =
+    scene_makers()
+        .emplace("corridor", [](std::uint64_t seed, double focal) { return Corridor(seed, focal).finish(); })
+        .second;
 
 }  // namespace quadedge::synthetic::corridor

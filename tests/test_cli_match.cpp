@@ -76,12 +76,3 @@ TEST_CASE("match: invalid pairs are refused", "[cli]") {
   check_error({"match", pair().left, folder / "small.png", "--calibration", calibration}, 3, {"small.png", "32 x 24"});
   check_error({"match", pair().left, folder / "absent.png"}, 3);
 }
-
-TEST_CASE("evaluate matching: says in one line what to run instead", "[cli]") {
-  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"room", "--frames", "1"}, {"--help"}}) {
-    std::vector<std::string> arguments = {"evaluate", "matching"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    CHECK(check_error(arguments, 2).err ==
-          "quadedge: the matching is evaluated in Python: run python -m quadedge.matching PATH instead\n");
-  }
-}

@@ -119,9 +119,7 @@ SceneMakers& scene_makers() {
 }
 
 Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
-  const SceneMakers& makers = scene_makers();
-  return std::find_if(makers.begin(), makers.end(), [&](const auto& known) { return known.first == name; })
-      ->second(seed, focal);
+  return scene_makers().at(name)(seed, focal);
 }
 
 Scene make_room(std::uint64_t seed, double focal) {

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "scenes/reflectance.hpp"
 #include "scenes/shapes.hpp"
@@ -67,11 +67,11 @@ class SceneBuilder {
   Scene scene_;
 };
 
-/// The scenes by name, in the order of synthetic_scenes(). `focal` [px] determines only the resolution of the textures.
-using SceneMakers = std::vector<std::pair<std::string, std::function<Scene(std::uint64_t seed, double focal)>>>;
+/// What makes the scenes, by name; tests add their own. `focal` [px] determines only the resolution of the textures.
+using SceneMakers = std::map<std::string, std::function<Scene(std::uint64_t seed, double focal)>>;
 SceneMakers& scene_makers();
 
-/// Scene with this name, one of synthetic_scenes().
+/// Scene with this name, one of scene_makers().
 Scene make_scene(const std::string& name, std::uint64_t seed, double focal);
 
 /// A room of about 6 x 3 x 8 m with boxes, boards, balls and pillars at 1.3 to 4 m, all richly textured.
