@@ -41,7 +41,7 @@ MOST_LINES = {
     "kernels": 6450,
     "python": 11440,
     "scripts": 3125,
-    "tests": 34800,
+    "tests": 34820,
 }
 STALE_PHRASES = re.compile(
     r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
