@@ -185,3 +185,29 @@ TEST_CASE("run: --masks reads a mask per image", "[cli][device]") {
   std::filesystem::remove(masks + "/left/000001.png");
   refused("left/000001.png: found no file");
 }
+
+TEST_CASE("frame masks: masks that hide everything are named where there are no edges", "[odometry]") {
+  Device device("reference");
+  StereoOdometry odometry(walk().walked.rig(), device);
+  StereoFrame frame = walk().pairs[0].view();
+  const Image black(320, 200);
+  frame.left_mask = black.view();
+  const FrameResult result = odometry.track(frame);
+  CHECK(result.status == FrameStatus::lost_too_few_edges);
+  CHECK_THAT(result.message, Contains("the masks hide 100 % of the left image"));
+}
+
+TEST_CASE("frame masks: a mask in the alpha channel is refused, an opaque one is read", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "alpha.png";
+  StereoRig rig = walk().walked.rig();
+  cv::Mat drawn(200, 320, CV_8UC4, cv::Scalar(255, 255, 255, 255));
+  drawn.rowRange(0, 50).setTo(cv::Scalar(0, 0, 0, 255));
+  REQUIRE(cv::imwrite(file, drawn));
+  mask_rig(rig, file);
+  CHECK(std::count(rig.left_mask.hidden.begin(), rig.left_mask.hidden.end(), 1) == 50 * 320);
+  drawn.setTo(cv::Scalar(255, 255, 255, 0));
+  drawn.rowRange(50, 200).setTo(cv::Scalar(255, 255, 255, 255));
+  REQUIRE(cv::imwrite(file, drawn));
+  CHECK_THROWS_WITH(mask_rig(rig, file), Contains("transparent pixels"));
+}

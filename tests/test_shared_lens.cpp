@@ -102,7 +102,7 @@ TEST_CASE("shared lens: focal lengths that both cameras have wrong are told by t
       // Of a fit that is linear.
       CHECK(lens.error().value[0] == Approx(1 / factor - 1).margin(0.4 * std::abs(1 / factor - 1)));
       REQUIRE(lens.judge());
-      const Warning told = rig::warning(*lens.judge());
+      const Warning told = lens.judge()->warning;
       CHECK(told.kind == WarningKind::doubtful_lenses);
       CHECK_THAT(told.text, Contains(factor > 1 ? "too long" : "too short") && Contains("Calibrate the rig"));
     }
@@ -114,7 +114,7 @@ TEST_CASE("shared lens: distortion that both images share is told by turns", "[r
   const rig::SharedLens lens = learned(truth, truth, 0.06, 0.04);
   CHECK(lens.error().value[1] == Approx(-0.04).margin(0.015));
   REQUIRE(lens.judge());
-  CHECK_THAT(rig::warning(*lens.judge()).text, Contains("distortion"));
+  CHECK_THAT(lens.judge()->warning.text, Contains("distortion"));
 }
 
 TEST_CASE("shared lens: a straight drive tells nothing", "[rig]") {

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "rig/rig_monitor.hpp"
+#include "rig/synchronisation.hpp"
 
 using quadedge::rig::Synchronisation;
 
@@ -15,11 +15,14 @@ Synchronisation watched(double late, double calibration) {
   std::uniform_real_distribution<double> place(-0.5, 0.5);
   Synchronisation synchronisation;
   for (int frame = 0; frame < 12; ++frame) {
+    std::vector<Synchronisation::Fit::Row> rows;
     for (int i = 0; i < 100; ++i) {
       const double u = place(random), v = place(random);
       const double motion = 3 * std::sin(0.7 * frame) + 2 * u * std::cos(1.1 * frame);
-      synchronisation.add(u, v, calibration * (0.3 + u * v - v * v) - late * motion + noise(random), motion);
+      rows.push_back(
+          Synchronisation::row(u, v, calibration * (0.3 + u * v - v * v) - late * motion + noise(random), motion));
     }
+    synchronisation.add(rows);
   }
   return synchronisation;
 }
@@ -36,8 +39,12 @@ TEST_CASE("synchronisation: calibration errors and too few samples give no time 
   CHECK(watched(0, 0).time_offset_frames() == 0);
   CHECK(watched(0, 2).time_offset_frames() == 0);
   CHECK(watched(0.05, 0).time_offset_frames() == 0);  // below the warning threshold
-  CHECK(watched(5, 0).time_offset_frames() == 0);     // no two cameras are so far apart: another error of the rig
+  CHECK(watched(9, 0).time_offset_frames() == 0);     // no two cameras are so far apart: another error of the rig
   Synchronisation still;                              // no motion: the time offset cannot be measured
-  for (int i = 0; i < 1000; ++i) still.add(0.001 * (i % 100), 0.01 * (i % 7), 0.5, 0);
+  std::vector<Synchronisation::Fit::Row> rows;
+  for (int i = 0; i < 1000; ++i) rows.push_back(Synchronisation::row(0.001 * (i % 100), 0.01 * (i % 7), 0.5, 0));
+  still.add(rows);
   CHECK(still.time_offset_frames() == 0);
+  CHECK_FALSE(still.is_settled());
+  CHECK(watched(0, 2).is_settled());
 }

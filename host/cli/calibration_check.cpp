@@ -7,6 +7,7 @@
 
 #include "common/printed.hpp"
 #include "geometry/disparity_range.hpp"
+#include "rig/rig_constants.hpp"
 #include "rig/rig_correction.hpp"
 #include "rig/rig_monitor.hpp"
 
@@ -26,7 +27,7 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
   } else {
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
-  for (const auto& finding : report.findings) check.warnings.push_back(frame + rig::warning(finding).text);
+  for (const auto& finding : report.findings) check.warnings.push_back(frame + finding.warning.text);
   if (pair.number > 0) return;
   if (const std::string proposal = rectified_proposal(dataset, pair); !proposal.empty())
     check.warnings.push_back(frame + proposal);
@@ -60,8 +61,7 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   if (!dataset_) {
     dataset_ = dataset;
     dataset_->stream = nullptr;  // which is read elsewhere
-    for (const auto& finding : rig::implausible_numbers(dataset.rig))
-      found_.warnings.push_back(rig::warning(finding).text);
+    for (const auto& finding : rig::implausible_numbers(dataset.rig)) found_.warnings.push_back(finding.warning.text);
   }
   const auto frames = static_cast<int>(dataset.frames.size());
   last_ = std::nullopt;
@@ -69,6 +69,8 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   const bool shows_rows = frames == 0 ? (pair.number & (pair.number - 1)) == 0  // ever fewer
                                       : pair.number * kFrames % frames < kFrames;
   if (shows_rows) see_rows(dataset.rig, pair);
+  if (shows_rows) combing_.add(pair.left.view());
+  delays_.add(dataset.rig, pair.left, pair.right, disparity_limit(dataset.rig), shows_rows);
   if (pair.number == 0 || pair.number == frames / 2) {
     check_rig_evidence(dataset, pair, found_);
   } else {
@@ -87,6 +89,12 @@ void RigEvidenceCollector::see_rows(const StereoRig& rig, const StereoPair& pair
 
 StereoCalibration RigEvidenceCollector::finish(DatasetCheck& check) {
   if (last_) check_rig_evidence(*dataset_, *last_, found_);
+  if (const std::string delay = delays_.text(); !delay.empty()) found_.warnings.push_back(delay);
+  if (combing_.ratio() > rig::kInterlacedRatio)
+    found_.warnings.push_back(printed(
+        "odd and even rows are shifted against one another in %.0f %% of the left images' texture: is the video "
+        "interlaced? ffmpeg -vf bwdif deinterlaces it",
+        100 * combing_.ratio()));
   check.facts.insert(check.facts.end(), found_.facts.begin(), found_.facts.end());
   check.warnings.insert(check.warnings.end(), found_.warnings.begin(), found_.warnings.end());
   StereoCalibration calibration = dataset_->calibration.value_or(pinhole_calibration(dataset_->rig));

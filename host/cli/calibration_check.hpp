@@ -5,6 +5,8 @@
 
 #include "quadedge/calibration.hpp"
 #include "quadedge/dataset.hpp"
+#include "rig/image_delay.hpp"
+#include "rig/interlacing.hpp"
 #include "rig/row_model.hpp"
 
 namespace quadedge::cli {
@@ -13,8 +15,8 @@ namespace quadedge::cli {
 /// otherwise empty.
 std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
 
-/// Tests the values of a calibration, its first, middle and last frame, and the rows of some frames, of pairs that
-/// arrive one by one. Without a known number of pairs there is no middle one.
+/// Tests the values of a calibration, its first, middle and last frame, and rows, delay and combing of some frames, of
+/// pairs that arrive one by one. Without a known number of pairs there is no middle one.
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
@@ -31,6 +33,8 @@ class RigEvidenceCollector {
   std::optional<Dataset> dataset_;
   std::optional<StereoPair> last_;
   std::optional<rig::RowModel> rows_;  ///< of the right camera
+  rig::ImageDelaySearch delays_;
+  rig::Combing combing_;
 };
 
 }  // namespace quadedge::cli

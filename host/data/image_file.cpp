@@ -257,10 +257,10 @@ void put_bytes(png_structp png, png_bytep source, std::size_t count) {
 
 void flush_nothing(png_structp) {}
 
-bool read_png(png_structp png, png_infop info, cv::Mat* picture) {
+bool read_png(png_structp png, png_infop info, int transforms, cv::Mat* picture) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   // Samples of 16 bits are big-endian in the file.
-  png_read_png(png, info, PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_STRIP_ALPHA | PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
+  png_read_png(png, info, PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_SWAP_ENDIAN | transforms, nullptr);
   const auto width = png_get_image_width(png, info), height = png_get_image_height(png, info);
   const int depth = png_get_bit_depth(png, info) == 16 ? CV_16U : CV_8U;
   picture->create(static_cast<int>(height), static_cast<int>(width), CV_MAKETYPE(depth, png_get_channels(png, info)));
@@ -309,16 +309,31 @@ std::string encode_jpeg(const cv::Mat& picture, int quality) {
   return result;
 }
 
-cv::Mat decode_png(std::string_view bytes) {
+cv::Mat decode_png(std::string_view bytes, bool keeps_alpha) {
   PngReason reason{};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, reason, on_png_error, on_png_warning);
   png_infop info = png_create_info_struct(png);
   png_set_read_fn(png, &bytes, take_bytes);
   cv::Mat picture;
-  const bool done = read_png(png, info, &picture);
+  const bool done = read_png(png, info, keeps_alpha ? 0 : PNG_TRANSFORM_STRIP_ALPHA, &picture);
   png_destroy_read_struct(&png, &info, nullptr);
   if (!done) throw std::runtime_error(reason);
   return picture;
+}
+
+Image read_mask(const std::string& file) {
+  const std::string bytes = read_bytes(file);
+  Image mask = decode_grey_image(bytes, file);
+  if (read_header(bytes, file).kind != ImageKind::png) return mask;
+  const cv::Mat samples = decode_png(bytes, true);
+  if (samples.channels() % 2 == 1) return mask;  // no alpha
+  cv::Mat alpha;
+  cv::extractChannel(samples, alpha, samples.channels() - 1);
+  double least = 0;
+  cv::minMaxLoc(alpha, &least);
+  if (least < (alpha.depth() == CV_16U ? kMaxValue16 : kMaxValue8))
+    fail(file, "a mask with transparent pixels", "an opaque one: black where no edges are wanted, white elsewhere");
+  return mask;
 }
 
 std::string encode_png(const cv::Mat& picture) {

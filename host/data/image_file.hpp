@@ -47,9 +47,12 @@ ImageSize jpeg_size(std::string_view bytes);
 /// errors. \throws std::runtime_error with libjpeg's reason
 cv::Mat decode_jpeg(std::string_view bytes);
 
-/// height x width samples of 8 or 16 bits: one channel for grey images, three (R, G, B) for colour and palettes. Alpha
-/// is dropped, fewer than 8 bits become 8. \throws std::runtime_error with libpng's reason
-cv::Mat decode_png(std::string_view bytes);
+/// height x width samples of 8 or 16 bits: one channel for grey images, three (R, G, B) for colour and palettes; alpha
+/// is dropped, or a further channel. Fewer than 8 bits become 8. \throws std::runtime_error with libpng's reason
+cv::Mat decode_png(std::string_view bytes, bool keeps_alpha = false);
+
+/// A mask: a grey image. \throws DataError for one with transparent pixels, of which nobody knows what they mean
+Image read_mask(const std::string& file);
 
 /// Encodes a picture of 8 bits, grey or B, G, R; `quality` is libjpeg's, 0 to 100. \throws std::runtime_error
 std::string encode_jpeg(const cv::Mat& picture, int quality);

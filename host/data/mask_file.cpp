@@ -46,7 +46,7 @@ void mask_rig(StereoRig& rig, const std::string& files) {
   const auto list = data::file_list(files);
   const auto apply = [](const std::string& file, const PinholeCamera& camera, const UndistortionTable& table,
                         PixelMask& mask) {
-    const Image drawn = read_grey_image(file);
+    const Image drawn = data::read_mask(file);
     if (drawn.width != camera.width || drawn.height != camera.height)
       data::fail(file, "a mask of " + data::to_string({drawn.width, drawn.height}) + " pixels",
                  data::to_string({camera.width, camera.height}) + ", the size of the images");

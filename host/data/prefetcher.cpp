@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "data/image_file.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
@@ -105,7 +106,7 @@ class FramePrefetcher::Implementation {
                       read_mask(files.left_mask),  read_mask(files.right_mask)};
   }
 
-  static Image read_mask(const std::string& file) { return file.empty() ? Image() : read_grey_image(file); }
+  static Image read_mask(const std::string& file) { return file.empty() ? Image() : data::read_mask(file); }
 
   void check_mask(const Image& mask, const Image& image, const StereoPair& pair, Side side) const {
     if (mask.pixels.empty()) return;

@@ -47,7 +47,7 @@ void FramePreparation::adopt(const rig::RigReport& report, const std::optional<E
   const double change = rows_->observe(*report.matches);
   // A camera that has just turned displaces points once, whatever moves then, which a late camera does with all motion.
   if (current_from_last && !rows_->is_contradicted()) {
-    if (const auto late = rig_monitor_->observe_motion(*current_from_last)) warn(rig::warning(*late));
+    if (const auto late = rig_monitor_->observe_motion(*current_from_last)) warn(late->warning);
   }
   if (change == 0) return;
   rig_monitor_->forget_motions();
@@ -60,13 +60,14 @@ void FramePreparation::adopt(const rig::RigReport& report, const std::optional<E
 std::optional<FrameFault> FramePreparation::fault(const rig::RigReport& report) {
   const auto* mismatch = report.mismatch();
   if (mismatch == nullptr && !frontend_->is_smoothed())  // noise alone displaces patches by as much as a warning takes
-    for (const auto& finding : report.findings) warn(rig::warning(finding));
+    for (const auto& finding : report.findings) warn(finding.warning);
   if (!has_enough_edges()) {
-    const std::string cause = mismatch == nullptr ? "" : "; " + rig::warning(*mismatch).text;
-    return FrameFault{FrameStatus::lost_too_few_edges,
-                      std::to_string(current_->edges.size()) + " stereo edges" + cause};
+    std::string text = std::to_string(current_->edges.size()) + " stereo edges";
+    for (const auto& finding : report.findings)
+      if (finding.is_mismatch || finding.warning.kind == WarningKind::poor_images) text += "; " + finding.warning.text;
+    return FrameFault{FrameStatus::lost_too_few_edges, text};
   }
-  if (mismatch != nullptr) return FrameFault{FrameStatus::lost_rig_mismatch, rig::warning(*mismatch).text};
+  if (mismatch != nullptr) return FrameFault{FrameStatus::lost_rig_mismatch, mismatch->warning.text};
   return std::nullopt;
 }
 

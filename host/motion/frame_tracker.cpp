@@ -79,7 +79,7 @@ FrameResult FrameTracker::track(const StereoFrame& frame) {
   result.timing.stages.push_back({kStereoStage, stereo_ms});
   result.diagnostics.rig_evidence = rig_report.evidence;
   for (const auto& finding : rig_report.findings)
-    if (finding.kind == rig::RigFindingKind::repeated_images) add_message(rig::warning(finding).text, result);
+    if (finding.warning.kind == WarningKind::repeated_images) add_message(finding.warning.text, result);
   if (const auto fault = preparation_.fault(rig_report)) {
     lose(fault->status, fault->text, result);
   } else if (!state_.has_started()) {
@@ -163,7 +163,7 @@ void FrameTracker::start(FrameResult& result) {
   result.reference_frame = current_->frame;
   result.current_from_reference = Eigen::Isometry3d::Identity();
   result.relative_covariance = result.covariance = result.diagnostics.covariance_in_reference = PoseCovariance::Zero();
-  for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(rig::warning(finding));
+  for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(finding.warning);
   state_.set_key(current_, {*result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
@@ -282,7 +282,7 @@ void FrameTracker::judge_lenses(const MotionStep& step) {
                step.motion.current_from_previous);
   const auto found = lenses_->judge();
   if (!found) return;
-  preparation_.warn(rig::warning(*found));
+  preparation_.warn(found->warning);
   lenses_.reset();
 }
 
@@ -294,7 +294,7 @@ void FrameTracker::report(const MotionStep& step, FrameResult& result) {
   if (const auto large =
           rig::judge_disparity_offset(result.rig.disparity_offset, step.rig.disparity_offset + step.motion.offset,
                                       config_.pose.disparity_offset_sigma))
-    preparation_.warn(rig::warning(*large));
+    preparation_.warn(large->warning);
   result.ambiguous_motion = step.verdict.ambiguity.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
   result.diagnostics.moving_cells = step.verdict.moving_cells;

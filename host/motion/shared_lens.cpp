@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/printed.hpp"
 #include "geometry/corrected_rig.hpp"
 #include "motion/least_squares.hpp"
 #include "rig/rig_constants.hpp"
@@ -136,10 +137,15 @@ std::optional<RigFinding> SharedLens::judge() const {
   const auto is_wrong =
       (size > kLensSigmas * found.sigma.array() && size > Eigen::Array2d(kWrongFocal, kWrongLens)).eval();
   if (!is_wrong.any()) return std::nullopt;
-  RigFinding finding{RigFindingKind::shared_lens};
-  finding.shared_focal = is_wrong[0] ? found.value[0] : 0;
-  finding.shared_k1 = found.value[1];
-  return finding;
+  const double excess = -found.value[0] / (1 + found.value[0]);
+  const std::string lengths = "both cameras' focal lengths seem to be " + percent(std::abs(excess)) + " too " +
+                              (excess > 0 ? "long" : "short"),
+                    distortion = printed("both cameras' distortion seems to be wrong, k1 by about %.2f",
+                                         std::abs(found.value[1]));
+  return RigFinding{{WarningKind::doubtful_lenses,
+                     "turns do not fit depths: " + (is_wrong[0] ? lengths : distortion) +
+                         "; were the images cropped, scaled, or taken in another sensor mode or under water? Calibrate "
+                         "the rig with images like these"}};
 }
 
 }  // namespace quadedge::rig

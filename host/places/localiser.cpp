@@ -133,7 +133,7 @@ class Localiser::Implementation {
         preparation_(rig, rig_, device, without_auto_mask(config)),
         estimate_(rig::LearnedRig(with_offset_of(map.places(), rig_, config.pose)).estimate()),
         search_(config_, frontend(), rig_) {
-    for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(rig::warning(finding));
+    for (const auto& finding : rig::implausible_numbers(rig_)) preparation_.warn(finding.warning);
   }
 
   Localisation locate(const StereoFrame& frame);

@@ -210,10 +210,10 @@ CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, 
 
 // LONG: seek() says what is done with a corner, and uses all that is prepared before it.
 CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
-                                   const HiddenPixels& hidden) const {
+                                   const HiddenPixels& hidden, const GreyPlane* last) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
-  const CoarseViews views = coarse_views(left, right, turn);
+  CoarseViews views = coarse_views(left, right, turn);
   const double scale = views.scale;
   CornerSearch result;
   result.max_disparity = max_disparity;
@@ -260,24 +260,34 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
                                   0,
                                   -1,
                                   *position};
+    outcome.found->is_unique = there->is_unique && back->is_unique;
+    if (last == nullptr) return outcome;
+    const int reach = static_cast<int>(kSearchMotion * views.left.width);
+    const auto before = best_match(views.left, *last, corner, {reach, reach});
+    if (before && before->is_unique && before->correlation > 0)
+      outcome.found->motion = scale * (corner.cast<double>() - before->at);
     return outcome;
   };
   auto corners = find_corners(views.left, kCell);
   corners.erase(std::remove_if(corners.begin(), corners.end(),
                                [&](const Eigen::Vector2i& corner) {
                                  const Eigen::Vector2d at = views.in_left(corner.cast<double>());
-                                 return hides(hidden.left, at.x(), at.y());
+                                 return hides(hidden.left, at.x(), at.y()) || hides(rig_.left_mask, at.x(), at.y());
                                }),
                 corners.end());
   std::vector<SearchedCorner> all((corners.size() + every - 1) / every);
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = seek(corners[i * every]); });
   for (const SearchedCorner& outcome : all) {
-    if (outcome.found && hides(hidden.right, outcome.found->right.x(), outcome.found->right.y())) continue;
+    const auto is_hidden_by = [&](const PixelMask& mask) {
+      return outcome.found && hides(mask, outcome.found->right.x(), outcome.found->right.y());
+    };
+    if (is_hidden_by(hidden.right) || is_hidden_by(rig_.right_mask)) continue;
     result.saturated += outcome.is_saturated ? 1 : 0;
     result.searched += outcome.has_line && !outcome.is_saturated ? 1 : 0;
     result.negative += outcome.is_negative ? 1 : 0;
     if (outcome.found) result.found.push_back(*outcome.found);
   }
+  result.left_view = std::move(views.left);
   return result;
 }
 

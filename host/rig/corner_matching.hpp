@@ -13,6 +13,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
+#include "rig/patch_search.hpp"
 
 namespace quadedge::rig {
 
@@ -27,6 +28,8 @@ struct CornerMatch {
   double inverse_depth = 0;                           ///< in the left camera, by `along` [1/m]
   int edge = -1;                                      ///< index of the stereo edge, if it is one
   Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< where it was found [px]
+  bool is_unique = true;                              ///< whether no other place was found that looks alike
+  std::optional<Eigen::Vector2d> motion;  ///< displacement in the left image since the last frame, if searched [px]
 };
 
 /// Transformations of the right image relative to the calibration that a search can assume.
@@ -41,6 +44,7 @@ struct CornerSearch {
   double more_saturated = 0;       ///< difference between the fractions of saturated pixels of the views
   int negative = 0;                ///< matches whose right patch is the negative of the left one
   double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
+  GreyPlane left_view;             ///< what the search read of the left image
 };
 
 /// For any rig and for recorded images with or without distortion. Runs on the host, on a small number of corners.
@@ -58,9 +62,10 @@ class CornerMatcher {
   /// over a tenth of the image height across it. Uses images reduced to a width of about 320 px.
   /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
   /// \param every searches for every `every`-th corner, in `every`-th of the time
-  /// \param hidden neither corners there are searched for, nor counts what is found there
+  /// \param hidden neither corners there are searched for, nor counts what is found there; what the rig masks likewise
+  /// \param last the last frame's left view, in which the corners found are searched for, too; null: none
   CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none,
-                      std::size_t every = 1, const HiddenPixels& hidden = {}) const;
+                      std::size_t every = 1, const HiddenPixels& hidden = {}, const GreyPlane* last = nullptr) const;
 
  private:
   /// An epipolar line in the right image.

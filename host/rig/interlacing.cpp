@@ -1,54 +1,51 @@
 /// \file interlacing.cpp  Correlates row differences of alternating sign with the horizontal gradient, per cell.
 #include "rig/interlacing.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "quadedge/camera.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
 namespace {
 
-/// Sums over the pixels of a cell: a row that is shifted by s differs from the mean of its neighbours by s times the
-/// horizontal gradient, with the opposite sign in the next row.
-struct Comb {
-  double product = 0;      ///< of alternating differences and gradients
-  double gradients = 0;    ///< squared
-  double differences = 0;  ///< squared
-};
-
-Comb comb_of(const ImageView& image, int left, int top) {
-  Comb comb;
+/// Sums of products over the pixels of a cell, of the gradients along x and y and the difference of a row from the mean
+/// of its neighbours, with alternating sign. Rows that are shifted by s differ by s times the gradient along x. Those
+/// of an image that was enlarged by repeating rows differ by a gradient along y.
+Eigen::Matrix3d products_of(const ImageView& image, int left, int top) {
+  Eigen::Matrix3d sums = Eigen::Matrix3d::Zero();
   const double level = 1.0 * kMaxValue8 / image.max_value;
   for (int y = std::max(top, 1); y < std::min(top + kCombCell, image.height - 1); ++y) {
-    const double sign = y % 2 == 0 ? level : -level;
+    const double sign = y % 2 == 0 ? 1 : -1;
     for (int x = std::max(left, 1); x < std::min(left + kCombCell, image.width - 1); ++x) {
-      const double gradient = level * 0.5 * (image.value(x + 1, y) - image.value(x - 1, y));
-      const double difference = sign * (image.value(x, y) - 0.5 * (image.value(x, y - 1) + image.value(x, y + 1)));
-      comb.product += gradient * difference;
-      comb.gradients += gradient * gradient;
-      comb.differences += difference * difference;
+      const double above = image.value(x, y - 1), below = image.value(x, y + 1);
+      const Eigen::Vector3d pixel(0.5 * (image.value(x + 1, y) - image.value(x - 1, y)), 0.5 * (below - above),
+                                  sign * (image.value(x, y) - 0.5 * (above + below)));
+      sums += level * level * pixel * pixel.transpose();
     }
   }
-  return comb;
+  return sums;
+}
+
+/// Whether products show a shift of the rows.
+bool is_combed(const Eigen::Matrix3d& products) {
+  const double along_x = products(0, 0), shift = std::abs(products(0, 2));
+  return shift > kCombShift * along_x && shift > kCombCorrelation * std::sqrt(along_x * products(2, 2));
 }
 
 }  // namespace
 
-double combed_ratio(const ImageView& image) {
-  int textured = 0, combed = 0;
+void Combing::add(const ImageView& image) {
   for (int top = 0; top + kCombCell <= image.height; top += kCombCell) {
     for (int left = 0; left + kCombCell <= image.width; left += kCombCell) {
-      const Comb comb = comb_of(image, left, top);
-      if (!(comb.gradients > kCombTexture * kCombCell * kCombCell)) continue;
-      ++textured;
-      const double product = std::abs(comb.product);
-      combed += product > kCombShift * comb.gradients &&
-                product > kCombCorrelation * std::sqrt(comb.gradients * comb.differences);
+      const Eigen::Matrix3d all = products_of(image, left, top);
+      if (!(all(0, 0) > kCombTexture * kCombCell * kCombCell)) continue;
+      ++textured_;
+      const Eigen::Matrix3d without_y = all - all.col(1) * all.row(1) / std::max(all(1, 1), 1e-9);
+      combed_ += is_combed(all) && without_y(0, 0) > kCombOwnGradient * all(0, 0) && is_combed(without_y) ? 1 : 0;
     }
   }
-  return textured < kMinCombCells ? 0 : static_cast<double>(combed) / textured;
 }
 
 }  // namespace quadedge::rig

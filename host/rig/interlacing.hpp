@@ -1,12 +1,18 @@
 #pragma once
-/// \file interlacing.hpp  Images whose odd and even rows show different times, as interlaced video has them.
+/// \file interlacing.hpp  Whether the odd and even rows of an image show different times, as in interlaced video.
 
 #include "quadedge/image.hpp"
 
 namespace quadedge::rig {
 
-/// Fraction of the textured cells of an image in which odd rows are shifted against even ones. Above
-/// kInterlacedRatio the image is interlaced and moving. Reads every pixel once.
-double combed_ratio(const ImageView& image);
+/// Cells of images with texture, and those of them whose odd rows are shifted along x against their even rows.
+class Combing {
+ public:
+  void add(const ImageView& image);
+  double ratio() const { return textured_ > 0 ? static_cast<double>(combed_) / textured_ : 0; }
+
+ private:
+  int textured_ = 0, combed_ = 0;
+};
 
 }  // namespace quadedge::rig

@@ -149,9 +149,18 @@ std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to,
     return std::fabs(static_cast<double>(correlation[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                                                      static_cast<std::size_t>(column)]));
   };
+  float other = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      if (std::max(std::abs(column - x), std::abs(row - y)) <= kPatchHalf) continue;
+      other = std::max(other, std::fabs(correlation[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                                    static_cast<std::size_t>(column)]));
+    }
+  }
   return PatchMatch{{x_low + x + peak(value(x - 1, y), value(x, y), value(x + 1, y)),
                      y_low + y + peak(value(x, y - 1), value(x, y), value(x, y + 1))},
-                    static_cast<double>(*best)};
+                    static_cast<double>(*best),
+                    other < std::fabs(*best) - kUniqueMargin};
 }
 
 }  // namespace quadedge::rig

@@ -68,6 +68,7 @@ struct SearchBox {
 struct PatchMatch {
   Eigen::Vector2d at;      ///< [px], with sub-pixel accuracy
   double correlation = 0;  ///< normalised; negative for an inverted patch
+  bool is_unique = true;   ///< whether no other place in the box is about as similar, as texture is that repeats
 };
 
 /// The position in `to`, within a box around `corner`, whose patch has the largest absolute correlation with the patch

@@ -10,6 +10,8 @@ namespace quadedge::rig {
 
 /// Correlation of two patches from which they count as a match.
 constexpr double kMinCorrelation = 0.8;
+/// A match is unique if its correlation exceeds all others in the search area by this.
+constexpr float kUniqueMargin = 0.03F;
 /// Patches with a lower standard deviation count as flat [grey levels].
 constexpr double kFlat = 1.5;
 /// Size of the cells that yield one corner each [px].
@@ -30,8 +32,8 @@ constexpr double kSettledShift = 0.01, kMaxShift = 4;
 constexpr double kMinRoundness = 0.03;
 /// Matches with a larger error across the line do not constrain the distance from it [px].
 constexpr double kMaxSigma = 0.1;
-/// Extent of the search, as fractions of the left image's width and height.
-constexpr double kSearchAlong = 0.25, kSearchAcross = 0.1;
+/// Extent of the search, as fractions of the left image's width and height; to the last left image, of its width.
+constexpr double kSearchAlong = 0.25, kSearchAcross = 0.1, kSearchMotion = 0.1;
 /// Width of the image that the search reads [px].
 constexpr double kCoarseWidth = 320;
 
@@ -117,26 +119,11 @@ constexpr double kFittingOnLine = 0.7, kFittingFound = 0.3;
 constexpr double kPartnerOnLine = 0.6;
 /// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
 constexpr double kLeftLines = 0.6;
-/// Frames that have to agree before every frame is measured, and frames without a delay after which it is forgotten: as
-/// many as a vehicle may wait at a light, where images of all moments fit.
-constexpr int kDelayVotes = 2, kDelayForgotten = 600;
-/// Aligned corners on their lines below which a delay is looked for, and in a sample those above which all are tried.
-constexpr double kDoubtfulOnLine = 0.7, kPromisingOnLine = 0.4;
-/// Frames between rounds that look for a delay: after the first, and at most.
-constexpr int kDelayPeriod = 5, kLongestDelayPeriod = 50;
-/// Frames for which distances that no fit explains wait for a delay to be seen, and their median from which they do
-/// [px].
-constexpr int kHeldFrames = 2;
-constexpr double kHeldScatter = 0.5;
 
 // Images that are bad (poor_images.cpp).
 
 /// Corners beside saturated pixels over all, from which images are called saturated.
 constexpr double kSaturatedRatio = 0.3;
-/// Difference of grey levels across the borders of JPEG's blocks over that elsewhere, from which images are called
-/// compressed.
-constexpr double kBlockiness = 1.3;
-constexpr int kBlock = 8;  ///< side of a block [px]
 /// Brightness of the right image over the left one's, or the other way round, from which they are unevenly lit, and the
 /// difference of their saturated parts that hides corners.
 constexpr double kUnevenBrightness = 1.5, kUnevenSaturation = 0.15;
@@ -185,21 +172,33 @@ constexpr double kSurroundedNearness = 1.0 / 3;
 // Odd and even rows of different times (interlacing.cpp).
 
 constexpr int kCombCell = 32;        ///< size of the cells that are judged [px]
-constexpr int kMinCombCells = 20;    ///< textured ones that an image needs
 constexpr double kCombTexture = 4;   ///< mean squared horizontal gradient of a textured cell [(grey levels per px)^2]
 constexpr double kCombShift = 0.25;  ///< shift of odd rows against even ones [px]
 constexpr double kCombCorrelation = 0.1;
-constexpr double kInterlacedRatio = 0.08;
-constexpr int kCombPeriod = 5;  ///< frames from one examination to the next, until one finds something
+/// Part of a cell's squared gradient along x that its gradient along y does not explain.
+constexpr double kCombOwnGradient = 0.1;
+/// Textured cells of a recording that show a shift: sound ones have 0.03, JPEGs of any quality up to 0.1, and
+/// recordings from whose frames interlaced ones were made 0.2 to 0.9.
+constexpr double kInterlacedRatio = 0.15;
 
-// The time between the two images (rig_monitor.cpp).
+// The time between the two images (rig_monitor.cpp, synchronisation.cpp).
 
-constexpr int kMinSamples = 200;
+constexpr double kTimeMemory = 20;  ///< frames
+constexpr int kMinSamples = 60;
+/// Median displacement of a frame's corners from which they count [px].
+constexpr double kMinImageMotion = 1;
 /// Standard deviations of the time; many, because the errors of neighbours are correlated.
 constexpr double kMinTimeSigmas = 10;
 constexpr double kMinTimeOffset = 0.3;  ///< frame intervals
+/// From here on another frame would be the better partner [frame intervals].
+constexpr double kWrongPartner = 0.5;
 /// A camera that is later than this shows another motion, to which distances are not proportional [frame intervals].
-/// Larger values come from other errors of the rig in images that hardly move.
-constexpr double kMaxTimeOffset = 3;
+constexpr double kMaxTimeOffset = 8;
+/// Aligned corners on their lines below which images may show different moments, and frames in a row that are then
+/// searched for the time between them.
+constexpr double kDoubtfulOnLine = 0.7;
+constexpr int kTimeSearches = 5;
+/// Median distance from the fit from which it explains nothing [px].
+constexpr double kHeldScatter = 0.5;
 
 }  // namespace quadedge::rig

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/numeric.hpp"
+#include "common/printed.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
@@ -182,6 +183,18 @@ bool StaticRegionDetector::masked_cells_move() const {
 Eigen::AlignedBox2d StaticRegionDetector::bounds(std::size_t cell) const {
   const Eigen::Vector2d corner(static_cast<int>(cell) % columns_, static_cast<int>(cell) / columns_);
   return {kStaticCell * corner, kStaticCell * (corner + Eigen::Vector2d::Ones())};
+}
+
+std::string StaticRegion::text() const {
+  return printed(
+             "%.0f %% of the left image's texture, between columns %.0f and %.0f and rows %.0f and %.0f, does not "
+             "move ",
+             100 * ratio, bounds.min().x(), bounds.max().x(), bounds.min().y(), bounds.max().y()) +
+         (mask.empty()
+              ? "although it is nearer than most of what moves: is it part of the vehicle, or dirt? Use a mask to "
+                "exclude it"
+              : "while the rest does: it is masked from here on, as a part of the vehicle or dirt; "
+                "--no-auto-mask keeps it");
 }
 
 }  // namespace quadedge::rig

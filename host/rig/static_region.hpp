@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geometry/undistortion.hpp"
@@ -17,6 +18,9 @@ struct StaticRegion {
   /// These cells and their neighbours, if they certainly do not belong to the scene; else empty.
   PixelMask mask;
   bool is_released = false;  ///< what an earlier mask covers moves after all
+
+  /// Where nothing moves, and what follows from it.
+  std::string text() const;
 };
 
 /// Compares cells of the left image with the same cells some frames before. What is static although it is nearer than

@@ -1,0 +1,218 @@
+/// \file corner_judgement.cpp  Ratios and a fit of what a search found; thresholds; the largest term of the fit names
+/// the likely cause.
+#include "rig/corner_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "common/printed.hpp"
+#include "rig/poor_images.hpp"
+#include "rig/rig_constants.hpp"
+
+namespace quadedge::rig {
+namespace {
+
+/// The transformation of the right image with which a search finds most corners; none if there is no such.
+ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
+                    const HiddenPixels& hidden) {
+  for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
+    const CornerSearch search = matcher.search(frame, max_disparity, turn, 1, hidden);
+    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
+  }
+  return ImageTurn::none;
+}
+
+/// By how much farther along its line a match lies than rows and disparity offset predict of a point at infinity [px].
+double disparity_of(const CornerMatch& match, const StereoRig& rig, const RigEstimate& known) {
+  const double roll = known.rows.slope_x / rig.right.width;
+  return match.along + known.added_disparity() - roll * (match.right.y() - rig.right.cy);
+}
+
+/// Adds the results of a search to the evidence. Where texture repeats, a corner's match may lie anywhere, so that only
+/// unique ones have a say.
+void add_search_results(CornerAnswer& answer, const StereoRig& rig, const RigEstimate& known, RigEvidence& evidence) {
+  const CornerSearch& search = answer.search;
+  const EpipolarFit& fit = answer.fit;
+  if (search.searched == 0) return;
+  evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
+  evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
+  int aligned = 0, on_line = 0, unique = 0, all_negative = 0, negative = 0, beyond = 0;
+  for (const CornerMatch& match : search.found) {
+    aligned += match.is_aligned ? 1 : 0;
+    on_line += match.is_aligned && std::abs(match.across) < kOnLine ? 1 : 0;
+    const int is_negative = disparity_of(match, rig, known) < -1 - 2 * match.sigma ? 1 : 0;
+    all_negative += is_negative;
+    if (!match.is_unique) continue;
+    ++unique;
+    negative += is_negative;
+    beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
+  }
+  if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
+  if (!search.found.empty()) {
+    answer.unique_ratio = static_cast<double>(unique) / static_cast<double>(search.found.size());
+    answer.negative_ratio = static_cast<double>(all_negative) / static_cast<double>(search.found.size());
+  }
+  if (unique < kMinMatches) return;
+  evidence.negative_ratio = static_cast<double>(negative) / unique;
+  evidence.beyond_ratio = static_cast<double>(beyond) / unique;
+}
+
+/// Whether so few corners are found that transformed images should be tried.
+bool finds_few_corners(const CornerSearch& search, const RigEvidence& evidence) {
+  return search.searched >= kMinCorners && evidence.found_ratio < kLostFoundRatio &&
+         !(evidence.matched_ratio > kLostMatchedRatio);
+}
+
+/// Fraction of the aligned corners that lie on their lines, although the fit to all puts these corners off them. Where
+/// curves cross one another, corners are no points of the scene and agree on a distance that is none of the rig's.
+double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, const PinholeCamera& left) {
+  int aligned = 0, contradicting = 0;
+  for (const CornerMatch& match : search.found) {
+    if (!match.is_aligned) continue;
+    ++aligned;
+    const double fitted = fit.offset + fit.slope_x * (match.left.x() / left.width - 0.5) +
+                          fit.slope_y * (match.left.y() / left.height - 0.5);
+    contradicting += std::abs(match.across) < kOnLine && std::abs(fitted) > kOffLine ? 1 : 0;
+  }
+  return aligned > 0 ? static_cast<double>(contradicting) / aligned : 0;
+}
+
+std::string name(ImageTurn turn) {
+  switch (turn) {
+    case ImageTurn::none: return "unchanged";
+    case ImageTurn::mirrored: return "mirrored";
+    case ImageTurn::half: return "rotated by 180 degrees";
+    case ImageTurn::quarter: return "rotated by 90 degrees";
+    case ImageTurn::three_quarters: return "rotated by -90 degrees";
+  }
+  return {};
+}
+
+std::string seen_across(const EpipolarFit& fit) {
+  return printed(
+      "corners are found %.1f px off their epipolar lines (%.1f px in the middle of the image, changing by %.1f px "
+      "over "
+      "its width and %.1f px over its height)",
+      fit.residual, fit.offset, fit.slope_x, fit.slope_y);
+}
+
+/// Likely cause of the distances from the lines.
+std::string cause_across(const EpipolarFit& fit) {
+  const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
+  if (fit.scatter > 0.5 * fit.residual) {
+    return "is the direction of the baseline or the right camera's yaw wrong, are distorted images used with a pinhole "
+           "calibration, or do the images show different moments (`quadedge check` looks for a delay)?";
+  }
+  if (y >= x && y >= middle) return "is a focal length in the calibration wrong?";
+  if (x >= middle) return "is one camera rolled relative to the calibration?";
+  return "is one camera pitched relative to the calibration, is its principal point wrong, or are left and right "
+         "exchanged?";
+}
+
+/// What is wrong where few corners are found.
+std::string cause_of_few(const CornerSearch& search, ImageTurn turn, const RigEvidence& evidence) {
+  const std::string found = percent(evidence.found_ratio) + " of " + std::to_string(search.searched) +
+                            " corners of the left image are found in the right one";
+  if (search.negative > kMajority * search.searched)
+    return found + ", and " + percent(static_cast<double>(search.negative) / search.searched) +
+           " as their negative; is one image a negative?";
+  if (turn != ImageTurn::none)
+    return found + ", but most are found if it is " + name(turn) + "; is the right image " + name(turn) + "?";
+  return found + "; do both cameras see the same scene at the same time? is one image mirrored or rotated?";
+}
+
+/// Judges the rig by the results of a search.
+/// \param turn transformation of the right image with which most corners are found, or none
+std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evidence, ImageTurn turn,
+                              const PinholeCamera& left) {
+  const CornerSearch& search = answer.search;
+  const EpipolarFit& fit = answer.fit;
+  const std::string matched =
+      evidence.matched_ratio >= 0 ? percent(evidence.matched_ratio) + " of the left edges have a match, " : "";
+  const auto mismatch = [&](const std::string& seen) {
+    const std::string text = "the images do not fit the calibration: " + matched + seen;
+    return std::vector<RigFinding>{{{WarningKind::doubtful_calibration, text}, true}};
+  };
+  if (finds_few_corners(search, evidence)) {
+    if (const std::string poor =
+            hides_corners(search) && turn == ImageTurn::none && !(search.negative > kMajority * search.searched)
+                ? poor_images(search, "; few corners are found in both images")
+                : "";
+        !poor.empty())
+      return {{{WarningKind::poor_images, poor}}};
+    return mismatch(cause_of_few(search, turn, evidence));
+  }
+  if (search.found.size() < static_cast<std::size_t>(kMinMatches)) return {};
+  const bool is_uncorrected = evidence.epipolar_correction == 0,
+             finds_edges_on_lines = evidence.matched_ratio > kReliableMatchedRatio && is_uncorrected,
+             is_contradicted = evidence.matched_ratio > kCertainMatchedRatio && is_uncorrected &&
+                               contradicting_ratio(search, fit, left) >= kContradictingRatio;
+  if (evidence.negative_ratio > kMajority)
+    return mismatch(percent(evidence.negative_ratio) +
+                    " of the disparities are negative; are left and right exchanged, are the images mirrored, is the "
+                    "sign of the baseline wrong, or the right camera's yaw?");
+  if (answer.negative_ratio > kMajority)
+    return {{{WarningKind::doubtful_calibration,
+              percent(1 - answer.unique_ratio) +
+                  " of the corners found look like other places: texture that repeats along the epipolar lines leaves "
+                  "depths open"},
+             true}};
+  if (fit.residual > kLostResidual && !is_contradicted) return mismatch(seen_across(fit) + "; " + cause_across(fit));
+  std::vector<RigFinding> findings;
+  const auto warn = [&](WarningKind kind, const std::string& text) { findings.push_back({{kind, text}}); };
+  if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !finds_edges_on_lines) {
+    const std::string poor = poor_images(
+        search,
+        printed("; corners are found %.1f px off their epipolar lines, which says nothing about the calibration "
+                "in such images",
+                fit.residual));
+    if (poor.empty())
+      warn(WarningKind::doubtful_calibration,
+           "the calibration is doubtful: " + matched + seen_across(fit) + "; " + cause_across(fit) + kMends);
+    else
+      warn(WarningKind::poor_images, poor);
+  }
+  if (evidence.beyond_ratio > kWarningRatio)
+    warn(WarningKind::small_disparity_range,
+         percent(evidence.beyond_ratio) +
+             printed(" of the corners exceed the maximum disparity, %.1f px: is stereo.max_disparity too small, or "
+                     "stereo.min_depth too large?",
+                     search.max_disparity));
+  if (evidence.negative_ratio > kWarningRatio)
+    warn(WarningKind::negative_disparities,
+         percent(evidence.negative_ratio) +
+             " of the disparities are negative: is the right camera's yaw or principal point wrong?");
+  return findings;
+}
+
+/// The fit to unique corners that were aligned; with too few of them to all that were, and then to all corners: on thin
+/// curves, coarse positions do not determine the distance from the line.
+EpipolarFit fit_of(const CornerSearch& search, const PinholeCamera& left) {
+  std::vector<CornerMatch> aligned, unique;
+  std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
+               [](const CornerMatch& match) { return match.is_aligned; });
+  std::copy_if(aligned.begin(), aligned.end(), std::back_inserter(unique),
+               [](const CornerMatch& match) { return match.is_unique; });
+  for (const auto* matches : {&unique, &aligned})
+    if (const EpipolarFit fit = fit_across(*matches, left.width, left.height); fit.samples > 0) return fit;
+  EpipolarFit fit = fit_across(search.found, left.width, left.height);
+  fit.is_coarse = true;
+  return fit;
+}
+
+}  // namespace
+
+CornerAnswer search_and_judge(const CornerQuestion& question, RigReport& report, std::size_t every) {
+  const auto& [matcher, rig, frame, max_disparity, known, hidden, last_view] = question;
+  CornerAnswer answer{matcher.search(frame, max_disparity, ImageTurn::none, every, hidden, last_view), {}};
+  answer.fit = fit_of(answer.search, rig.left);
+  add_search_results(answer, rig, known, report.evidence);
+  const ImageTurn turn = finds_few_corners(answer.search, report.evidence)
+                             ? find_turn(matcher, frame, max_disparity, hidden)
+                             : ImageTurn::none;
+  report.findings = judge(answer, report.evidence, turn, rig.left);
+  return answer;
+}
+
+}  // namespace quadedge::rig
