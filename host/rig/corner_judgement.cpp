@@ -31,22 +31,28 @@ double disparity_of(const CornerMatch& match, const StereoRig& rig, const RigEst
 
 /// Adds the results of a search to the evidence. Where texture repeats, a corner's match may lie anywhere, so that only
 /// unique ones have a say.
-void add_search_results(const CornerAnswer& answer, const StereoRig& rig, const RigEstimate& known,
-                        RigEvidence& evidence) {
-  const auto& [search, fit] = answer;
+void add_search_results(CornerAnswer& answer, const StereoRig& rig, const RigEstimate& known, RigEvidence& evidence) {
+  const CornerSearch& search = answer.search;
+  const EpipolarFit& fit = answer.fit;
   if (search.searched == 0) return;
   evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
   evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
-  int aligned = 0, on_line = 0, unique = 0, negative = 0, beyond = 0;
+  int aligned = 0, on_line = 0, unique = 0, all_negative = 0, negative = 0, beyond = 0;
   for (const CornerMatch& match : search.found) {
     aligned += match.is_aligned ? 1 : 0;
     on_line += match.is_aligned && std::abs(match.across) < kOnLine ? 1 : 0;
+    const int is_negative = disparity_of(match, rig, known) < -1 - 2 * match.sigma ? 1 : 0;
+    all_negative += is_negative;
     if (!match.is_unique) continue;
     ++unique;
-    negative += disparity_of(match, rig, known) < -1 - 2 * match.sigma ? 1 : 0;
+    negative += is_negative;
     beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
   }
   if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
+  if (!search.found.empty()) {
+    answer.unique_ratio = static_cast<double>(unique) / static_cast<double>(search.found.size());
+    answer.negative_ratio = static_cast<double>(all_negative) / static_cast<double>(search.found.size());
+  }
   if (unique < kMinMatches) return;
   evidence.negative_ratio = static_cast<double>(negative) / unique;
   evidence.beyond_ratio = static_cast<double>(beyond) / unique;
@@ -120,7 +126,8 @@ std::string cause_of_few(const CornerSearch& search, ImageTurn turn, const RigEv
 /// \param turn transformation of the right image with which most corners are found, or none
 std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evidence, ImageTurn turn,
                               const PinholeCamera& left) {
-  const auto& [search, fit] = answer;
+  const CornerSearch& search = answer.search;
+  const EpipolarFit& fit = answer.fit;
   const std::string matched =
       evidence.matched_ratio >= 0 ? percent(evidence.matched_ratio) + " of the left edges have a match, " : "";
   const auto mismatch = [&](const std::string& seen) {
@@ -149,6 +156,12 @@ std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evi
     return mismatch(percent(evidence.negative_ratio) +
                     " of the disparities are negative; are left and right exchanged, are the images mirrored, is the "
                     "sign of the baseline wrong, or the right camera's yaw?");
+  if (answer.negative_ratio > kMajority)
+    return {{{WarningKind::doubtful_calibration,
+              percent(1 - answer.unique_ratio) +
+                  " of the corners found look like other places: texture that repeats along the epipolar lines leaves "
+                  "depths open"},
+             true}};
   if (fit.residual > kLostResidual && !is_contradicted) return mismatch(seen_across(fit) + "; " + cause_across(fit));
   std::vector<RigFinding> findings;
   const auto warn = [&](WarningKind kind, const std::string& text) { findings.push_back({{kind, text}}); };

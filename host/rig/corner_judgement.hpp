@@ -20,6 +20,7 @@ struct CornerQuestion {
 struct CornerAnswer {
   CornerSearch search;
   EpipolarFit fit;  ///< of the distances of unique corners, if there are enough of them, from the lines
+  double unique_ratio = 1, negative_ratio = 0;  ///< of all corners found: unique, and with negative disparities
 };
 
 /// Adds a search for every `every`-th corner and its findings to the report.

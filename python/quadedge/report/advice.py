@@ -21,8 +21,8 @@ OF_KIND = {
     "static_region": "Exclude this part of the image with --mask: an image that is black there.",
     "displaced_images": "Switch off image stabilisation and the cropping of single images, and fasten both cameras to "
                         "one bar.",
-    "poor_images": "Shorten the exposure, light both cameras alike or compress less: what is hidden cannot be matched, "
-                   "and says nothing about the calibration.",
+    "poor_images": "Shorten the exposure, light both cameras alike, or exchange black and white in the masks: what is "
+                   "hidden cannot be matched, and says nothing about the calibration.",
     "doubtful_lenses": "Use the calibration of these images: crops, scaled images and other sensor modes need their "
                        "own, and so does water.",
     "changed_rig": "Fasten the cameras and calibrate again; earlier and later frames have different calibrations."}
