@@ -118,7 +118,6 @@ void MotionSearch::check(const MotionQuery& query, StepHandle& handle) {
   found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);
   Ambiguity other_part;
   if (found.is_checked) other_part = search_free_cells(query, found);
-  if (found.is_checked && !other_part.exists()) other_part = search_standstill(query, found);
   found.shows_other_part = other_part.exists();
   if (!other_part.exists() && query.accepts_ambiguous) other_part = record_.recent_other_part();
   decide(query.accepts_ambiguous, other_part, found.verdict);
@@ -222,7 +221,7 @@ void MotionSearch::attempt(Hypothesis hypothesis, const MotionQuery& query, Cand
     if (known == nullptr && candidate.is_confirmed() && !is_close_to_another(candidate.hypothesis))
       known = candidate.confirmed.get();
   }
-  if (hypothesis == Hypothesis::still_camera && known != nullptr && !near_standstill(query)->ok()) return;
+  if (hypothesis == Hypothesis::still_camera && known != nullptr && !may_stand_still(query)) return;
   Candidate candidate{hypothesis, propose(hypothesis, query, candidates), nullptr};
   if (!candidate.proposed) return;
   if (candidate.proposed->ok()) {
@@ -286,8 +285,8 @@ bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_k
   return true;
 }
 
-/// What some of the base's edges, evenly chosen, say of standstill; refused unless they support it at all.
-StepHandle MotionSearch::near_standstill(const MotionQuery& query) {
+/// Whether some of the base's edges, evenly chosen, support a motion near standstill at all.
+bool MotionSearch::may_stand_still(const MotionQuery& query) {
   PoseConfig limits = config_.pose;
   limits.min_hypotheses = 0;
   limits.inlier_distance *= kCloseAgreement;
@@ -295,11 +294,11 @@ StepHandle MotionSearch::near_standstill(const MotionQuery& query) {
   frontend::predict_positions(fits_.calibration(query), query.base->edges, fits_.measured(*query.base, query), still,
                               config_.temporal.radius, kStillStep, search_);
   hide_masked(hidden_, search_);
-  StepHandle step = fits_.new_step(query, query.base);
+  const StepHandle step = fits_.new_step(query, query.base);
   frontend_.match(*query.base, *query.current, search_, step->matches);
   fits_.fit(query, limits, still, pose::RefinementGoal::pose, *step);
   evidence_.judge(search_.left, kStillSupport * config_.temporal.min_support, *step);
-  return step;
+  return step->ok();
 }
 
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
@@ -417,24 +416,6 @@ Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const Motion
   OtherPart other = compare_in_free_cells(query, chosen, *matches, *rest);
   other.is_rest = true;
   return ambiguity_of(other, record_.was_ambiguous());
-}
-
-/// The scene may show beside an object in no cell for itself. Edges on all sides that are where they were, although the
-/// motion would have moved them, are the scene's, or the vehicle's.
-Ambiguity MotionSearch::search_standstill(const MotionQuery& query, const MotionStep& chosen) {
-  const StepHandle still = near_standstill(query);
-  if (!still->ok()) return {};
-  const ExplainedCells cells =
-      evidence_.explained_beside(*still, motion_since(query.base, query, chosen), config_.pose.inlier_distance);
-  double edges = 0, explained = 0;
-  for (const ExplainedCell& cell : cells.all()) {
-    edges += cell.edges;
-    explained += cell.explained;
-  }
-  const double ratio = explained / std::max(1.0, edges),
-               spread = (cells.spreads(true) / chosen.cells.spreads().max(1e-9)).minCoeff();
-  if (ratio <= kStaticQuadRatio || spread <= kSurroundingSpread) return {};
-  return {AmbiguityKind::static_scene, ratio};
 }
 
 OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen,

@@ -157,26 +157,6 @@ void add_board(Sequence& sequence, const Board& board) {
   }
 }
 
-void add_cage(Sequence& sequence) {
-  constexpr double kDisparity = 36;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sequence.left[i] = sequence.left[2];
-    sequence.right[i] = sequence.right[2];
-    sequence.world_from_left[i] = sequence.world_from_left[2];
-  }
-  std::minstd_rand random(7);
-  for (auto* const images : {&sequence.left, &sequence.right})
-    for (Image& image : *images)
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-          const double at = x + (images == &sequence.left ? 0 : kDisparity);
-          const bool is_bar = std::fmod(at, 115) < 36 || (y + 30) % 120 < 20;
-          const double grey = is_bar ? board_grey(at, y, false) : image.view().value(x, y);
-          image.set(x, y,
-                    std::clamp(static_cast<int>(std::lround(grey + static_cast<double>(random() % 5) - 2)), 0, 255));
-        }
-}
-
 void show_checkerboard(Sequence& sequence, double cell, double speed, double disparity) {
   const double metres = sequence.rig.baseline() / disparity;  // per pixel
   for (std::size_t i = 0; i < sequence.size(); ++i) {

@@ -49,10 +49,6 @@ struct Board {
 };
 void add_board(Sequence& sequence, const Board& board);
 
-/// Four posts and two bands of the vehicle, nearer than the scene, over 0.4 of both images. The camera rests for three
-/// frames first.
-void add_cage(Sequence& sequence);
-
 /// Every image shows a checkerboard across the whole view, which the camera passes sideways by `speed` px per frame.
 /// \param cell side of a square [px] \param disparity [px]
 void show_checkerboard(Sequence& sequence, double cell, double speed, double disparity);
