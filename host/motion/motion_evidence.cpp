@@ -65,8 +65,24 @@ void MotionEvidence::compare_with_standstill(MotionStep& step) {
   for (std::size_t q = 0; q < step.quads.size(); ++q)
     if (is_still_[q] != 0) (follows_[q] != 0 ? following : still) += 1;
   const double quads = std::max(1.0, static_cast<double>(step.quads.size()));
-  step.verdict.static_ratio = still / quads;
+  step.verdict.static_ratio = std::max(still, still_near_edges(step)) / quads;
   step.verdict.still_ratio = following / quads;
+}
+
+/// Number of edges, nearer than those that the motion explains are on average, that standstill explains and the motion
+/// does not, half as far off as close agreement allows; 0 unless the opposite is far less frequent. A turn about what
+/// is near and fixed moves what is far as a step does, so that one motion fits both, worse than each of two.
+double MotionEvidence::still_near_edges(const MotionStep& step) {
+  const double half = 0.5 * kCloseAgreement * config_.pose.inlier_distance, turn = pose::kInlierOrientation;
+  const double mean = step.mean_inverse_depth();
+  select(step, step.motion.current_from_previous, half, turn, follows_);
+  select(step, Eigen::Isometry3d::Identity(), half, turn, is_still_);
+  double still = 0, following = 0;
+  for (std::size_t q = 0; q < step.quads.size(); ++q) {
+    if (is_still_[q] == follows_[q] || static_cast<double>(step.quads.scoring.inverse_depth[q]) <= mean) continue;
+    (follows_[q] != 0 ? following : still) += 1;
+  }
+  return still > kStillNearEdges * following ? still : 0;
 }
 
 ExplainedCells MotionEvidence::explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen,

@@ -48,6 +48,7 @@ class MotionEvidence {
 
  private:
   void compare_with_standstill(MotionStep& step);
+  double still_near_edges(const MotionStep& step);
   void measure_area(const EdgePositions& predicted, MotionStep& step) const;
   /// Marks the quads within `distance` [px] of where a motion since the step's base brings them.
   int select(const MotionStep& step, const Eigen::Isometry3d& motion, double distance, double angle,

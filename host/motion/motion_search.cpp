@@ -260,6 +260,7 @@ bool MotionSearch::may_stand_still(const MotionQuery& query) {
   const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
   frontend::predict_positions(fits_.calibration(query), query.base->edges, fits_.measured(*query.base, query), still,
                               config_.temporal.radius, kStillStep, search_);
+  hide_masked(hidden_, search_);
   const StepHandle step = fits_.new_step(query, query.base);
   frontend_.match(*query.base, *query.current, search_, step->matches);
   fits_.fit(query, limits, still, pose::RefinementGoal::pose, *step);

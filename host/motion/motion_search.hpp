@@ -27,7 +27,10 @@ class MotionSearch : public MotionFinder {
   bool advance(State& state);
   void remember(const MotionStep& found) override { record_.remember(found); }
   double take_pose_ms() override { return fits_.take_pose_ms(); }
-  void hide(const PixelMask& left) override { hidden_ = left; }
+  void hide(const PixelMask& left) override {
+    hidden_ = left;
+    record_.remember_mask();
+  }
   void restart() override {
     hidden_ = {};
     record_ = TrackRecord(config_);

@@ -175,6 +175,10 @@ void TrackRecord::remember(const MotionStep& found) {
   frames_to_check_ = rechecks_ > 0 ? 0 : kCheckInterval - 1;
 }
 
+void TrackRecord::remember_mask() {
+  if (was_ambiguous_) doubtful_checks_ = kRechecks;
+}
+
 double TrackRecord::confident_support() const {
   if (limits_.global_edges == 0) return 0;
   if (rechecks_ > 0) return kConfidentSupport;

@@ -127,6 +127,9 @@ class TrackRecord {
 
   /// Records the motion that was chosen; a failure resets the support.
   void remember(const MotionStep& found);
+  /// A part of the image is masked from now on. If the last motion was ambiguous, so are the next ones, which the edges
+  /// of the frames before still decide.
+  void remember_mask();
 
   /// Support from which a motion near the prediction is accepted without further tests: temporal.confident_support, or
   /// less if recent motions had low support and no other motion was found; 0 if there is no global search to ask.

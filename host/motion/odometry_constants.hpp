@@ -96,6 +96,8 @@ constexpr double kFirstRoundArea = 0.75, kHopelessAreaRatio = kFirstRoundArea * 
 /// Fraction of the quads that are static although the motion would have moved them, above which the camera may be
 /// stationary.
 constexpr double kStaticQuadRatio = 0.05;
+/// Near edges that only standstill fits well count as static if they are so many times those that only the motion fits.
+constexpr double kStillNearEdges = 2;
 
 /// The camera seems to stand still if more than the first fraction of the quads is static. If more than the second
 /// fraction of the image cells do not follow, spread over the image as a surrounding part is, they may be all that

@@ -164,9 +164,12 @@ constexpr double kSettledFocal = 0.004;
 
 // Parts of the image that do not move (static_region.cpp).
 
-constexpr int kStaticCell = 32;  ///< size of the cells that are compared [px]
+/// Size of the squares that are compared, and the distance between two of them [px]; those side by side are cells.
+constexpr int kStaticCell = 16, kStaticStep = 4;
 /// Frames from the first to the last comparison, and between two of them.
 constexpr int kStaticWindow = 20, kStaticPeriod = 4;
+/// Static part of the textured cells from which nothing has moved yet, so that the window starts anew.
+constexpr double kRestRatio = 0.95;
 /// Cells with a lower standard deviation of the reduced grey levels count as flat [grey levels].
 constexpr double kStaticTexture = 4;
 /// Correlation with the start of the window, from which a cell is static and below which it has changed.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "common/numeric.hpp"
 #include "rig/rig_constants.hpp"
@@ -11,33 +10,61 @@
 namespace quadedge::rig {
 namespace {
 
-constexpr int kReducedCell = PinholeView::kBlock;
-constexpr double kReduction = kStaticCell / kReducedCell;  ///< image pixels per reduced pixel and axis
+constexpr int kReducedCell = PinholeView::kBlock, kReduction = kStaticCell / kReducedCell;  ///< px per reduced pixel
+constexpr int kReducedStep = kStaticStep / kReduction, kStepsPerCell = kStaticCell / kStaticStep;
 
-/// Reduced grey levels of a cell, zero-mean and of unit length; empty if the cell is flat.
-std::vector<float> texture_of(const PinholeView& view, int column, int row) {
-  constexpr double kMiddle = 0.5 * (kStaticCell - 1);
-  std::vector<float> texture(kReducedCell * kReducedCell);
-  view.reduced({column * kStaticCell + kMiddle, row * kStaticCell + kMiddle}, kReduction * Eigen::Matrix2d::Identity(),
-               texture.data());
-  const float sum = std::accumulate(texture.begin(), texture.end(), 0.0F);
-  const auto count = static_cast<float>(texture.size());
-  float squares = 0;
-  for (float& level : texture) {
-    level -= sum / count;
-    squares += level * level;
+/// Reduced grey levels of the whole cells of a view, row-major.
+std::vector<float> reduced_levels(const PinholeView& view, int columns, int rows) {
+  const int width = columns * kReducedCell;
+  std::vector<float> levels(static_cast<std::size_t>(width * rows * kReducedCell));
+  float block[kReducedCell * kReducedCell];
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Eigen::Vector2d corner(column * kStaticCell, row * kStaticCell);
+      view.reduced(corner.array() + 0.5 * (kStaticCell - 1),
+                   static_cast<double>(kReduction) * Eigen::Matrix2d::Identity(), block);
+      for (int y = 0; y < kReducedCell; ++y)
+        std::copy_n(block + y * kReducedCell, kReducedCell,
+                    &levels[static_cast<std::size_t>((row * kReducedCell + y) * width + column * kReducedCell)]);
+    }
   }
-  if (squares < static_cast<float>(kStaticTexture * kStaticTexture) * count) return {};
-  for (float& level : texture) level /= std::sqrt(squares);
-  return texture;
+  return levels;
 }
 
-/// Normalised correlation of two textures; 0 if one of them is flat.
-double correlation(const std::vector<float>& one, const std::vector<float>& other) {
-  if (one.size() != other.size()) return 0;
-  float sum = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) sum += one[i] * other[i];
-  return static_cast<double>(sum);
+/// Normalised correlation of two squares of a cell's size; 0 if one of them is flat.
+/// \param width of the levels that hold them
+double correlation(const float* one, const float* other, int width) {
+  constexpr float kCount = kReducedCell * kReducedCell;
+  float sum = 0, sum_other = 0, squares = 0, squares_other = 0, products = 0;
+  for (int y = 0; y < kReducedCell; ++y, one += width, other += width) {
+    for (int x = 0; x < kReducedCell; ++x) {
+      sum += one[x];
+      sum_other += other[x];
+      squares += one[x] * one[x];
+      squares_other += other[x] * other[x];
+      products += one[x] * other[x];
+    }
+  }
+  squares -= sum * sum / kCount;
+  squares_other -= sum_other * sum_other / kCount;
+  constexpr auto kFlatSquares = static_cast<float>(kStaticTexture * kStaticTexture) * kCount;
+  if (squares < kFlatSquares || squares_other < kFlatSquares) return 0;
+  return static_cast<double>((products - sum * sum_other / kCount) / std::sqrt(squares * squares_other));
+}
+
+/// Marks of a grid, each spread by `before` and `after` in both directions.
+std::vector<std::uint8_t> spread(const std::vector<std::uint8_t>& marks, int columns, int before, int after) {
+  const int rows = static_cast<int>(marks.size()) / columns;
+  std::vector<std::uint8_t> result(marks.size(), 0);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      if (marks[static_cast<std::size_t>(row * columns + column)] == 0) continue;
+      const int left = std::max(column - before, 0), right = std::min(column + after, columns - 1);
+      for (int y = std::max(row - before, 0); y <= std::min(row + after, rows - 1); ++y)
+        std::fill(&result[static_cast<std::size_t>(y * columns + left)],
+                  &result[static_cast<std::size_t>(y * columns + right)] + 1, 1);
+    }
+  return result;
 }
 
 /// Some of the textured cells.
@@ -86,7 +113,8 @@ std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& lef
     ++cell.matches;
   }
   if (++frames_ % kStaticPeriod != 0) return std::nullopt;
-  compare(left);
+  compare(reduced_levels(left, columns_, rows_));
+  if (is_at_rest()) start(left);
   if (frames_ != kCertainAfter && frames_ < kStaticWindow) return std::nullopt;
   auto region = judge();
   if (frames_ >= kStaticWindow) {
@@ -109,19 +137,41 @@ void StaticRegionDetector::start(const PinholeView& left) {
   height_ = left.height();
   frames_ = 0;
   cells_.assign(static_cast<std::size_t>(columns_ * rows_), {});
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    cells_[i].texture = texture_of(left, static_cast<int>(i) % columns_, static_cast<int>(i) / columns_);
+  is_static_.assign(cells_.size() * kStepsPerCell * kStepsPerCell, 1);
+  start_ = reduced_levels(left, columns_, rows_);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const float* const levels = &start_[reduced(place_of(i))];
+    cells_[i].is_textured = correlation(levels, levels, columns_ * kReducedCell) > 0;
+  }
 }
 
-void StaticRegionDetector::compare(const PinholeView& left) {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    Cell& cell = cells_[i];
-    if (cell.texture.empty()) continue;
-    const double same =
-        correlation(cell.texture, texture_of(left, static_cast<int>(i) % columns_, static_cast<int>(i) / columns_));
-    if (same < kStaticCorrelation) cell.is_static = false;
-    if (same < kChangedCorrelation) ++cell.changes;
+/// \param levels of the current image, reduced
+void StaticRegionDetector::compare(const std::vector<float>& levels) {
+  const int places = columns_ * kStepsPerCell, last_column = places - kStepsPerCell,
+            last_row = (rows_ - 1) * kStepsPerCell;
+  for (std::size_t i = 0; i < is_static_.size(); ++i) {
+    const int column = static_cast<int>(i) % places, row = static_cast<int>(i) / places;
+    Cell* const cell = column % kStepsPerCell == 0 && row % kStepsPerCell == 0
+                           ? &cells_[static_cast<std::size_t>(row / kStepsPerCell * columns_ + column / kStepsPerCell)]
+                           : nullptr;
+    if (cell == nullptr && is_static_[i] == 0) continue;
+    const bool fits = column <= last_column && row <= last_row;
+    const std::size_t at = reduced(i);
+    const double same = fits ? correlation(&start_[at], &levels[at], columns_ * kReducedCell) : 0;
+    if (same < kStaticCorrelation) is_static_[i] = 0;
+    if (cell != nullptr && cell->is_textured && same < kChangedCorrelation) ++cell->changes;
   }
+}
+
+/// Whether nothing has moved since the start of the window.
+bool StaticRegionDetector::is_at_rest() const {
+  double textured = 0, still = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (!cells_[i].is_textured) continue;
+    ++textured;
+    still += is_static_[place_of(i)];
+  }
+  return still > kRestRatio * textured;
 }
 
 std::optional<StaticRegion> StaticRegionDetector::judge() const {
@@ -129,12 +179,13 @@ std::optional<StaticRegion> StaticRegionDetector::judge() const {
   StaticRegion region;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
-    if (cell.texture.empty()) continue;
+    if (!cell.is_textured) continue;
     const Eigen::Vector2d place = bounds(i).min() / kStaticCell;
     textured.add(place, cell.inverse_depths, cell.matches);
-    if (cell.is_static) region.bounds.extend(bounds(i));
-    if (!cell.is_static && 2 * cell.changes <= frames_ / kStaticPeriod) continue;
-    (cell.is_static ? still : moving).add(place, cell.inverse_depths, cell.matches);
+    const bool is_still = is_static_[place_of(i)] != 0;
+    if (is_still) region.bounds.extend(bounds(i));
+    if (!is_still && 2 * cell.changes <= frames_ / kStaticPeriod) continue;
+    (is_still ? still : moving).add(place, cell.inverse_depths, cell.matches);
   }
   if (std::min(still.matches, moving.matches) < kMinStaticMatches) return std::nullopt;
   const double changing = moving.cells / textured.cells;
@@ -149,20 +200,29 @@ std::optional<StaticRegion> StaticRegionDetector::judge() const {
   return region;
 }
 
-/// The static cells and their neighbours, since the border of the region runs through these.
+/// The static squares and the gaps in them, such as what they mirror, and a border, since edges lie there.
 PixelMask StaticRegionDetector::static_mask() const {
   PixelMask mask;
   mask.width = width_;
   mask.height = height_;
   mask.hidden.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i].texture.empty() || !cells_[i].is_static) continue;
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kStaticCell);
-    const Eigen::Vector2i from = (bounds(i).min() - reach).cast<int>().cwiseMax(0),
-                          to = (bounds(i).max() + reach).cast<int>().cwiseMin(Eigen::Vector2i(width_, height_));
-    for (int y = from.y(); y < to.y(); ++y)
-      std::fill_n(mask.hidden.begin() + static_cast<std::ptrdiff_t>(y) * width_ + from.x(), to.x() - from.x(), 1);
-  }
+  const int places = columns_ * kStepsPerCell;
+  const auto invert = [](std::vector<std::uint8_t> marks) {
+    for (std::uint8_t& mark : marks) mark ^= 1;
+    return marks;
+  };
+  const auto filled = spread(spread(is_static_, places, 0, kStepsPerCell - 1), places, kStepsPerCell, kStepsPerCell);
+  const auto hidden = invert(spread(invert(filled), places, kStepsPerCell, kStepsPerCell));
+  constexpr int kBorder = kStaticStep / 2;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      for (const int corner : {0, 1, 2, 3}) {
+        const int row = (y + (corner < 2 ? -kBorder : kBorder)) / kStaticStep,
+                  column = (x + (corner % 2 == 0 ? -kBorder : kBorder)) / kStaticStep;
+        mask.hidden[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] |=
+            hidden[static_cast<std::size_t>(std::min(row, rows_ * kStepsPerCell - 1) * places +
+                                            std::min(column, places - 1))];
+      }
   return mask;
 }
 
@@ -171,12 +231,23 @@ bool StaticRegionDetector::masked_cells_move() const {
   int covered = 0, moving = 0;
   for (std::size_t i = 0; i < cells_.size() && !mask_.empty(); ++i) {
     const Eigen::Vector2i centre = bounds(i).center().cast<int>();
-    if (cells_[i].texture.empty() || mask_.hidden[static_cast<std::size_t>(centre.y() * width_ + centre.x())] == 0)
+    if (!cells_[i].is_textured || mask_.hidden[static_cast<std::size_t>(centre.y() * width_ + centre.x())] == 0)
       continue;
     ++covered;
     moving += 2 * cells_[i].changes > frames_ / kStaticPeriod ? 1 : 0;
   }
   return 2 * moving > covered;
+}
+
+std::size_t StaticRegionDetector::place_of(std::size_t cell) const {
+  const auto columns = static_cast<std::size_t>(columns_);
+  return kStepsPerCell * (cell / columns * columns * kStepsPerCell + cell % columns);
+}
+
+/// Index among the reduced levels of the upper left corner of the square at a place.
+std::size_t StaticRegionDetector::reduced(std::size_t place) const {
+  const auto places = static_cast<std::size_t>(columns_ * kStepsPerCell);
+  return kReducedStep * (place / places * places * kReducedStep + place % places);
 }
 
 Eigen::AlignedBox2d StaticRegionDetector::bounds(std::size_t cell) const {

@@ -2,6 +2,8 @@
 /// \file static_region.hpp  A part of the image that does not move while the rest does: a bonnet, a robot's arm, dirt.
 
 #include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,14 +16,15 @@ namespace quadedge::rig {
 struct StaticRegion {
   double ratio = 0;            ///< of the textured cells of the image
   Eigen::AlignedBox2d bounds;  ///< of the static cells [px]
-  /// These cells and their neighbours, if they certainly do not belong to the scene; else empty.
+  /// What is static and the gaps in it, if it certainly does not belong to the scene; else empty.
   PixelMask mask;
   bool is_released = false;  ///< what an earlier mask covers moves after all
 };
 
-/// Compares cells of the left image with the same cells some frames before. What is static although it is nearer than
-/// what moves does not belong to the scene. A camera at rest and distant scenery do not count as such a
-/// region. It is certain sooner if it is large and what changes lies on all sides, even if that is nearer.
+/// Compares cells of the left image with the same cells some frames before, since anything moved. What is static
+/// although it is nearer than what moves does not belong to the scene. A camera at rest and distant scenery do not
+/// count as such a region. It is certain sooner if it is large and what changes lies on all sides, even if that is
+/// nearer.
 class StaticRegionDetector {
  public:
   /// Adds the next image. \param matches of this frame, whose depths are used
@@ -30,26 +33,31 @@ class StaticRegionDetector {
   std::optional<StaticRegion> observe(const PinholeView& left, const std::vector<CornerMatch>& matches);
 
  private:
-  /// A cell of the image: its texture at the start of the window, and what became of it.
+  /// A cell of the image.
   struct Cell {
-    std::vector<float> texture;  ///< reduced grey levels, zero-mean, of unit length; empty if flat
-    bool is_static = true;       ///< in all comparisons so far
-    int changes = 0;             ///< comparisons in which the texture is another one
-    double inverse_depths = 0;   ///< sum over the matches in this cell [1/m]
+    bool is_textured = false;   ///< at the start of the window
+    int changes = 0;            ///< comparisons in which the texture is another one
+    double inverse_depths = 0;  ///< sum over the matches in this cell [1/m]
     int matches = 0;
   };
 
   void start(const PinholeView& left);
-  void compare(const PinholeView& left);
+  void compare(const std::vector<float>& levels);
+  bool is_at_rest() const;
   std::optional<StaticRegion> judge() const;
   PixelMask static_mask() const;
   bool masked_cells_move() const;
   Eigen::AlignedBox2d bounds(std::size_t cell) const;
+  /// Index of the place at the upper left corner of a cell.
+  std::size_t place_of(std::size_t cell) const;
+  std::size_t reduced(std::size_t place) const;
 
   int columns_ = 0, rows_ = 0, width_ = 0, height_ = 0;
-  std::vector<Cell> cells_;  ///< row-major
-  int frames_ = 0;           ///< since the start of the window
-  PixelMask mask_;           ///< of the last certain region
+  std::vector<Cell> cells_;              ///< row-major
+  std::vector<float> start_;             ///< reduced grey levels at the start of the window
+  std::vector<std::uint8_t> is_static_;  ///< squares of a cell's size at places every kStaticStep px: so far
+  int frames_ = 0;                       ///< since the start of the window
+  PixelMask mask_;                       ///< of the last certain region
 };
 
 }  // namespace quadedge::rig
