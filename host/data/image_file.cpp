@@ -324,7 +324,7 @@ cv::Mat decode_png(std::string_view bytes, bool keeps_alpha) {
 Image read_mask(const std::string& file) {
   const std::string bytes = read_bytes(file);
   Image mask = decode_grey_image(bytes, file);
-  if (read_header(bytes, file).kind != ImageKind::png) return mask;
+  if (read_header(std::string_view(bytes), file).kind != ImageKind::png) return mask;
   const cv::Mat samples = decode_png(bytes, true);
   if (samples.channels() % 2 == 1) return mask;  // no alpha
   cv::Mat alpha;

@@ -78,7 +78,7 @@ double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, c
   return aligned > 0 ? static_cast<double>(contradicting) / aligned : 0;
 }
 
-std::string name(ImageTurn turn) {
+std::string text_of(ImageTurn turn) {
   switch (turn) {
     case ImageTurn::none: return "unchanged";
     case ImageTurn::mirrored: return "mirrored";
@@ -118,7 +118,7 @@ std::string cause_of_few(const CornerSearch& search, ImageTurn turn, const RigEv
     return found + ", and " + percent(static_cast<double>(search.negative) / search.searched) +
            " as their negative; is one image a negative?";
   if (turn != ImageTurn::none)
-    return found + ", but most are found if it is " + name(turn) + "; is the right image " + name(turn) + "?";
+    return found + ", but most are found if it is " + text_of(turn) + "; is the right image " + text_of(turn) + "?";
   return found + "; do both cameras see the same scene at the same time? is one image mirrored or rotated?";
 }
 

@@ -29,7 +29,8 @@ struct CornerMatch {
   int edge = -1;                                      ///< index of the stereo edge, if it is one
   Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< where it was found [px]
   bool is_unique = true;                              ///< whether no other place was found that looks alike
-  std::optional<Eigen::Vector2d> motion;  ///< displacement in the left image since the last frame, if searched [px]
+  std::optional<Eigen::Vector2d> motion =
+      std::nullopt;  ///< displacement in the left image since the last frame, if searched [px]
 };
 
 /// Transformations of the right image relative to the calibration that a search can assume.
