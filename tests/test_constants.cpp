@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "dataset_files.hpp"
 #include "program.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/error.hpp"
@@ -129,4 +130,4 @@ TEST_CASE("constants: doc/configuration.md lists those of the program") {
   CHECK(page == configuration_page());
 }
 
-TEST_CASE("write doc/configuration.md", "[.]") { write_text(kPage, configuration_page()); }
+TEST_CASE("write doc/configuration.md", "[.]") { dataset_files::write_text(kPage, configuration_page()); }
