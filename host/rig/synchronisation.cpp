@@ -24,7 +24,7 @@ void Synchronisation::add(const std::vector<Fit::Row>& frame) {
   right_side_ += fit_.right_side;
   frames_ = kKept * frames_ + 1;
   count_ = kKept * count_ + static_cast<double>(frame.size());
-  const double deviation = kDeviationOfMedian * fit_.scatter;
+  const double deviation = std::fmax(kMinScale, kDeviationOfMedian * fit_.scatter);
   variance_ += (deviation * deviation - variance_) / frames_;
 }
 
