@@ -8,7 +8,7 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 [ -x "$repository/build/quadedge" ] || cat <<'END'
 On Debian 12, this installs the packages that are missing (apt-get, with sudo if you are not root: 0.35 GB beside a
-compiler, 1.4 GB on an empty machine), builds build/quadedge (three minutes on two quiet cores), then the bindings of
+compiler, 1.4 GB on an empty machine), builds build/quadedge (five to ten minutes on two cores), then the bindings of
 the Python package (80 MB from PyPI, into build/venv), and tracks a recording. Later calls build what has changed.
 END
 install_missing $build_packages $python_packages
