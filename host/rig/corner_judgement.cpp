@@ -124,6 +124,7 @@ std::string cause_of_few(const CornerSearch& search, ImageTurn turn, const RigEv
 
 /// Judges the rig by the results of a search.
 /// \param turn transformation of the right image with which most corners are found, or none
+// LONG: a sentence per finding.
 std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evidence, ImageTurn turn,
                               const PinholeCamera& left) {
   const CornerSearch& search = answer.search;
