@@ -112,7 +112,10 @@ StepHandle MotionSearch::find_by_few_matches(const MotionQuery& query) {
 /// Completes the verdict on the motion chosen, which the rest of the image may contradict.
 void MotionSearch::check(const MotionQuery& query, StepHandle& handle) {
   Ambiguity repeated;
-  if (handle->ok() && !(query.prediction && handle->verdict.is_predicted)) repeated = try_periods(query, handle);
+  // Earlier keyframes, of which no prediction is known, are told apart by one another.
+  const bool is_earlier = !query.prediction && !query.accepts_ambiguous,
+             is_predicted = query.prediction && handle->verdict.is_predicted;
+  if (handle->ok() && !is_earlier && !is_predicted) repeated = try_periods(query, handle);
   MotionStep& found = *handle;
   if (repeated.exists()) found.verdict.ambiguity = repeated;
   found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);

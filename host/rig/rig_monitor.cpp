@@ -207,7 +207,7 @@ void RigMonitor::judge_time(const std::vector<CornerMatch>& found, RigReport& re
 std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& current_from_last) {
   if (searched_ && doubts_time(*searched_)) return std::nullopt;  // edges then lie where matches were looked for
   const Eigen::Isometry3d last_from_current = current_from_last.inverse();
-  std::vector<Synchronisation::Fit::Row> rows;
+  rows_.clear();
   double motions = 0;
   for (const CornerMatch& match : corner_matches_) {
     const Eigen::Vector3d last =
@@ -215,10 +215,11 @@ std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& cu
     if (!(last.z() > 0)) continue;
     const Eigen::Vector2d motion = match.left - rig_.left.project(last);
     motions += motion.norm();
-    rows.push_back(Synchronisation::row(match.left.x() / rig_.left.width - 0.5, match.left.y() / rig_.left.height - 0.5,
-                                        match.across, motion.dot(match.normal)));
+    rows_.push_back(Synchronisation::row(match.left.x() / rig_.left.width - 0.5,
+                                         match.left.y() / rig_.left.height - 0.5, match.across,
+                                         motion.dot(match.normal)));
   }
-  if (motions > kMinImageMotion * static_cast<double>(rows.size())) synchronisation_.add(rows);
+  if (motions > kMinImageMotion * static_cast<double>(rows_.size())) synchronisation_.add(rows_);
   const double time_offset = synchronisation_.time_offset_frames();
   if (time_offset == 0) return std::nullopt;
   return RigFinding{late_camera(time_offset)};

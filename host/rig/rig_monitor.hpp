@@ -58,6 +58,7 @@ class RigMonitor {
   bool auto_mask_;
   CornerMatcher corner_matcher_;
   Synchronisation synchronisation_;
+  std::vector<Synchronisation::Fit::Row> rows_;  ///< of observe_motion(), kept for its memory
   StaticRegionDetector static_region_;
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
