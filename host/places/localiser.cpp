@@ -283,6 +283,7 @@ std::optional<Match> Localiser::Implementation::compare(const places::Place& pla
   query.base = frontend().restore(place.kept);
   query.seed = config_.seed;
   query.rig = estimate_;
+  query.rig.disparity_error = 0;  // an error of the rig must not make places alike
   if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
   const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;

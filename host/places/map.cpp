@@ -371,6 +371,7 @@ Comparison Map::Implementation::begin(const NodeView& view, const places::Place&
   query.current = view.edges;
   query.base = now.frontend.restore(place.kept);
   query.rig = now.rig.of(view.edges->rig());
+  query.rig.disparity_error = 0;  // an error of the rig must not make places alike
   query.seed = config_.seed + static_cast<std::uint64_t>(view.frame);
   if (near_prediction) {
     query.prediction = graph_.pose(view.node).inverse() * graph_.pose(place.node);
