@@ -113,7 +113,7 @@ TEST_CASE("image delay: frames of a camera that is late are refused once the ima
   for (const int late : {1, -1, 2, -2, 7}) {
     INFO(late);
     const Judged judged = judge(flight(), late);
-    CHECK(std::count(judged.refused.begin(), judged.refused.end(), false) <= 4);  // see doc/limits.md
+    CHECK(std::count(judged.refused.begin(), judged.refused.end(), false) <= (late == -1 || late == 7 ? 4 : 2));
     if (std::abs(late) == 1) CHECK_THAT(judged.words, Contains(late > 0 ? "the right camera" : "the left camera"));
   }
 }

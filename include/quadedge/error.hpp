@@ -63,7 +63,7 @@ enum class WarningKind {
   static_region,            ///< a part of the image does not move while the rest does, such as a vehicle's bonnet
   displaced_images,         ///< single right images are displaced along the epipolar lines
   changed_rig,              ///< one of the cameras has turned since the recording began
-  poor_images,              ///< saturated, unequally exposed or strongly compressed images
+  poor_images,              ///< saturated or unequally exposed images, or masks that hide most of one
   doubtful_lenses,          ///< the focal lengths or the distortion of both cameras seem to be wrong alike
 };
 /// The name of the enumerator.

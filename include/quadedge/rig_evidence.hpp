@@ -27,8 +27,8 @@ struct RigEvidence {
   double searched_residual = kUnknown;  ///< median distance of the corners found from their epipolar lines [px]
   double on_line_ratio =
       kUnknown;  ///< fraction of the corners found with sub-pixel accuracy that lie within 1 px of their line
-  double negative_ratio = kUnknown;  ///< fraction of the corners found with a disparity below -1 px
-  double beyond_ratio = kUnknown;    ///< fraction of the corners found with a disparity above the maximum + 1 px
+  double negative_ratio = kUnknown;  ///< fraction of the unique corners with a disparity below -1 px
+  double beyond_ratio = kUnknown;    ///< fraction of the unique corners with one above the maximum + 1 px
   bool is_searched() const { return found_ratio == found_ratio; }
 };
 
