@@ -7,7 +7,6 @@ import numpy as np
 # Blue, orange, magenta, green, violet, grey, brown: distinguishable for colour-blind readers on light and dark pages.
 COLOURS = ("#2f80d0", "#e08a00", "#c63f9d", "#2a9d7c", "#7a5af0", "#8a8f98", "#a0522d")
 GREY = 5
-SCALE = ("#5aa3e8", "#f4f4f2", "#f0a63a")  # of heat maps, whose numbers are dark on light and dark pages
 # Each style also has a line style and a marker; plotly has fewer markers in space.
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "solid", "longdashdot")
 _SYMBOLS = ("circle", "triangle-up", "x", "square", "diamond", "cross", "star")
@@ -42,13 +41,6 @@ class Figure:
     """Spans the width of the page."""
     picture: str = ""
     """Address of an image that fills x_range and y_range behind the traces."""
-    cells: np.ndarray | None = None
-    """In place of traces: the values of a grid of cells over the whole of x_range and y_range, its first row at the
-    upper end of the plot; NaN where there is none."""
-    cell_limit: float = 1
-    """The end of the colour scale, which is symmetric about 0."""
-    cell_label: str = ""
-    """Of the colour scale."""
 
     def add(self, name: str, x, y, z=None, *, style: int = 0, points: bool = False, fill: str = "", dash: str = "",
             times: np.ndarray | None = None, hover: list[str] | None = None, labels: list[str] | None = None) -> None:
@@ -105,18 +97,6 @@ class Figure:
         shown = {"title": {"text": getattr(self, f"{axis}_label")}, "automargin": True}
         return shown | ({"range": list(limits)} if limits else {})
 
-    def cell_centres(self) -> list[np.ndarray]:
-        """Of the columns and of the rows of cells."""
-        return [np.linspace(*limits, 2 * count + 1)[1::2]
-                for limits, count in zip((self.x_range, self.y_range[::-1]), self.cells.shape[::-1])]
-
-    def _heat_map(self) -> dict:
-        x, y = self.cell_centres()
-        return {"type": "heatmap", "x": x, "y": y, "z": list(self.cells), "texttemplate": "%{z:.2f}",
-                "textfont": {"size": 9}, "hoverongaps": False, "zmin": -self.cell_limit, "zmax": self.cell_limit,
-                "xgap": 1, "ygap": 1, "colorscale": list(zip((0, 0.5, 1), SCALE)),
-                "colorbar": {"title": {"text": self.cell_label}, "thickness": 14}}
-
     def plotly(self) -> dict:
         """The `data` and `layout` arguments of Plotly.newPlot. The page adds size, fonts and background colours."""
         layout: dict = {"title": {"text": self.title}}
@@ -126,8 +106,6 @@ class Figure:
                 f"{axis}axis": self._axis(axis) | {"nticks": max(2, round(8 * share))}
                 for axis, share in zip("xyz", shares)}
             return {"data": self.traces, "layout": layout}
-        if self.cells is not None:
-            return {"data": [self._heat_map()], "layout": layout | {axis + "axis": self._axis(axis) for axis in "xy"}}
         x, y = layout["xaxis"], layout["yaxis"] = self._axis("x"), self._axis("y")
         if self.categories:
             x |= {"type": "category", "categoryarray": self.categories, "categoryorder": "array", "tickangle": -40}
