@@ -14,10 +14,10 @@ namespace {
 constexpr int kReducedCell = PinholeView::kBlock, kReduction = kStaticCell / kReducedCell;  ///< px per reduced pixel
 constexpr int kReducedStep = kStaticStep / kReduction, kStepsPerCell = kStaticCell / kStaticStep;
 
-/// Reduced grey levels of the whole cells of a view, row-major.
-std::vector<float> reduced_levels(const PinholeView& view, int columns, int rows) {
+/// Sets reduced grey levels of the whole cells of a view, row-major.
+void reduce_levels(const PinholeView& view, int columns, int rows, std::vector<float>& levels) {
   const int width = columns * kReducedCell;
-  std::vector<float> levels(static_cast<std::size_t>(width * rows * kReducedCell));
+  levels.resize(static_cast<std::size_t>(width * rows * kReducedCell));
   float block[kReducedCell * kReducedCell];
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -29,7 +29,6 @@ std::vector<float> reduced_levels(const PinholeView& view, int columns, int rows
                     &levels[static_cast<std::size_t>((row * kReducedCell + y) * width + column * kReducedCell)]);
     }
   }
-  return levels;
 }
 
 /// Normalised correlation of two squares of a cell's size; 0 if one of them is flat.
@@ -114,7 +113,8 @@ std::optional<StaticRegion> StaticRegionDetector::observe(const PinholeView& lef
     ++cell.matches;
   }
   if (++frames_ % kStaticPeriod != 0) return std::nullopt;
-  compare(reduced_levels(left, columns_, rows_));
+  reduce_levels(left, columns_, rows_, current_);
+  compare(current_);
   if (is_at_rest()) start(left);
   if (frames_ != kCertainAfter && frames_ < kStaticWindow) return std::nullopt;
   auto region = judge();
@@ -139,7 +139,7 @@ void StaticRegionDetector::start(const PinholeView& left) {
   frames_ = 0;
   cells_.assign(static_cast<std::size_t>(columns_ * rows_), {});
   is_static_.assign(cells_.size() * kStepsPerCell * kStepsPerCell, 1);
-  start_ = reduced_levels(left, columns_, rows_);
+  reduce_levels(left, columns_, rows_, start_);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const float* const levels = &start_[reduced(place_of(i))];
     cells_[i].is_textured = correlation(levels, levels, columns_ * kReducedCell) > 0;

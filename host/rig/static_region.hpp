@@ -58,7 +58,7 @@ class StaticRegionDetector {
 
   int columns_ = 0, rows_ = 0, width_ = 0, height_ = 0;
   std::vector<Cell> cells_;              ///< row-major
-  std::vector<float> start_;             ///< reduced grey levels at the start of the window
+  std::vector<float> start_, current_;   ///< reduced grey levels at the start of the window, and now
   std::vector<std::uint8_t> is_static_;  ///< squares of a cell's size at places every kStaticStep px: so far
   int frames_ = 0;                       ///< since the start of the window
   PixelMask mask_;                       ///< of the last certain region
