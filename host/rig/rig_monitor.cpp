@@ -183,8 +183,10 @@ void RigMonitor::search(const StereoFrame& frame, double max_disparity, const Ri
   if (may_be_late && drop(WarningKind::doubtful_calibration, report)) searched_.reset();  // the next frame is searched
 }
 
-/// Refuses a frame whose images show different moments.
+/// Refuses a frame whose images show different moments, unless edges lie on their lines: where thin structures cross,
+/// corners are no points of the scene, and move with the camera as they do between the cameras.
 void RigMonitor::judge_time(const std::vector<CornerMatch>& found, RigReport& report) {
+  if (report.evidence.matched_ratio > kCertainMatchedRatio) return;
   std::vector<Synchronisation::Fit::Row> rows;
   std::vector<double> motions;
   for (const CornerMatch& match : found) {
@@ -208,18 +210,16 @@ std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& cu
   if (searched_ && doubts_time(*searched_)) return std::nullopt;  // edges then lie where matches were looked for
   const Eigen::Isometry3d last_from_current = current_from_last.inverse();
   rows_.clear();
-  double motions = 0;
   for (const CornerMatch& match : corner_matches_) {
     const Eigen::Vector3d last =
         last_from_current.linear() * rig_.left.ray(match.left) + last_from_current.translation() * match.inverse_depth;
     if (!(last.z() > 0)) continue;
     const Eigen::Vector2d motion = match.left - rig_.left.project(last);
-    motions += motion.norm();
     rows_.push_back(Synchronisation::row(match.left.x() / rig_.left.width - 0.5,
                                          match.left.y() / rig_.left.height - 0.5, match.across,
                                          motion.dot(match.normal)));
   }
-  if (motions > kMinImageMotion * static_cast<double>(rows_.size())) synchronisation_.add(rows_);
+  synchronisation_.add(rows_);
   const double time_offset = synchronisation_.time_offset_frames();
   if (time_offset == 0) return std::nullopt;
   return RigFinding{late_camera(time_offset)};

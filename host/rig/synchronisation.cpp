@@ -40,7 +40,7 @@ double Synchronisation::time_offset_frames() const {
 
 bool Synchronisation::is_settled() const { return kMinTimeSigmas * sigma() < kMinTimeOffset; }
 
-bool Synchronisation::is_contradicted_by(std::vector<Fit::Row> frame) const {
+bool Synchronisation::is_contradicted_by(const std::vector<Fit::Row>& frame) const {
   Fit fit;
   fit.terms = fit_.terms;
   fit.measure(frame);

@@ -27,7 +27,7 @@ class Synchronisation {
   /// Whether an offset would be seen, if there were one.
   bool is_settled() const;
   /// Whether corners fit clearly better without the offset.
-  bool is_contradicted_by(std::vector<Fit::Row> frame) const;
+  bool is_contradicted_by(const std::vector<Fit::Row>& frame) const;
 
  private:
   /// Standard deviation of the offset [frame intervals]; infinite while too few corners were seen.
