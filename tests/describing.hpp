@@ -1,5 +1,5 @@
 #pragma once
-/// \file describing.hpp  Random edges and device runs shared by the tests of side patches and SIFT descriptors.
+/// \file describing.hpp  Random edges and images on devices, shared by the tests of side patches and SIFT descriptors.
 
 #include <random>
 #include <string>
@@ -7,10 +7,10 @@
 
 #include "device/edge_descriptions.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 #include "reference/edge_descriptions.hpp"
+#include "stage_rows.hpp"
 
 /// `count` positions in the image and up to `beyond` px outside it, with all directions.
 inline quadedge::EdgePositions random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {
@@ -25,50 +25,17 @@ inline quadedge::EdgePositions random_edges(int width, int height, int count, un
   return edges;
 }
 
-struct TestDescriptions {
-  std::string name;  ///< device and variant
-  std::vector<std::int8_t> patches;
-  std::vector<std::uint8_t> sift;
-};
+/// An image and positions in it on a device.
+struct InputOfDescriptions {
+  quadedge::opencl::Buffer<cl_uchar> pixels;
+  quadedge::stages::DevicePositions edges;
 
-/// Descriptions by every variant of `stage` ("patches" or "sift"; the other stage by its default) on every device, each
-/// run twice on the same object: the second run must give the same bytes.
-inline std::vector<TestDescriptions> describe_everywhere(const std::string& stage, const quadedge::Image& image,
-                                                         const quadedge::EdgePositions& edges) {
-  using namespace quadedge;
-  std::vector<TestDescriptions> all;
-  const std::size_t count = edges.x.size();
-  for (const auto& index : all_devices()) {
-    Device device(index, kept_programs());
-    auto& context = *device.context();
-    opencl::Buffer<cl_uchar> pixels;
-    stages::DevicePositions device_edges;
+  InputOfDescriptions(quadedge::opencl::Context& context, const quadedge::Image& image,
+                      const quadedge::EdgePositions& positions) {
     pixels.write(context, image.pixels);
-    device_edges.write(context, {edges});
-    const auto positions = device_edges.list();
-    for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage != stage) continue;
-      const std::map<std::string, std::string> chosen = {{stage, variant.name}};
-      stages::Patches patch_stage(context, image.width, image.height, {}, chosen);
-      stages::Sift sift_stage(context, image.width, image.height, chosen);
-      TestDescriptions found[2];
-      for (auto& run : found) {
-        opencl::Buffer<cl_char> patches;
-        opencl::Buffer<cl_uchar> sift;
-        patch_stage.prepare(pixels);
-        sift_stage.prepare(pixels);
-        patch_stage.cut(positions, patches);
-        sift_stage.describe(positions, sift);
-        run = {device.info().name + " " + variant.name, patches.read(count * quadedge::kEdgePatchBytes),
-               sift.read(count * quadedge::kEdgeSiftBytes)};
-      }
-      CHECK(found[0].patches == found[1].patches);
-      CHECK(found[0].sift == found[1].sift);
-      all.push_back(found[0]);
-    }
+    edges.write(context, {positions});
   }
-  return all;
-}
+};
 
 /// Difference between the samples of two sets of side patches. A sample halfway between two integers may be rounded up
 /// in one and down in the other if they are computed in different precision or from rotated coordinates.

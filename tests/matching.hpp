@@ -15,11 +15,11 @@
 #include "device/images.hpp"
 #include "device/stereo_matching.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 #include "reference/candidates.hpp"
+#include "stage_rows.hpp"
 
 namespace matching {
 
@@ -65,13 +65,19 @@ inline EdgeSet make_edges(std::vector<Edge> edges, int height, double slack = 0,
   return set;
 }
 
+/// Arrays one behind the other.
+template <class T>
+std::vector<float> packed(const std::vector<const std::vector<T>*>& blocks) {
+  std::vector<float> all;
+  for (const auto* block : blocks) all.insert(all.end(), block->begin(), block->end());
+  return all;
+}
+
 inline stages::DeviceEdges upload(opencl::Context& context, const EdgeSet& edges) {
   stages::DeviceEdges device;
   device.stride = static_cast<int>(edges.size());
-  std::vector<float> packed;
-  for (const auto* block : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_shift})
-    packed.insert(packed.end(), block->begin(), block->end());
-  device.packed.write(context, packed);
+  device.packed.write(context,
+                      packed<float>({&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_shift}));
   device.row_first.write(context, edges.row_first);
   device.host_count = static_cast<int>(edges.size());
   return device;

@@ -46,7 +46,7 @@ FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sif
 void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a,
                 const reference::EdgeDescriptions& b, const FilterLimits& limits, int row_step, bool all_scores,
                 const std::function<void(const reference::CandidateScores&, const std::vector<cl_int>& alive)>& check) {
-  for_each_variant("candidate_filters", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("candidate_filters", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
     CAPTURE(all_scores);
     stages::CandidateFilters stage(context, variants);
     auto device = upload(context, lists);
@@ -71,8 +71,10 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
     patches_b.write(context, patches_turned);
     stage.run({patches_a, itself, sift_a}, {patches_b, turned, sift_b}, limits, row_step, all_scores, device);
     const auto size = lists.target.size();
-    check({device.ncc.read(size), device.sift.read(size), device.state.read(size)},
-          device.alive.read(static_cast<std::size_t>(device.rows)));
+    const reference::CandidateScores scores{device.ncc.read(size), device.sift.read(size), device.state.read(size)};
+    const auto alive = device.alive.read(static_cast<std::size_t>(device.rows));
+    check(scores, alive);
+    return {{"ncc", scores.ncc}, {"sift", scores.sift}, {"state", scores.state}, {"alive", alive}};
   });
 }
 

@@ -27,13 +27,6 @@ TEST_CASE("synth: refuses an existing folder without --force", "[cli]") {
   run_well(forced);
 }
 
-TEST_CASE("bad data: an empty or missing folder is refused by name", "[cli]") {
-  const TemporaryFolder folder;
-  check_error({"run", folder.path()}, 3, {"quadedge: ", folder.path()});
-  check_error({"run", folder / "absent"}, 3, {"quadedge: ", "absent"});
-  check_error({"check", folder.path()}, 3);
-}
-
 TEST_CASE("check: a damaged image hides nothing of what the others say of the calibration", "[cli]") {
   const DamagedSequence sequence;
   std::filesystem::rename(sequence / "rgb", sequence / "once_left");
@@ -43,12 +36,6 @@ TEST_CASE("check: a damaged image hides nothing of what the others say of the ca
   const auto result =
       check_error({"check", sequence.path()}, 3, {"error: ", sequence.image("rgb", 1).filename().string()});
   CHECK_THAT(result.out, Contains("warning: ") && Contains("exchanged"));
-}
-
-TEST_CASE("edges: a file that is not an image is refused by name", "[cli]") {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "text.png") << "not an image";
-  check_error({"edges", folder / "text.png"}, 3, {"quadedge: ", "text.png"});
 }
 
 TEST_CASE("evaluate trajectory: known errors are printed for both alignments", "[cli]") {

@@ -18,16 +18,6 @@ void blacken(const DamagedSequence& sequence, std::size_t frame) {
 
 }  // namespace
 
-TEST_CASE("run: a black frame is lost, and tracking resumes after it", "[cli][device]") {
-  const DamagedSequence sequence;
-  blacken(sequence, 1);
-  const TemporaryFolder folder;
-  CHECK_THAT(run_well({"run", sequence.path(), "-o", folder / "out"}).out, Contains("3 of 4 frames"));
-  CHECK(csv_column(folder / "out/frames.csv", "status") ==
-        std::vector<std::string>{"first", "lost_too_few_edges", "tracked", "tracked"});
-  CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() == 4);
-}
-
 TEST_CASE("run, evaluate: an unknown motion divides the trajectory into segments", "[cli][device]") {
   // Black images, then another scene: its first frame is lost, the next one is located against it.
   const TemporaryFolder folder;

@@ -62,12 +62,6 @@ TEST_CASE("process: two runs never write into the same folder", "[cli][device]")
   CHECK_FALSE(fs::exists(out + "/.lock"));
 }
 
-TEST_CASE("process: a file size limit is an error like a full disk", "[cli]") {
-  const TemporaryFolder folder;
-  check_error({"run", small_sequence(), "-o", folder / "out", "--device", "reference"}, 3,
-              {folder / "out/config.toml", "large"}, through_shell("ulimit -f 2;", ""));
-}
-
 TEST_CASE("process: an unwritable output file is refused at the start", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";

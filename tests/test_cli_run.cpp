@@ -250,19 +250,6 @@ TEST_CASE("run: ground truth for half of the frames is used for that half and re
   CHECK_THAT(run_well({"check", folder / "room"}).out, Contains("warning"));
 }
 
-TEST_CASE("run: frames finished before a broken image stay on disk", "[cli][device]") {
-  const TemporaryFolder folder;
-  fs::copy(small_sequence(), folder / "room", fs::copy_options::recursive);
-  std::vector<fs::path> images;
-  for (const auto& entry : fs::directory_iterator(folder / "room/rgb")) images.push_back(entry.path());
-  std::sort(images.begin(), images.end());
-  fs::resize_file(images[2], fs::file_size(images[2]) / 2);
-  check_error({"run", folder / "room", "-o", folder / "out"}, 3, {images[2].filename().string(), "2 finished frames"});
-  CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() == 2);
-  CHECK(read_lines(folder / "out/frames.csv").size() == 3);
-  check_error({"check", folder / "room"}, 3);
-}
-
 TEST_CASE("run: a device that fails in mid-run costs no finished frame and no file", "[cli][device]") {
   const TemporaryFolder folder;
   const auto launches = [&](long most) {

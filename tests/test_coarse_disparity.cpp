@@ -127,16 +127,14 @@ TEST_CASE("coarse disparity: what the right image does not show stays unknown", 
   // A near board in front of a far wall hides the part of the wall to its left.
   const StereoRig rig = flat_rig(200, 60);
   const Image texture = random_blocks(400, 60, 5), near_texture = random_blocks(400, 60, 6);
-  Image left(200, 60), right(200, 60);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 200; ++x) {
-      left.set(x, y, x >= 100 && x < 150 ? near_texture.view().value(x, y) : texture.view().value(x + 50, y));
-      const int near_x = x + 30, far_x = x + 6;
-      right.set(
-          x, y,
-          near_x >= 100 && near_x < 150 ? near_texture.view().value(near_x, y) : texture.view().value(far_x + 50, y));
-    }
-  }
+  const auto view = [&](int near_shift, int far_shift) {
+    return filled_image(200, 60, [&, near_shift, far_shift](int x, int y) {
+      const int near_x = x + near_shift;
+      return near_x >= 100 && near_x < 150 ? near_texture.view().value(near_x, y)
+                                           : texture.view().value(x + far_shift + 50, y);
+    });
+  };
+  const Image left = view(0, 0), right = view(30, 6);
   const CoarseDisparityArguments search = search_of(rig, 60);
   const auto positions = reference::coarse_disparity(left.view(), right.view(), search).positions;
   int hidden = 0, known = 0, rows = 0, right_rows = 0;
@@ -184,24 +182,21 @@ TEST_CASE("coarse disparity: every device and variant gives exactly the referenc
     rig.right.height = of.right_height;
     rig.right.cx += of.right_cx;
     const CoarseDisparityArguments search = search_of(rig, of.range);
-    Image left(of.width, of.height, of.max_value), right(of.right_width, of.right_height, of.max_value);
     const Image pattern = textured_image(of.width + of.right_width, std::max(of.height, of.right_height), 4);
     const int scale = of.max_value / 255;
-    for (int y = 0; y < of.height; ++y)
-      for (int x = 0; x < of.width; ++x) left.set(x, y, scale * pattern.view().value(x, y) + x % scale);
-    for (int y = 0; y < of.right_height; ++y)
-      for (int x = 0; x < of.right_width; ++x) right.set(x, y, scale * pattern.view().value(x + 9, y));
+    const Image left = filled_image(of.width, of.height, of.max_value,
+                                    [&](int x, int y) { return scale * pattern.view().value(x, y) + x % scale; }),
+                right = filled_image(of.right_width, of.right_height, of.max_value,
+                                     [&](int x, int y) { return scale * pattern.view().value(x + 9, y); });
     const auto expected = reference::coarse_disparity(left.view(), right.view(), search).positions;
-    for_each_variant("coarse_disparity", [&](opencl::Context& context, const Variants& variants) {
+    check_stage("coarse_disparity", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
       const stages::DeviceImage on_left = upload(context, left), on_right = upload(context, right);
       stages::CoarseDisparity stage(context, variants, of.max_value);
       const std::size_t before = context.bytes();
-      for (int run = 0; run < 2; ++run) {
-        stage.run(on_left, on_right, search);
-        CHECK(context.bytes() - before <= stages::CoarseDisparity::bytes(search));
-        CHECK(2 * (context.bytes() - before) >= stages::CoarseDisparity::bytes(search));
-        CHECK(stage.positions().read(expected.size()) == expected);
-      }
+      stage.run(on_left, on_right, search);
+      CHECK(context.bytes() - before <= stages::CoarseDisparity::bytes(search));
+      CHECK(2 * (context.bytes() - before) >= stages::CoarseDisparity::bytes(search));
+      return {{"positions", stage.positions().read(expected.size()), expected}};
     });
   }
 }

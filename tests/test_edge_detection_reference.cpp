@@ -53,26 +53,6 @@ TEST_CASE("edges: a straight edge of any direction is located to 0.004 px and 0.
   CHECK(std::sqrt(squares / static_cast<double>(count)) < 0.08 * kDegree);
 }
 
-TEST_CASE("edges: a vertical edge that is bright on the right points up, and contrast turns the direction", "[edges]") {
-  const std::pair<double, double> bright_side_and_direction[] = {{0, -90}, {90, 0}, {180, 90}, {270, 180}};
-  for (const auto& [side, direction] : bright_side_and_direction) {
-    const Image image = render_half_plane(48, 48, 23.3, 23.8, side * kDegree);
-    const ReferenceEdges edges = ::detect_edges(image.view(), {});
-    REQUIRE(edges.size() > 20);
-    for (const double found : edges.direction) REQUIRE(angle_error(found, direction * kDegree) < 0.1 * kDegree);
-  }
-}
-
-TEST_CASE("edges: pixel centres are integers, so a step between columns 31 and 32 lies at 31.5", "[edges]") {
-  const Image image = render_shape(64, 48, 10, 250, [](double x, double) { return x > 31.5; });
-  const ReferenceEdges edges = ::detect_edges(image.view(), {});
-  REQUIRE(edges.size() == 26);  // one per row strictly inside the margin: 11 .. 36
-  for (const double x : edges.x) REQUIRE(std::abs(x - 31.5) < 1e-5);
-
-  const Image lying = render_shape(48, 64, 10, 250, [](double, double y) { return y > 20.5; });
-  for (const double y : ::detect_edges(lying.view(), {}).y) REQUIRE(std::abs(y - 20.5) < 1e-5);
-}
-
 TEST_CASE("edges: a circle is found sigma^2 / 2r inside its true position, with tangents along it", "[edges]") {
   for (const double radius : {20.0, 30.0, 50.0}) {
     for (const bool bright_inside : {true, false}) {

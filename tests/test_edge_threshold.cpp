@@ -7,11 +7,11 @@
 
 #include "device/edge_detection.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "edge_images.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
+#include "stage_rows.hpp"
 
 using namespace quadedge;
 
@@ -100,33 +100,23 @@ TEST_CASE("edge threshold: every device and variant agrees with the reference", 
     cases.push_back({flattened(image, 0.01, 65535), flattened(other, 0.01, 65535)});
     cases.push_back({noisy_image(width, height, 3, 4), noisy_image(width, height, 128, 12)});
   }
-  for_each_variant("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
+    StageArrays arrays;
     for (const double sigma : {2.0, 0.8, 3.1}) {
       EdgesConfig config;
       config.sigma = sigma;
       for (std::size_t i = 0; i < cases.size(); ++i) {
-        INFO("sigma " << sigma << " case " << i);
         const ThresholdAndNoise found = measure(context, variants, {cases[i]}, config).front();
         const ThresholdAndNoise expected = reference_of(cases[i], config);
         // A gradient on the border of two bins may fall on either side; the smallest sizes have few points.
-        CHECK(found.threshold == Approx(expected.threshold).epsilon(cases[i][0].width < 70 ? 0.05 : 0.01));
-        CHECK(found.noise == Approx(expected.noise).epsilon(1e-4));
+        const auto threshold = static_cast<double>(expected.threshold), noise = static_cast<double>(expected.noise);
+        const std::string name = "sigma " + std::to_string(sigma) + " case " + std::to_string(i);
+        arrays.emplace_back(name + " threshold", std::vector{found.threshold}, std::vector{threshold},
+                            Within{(cases[i][0].width < 70 ? 0.05 : 0.01) * threshold});
+        arrays.emplace_back(name + " noise", std::vector{found.noise}, std::vector{noise}, Within{1e-4 * noise});
       }
     }
-  });
-}
-
-TEST_CASE("edge threshold: all variants give the same bytes, reproducibly", "[edges][device]") {
-  const std::vector<std::vector<Image>> frames = {
-      {flattened(textured_image(321, 243), 0.1, 255), flattened(textured_image(321, 243, 2), 0.1, 255)}};
-  std::map<std::string, ThresholdAndNoise> first;  // of each device
-  for_each_variant("edge_threshold", [&](opencl::Context& context, const Variants& variants) {
-    for (int repetition = 0; repetition < 2; ++repetition) {
-      const ThresholdAndNoise found = measure(context, variants, frames, {}).front();
-      const ThresholdAndNoise& same = first.emplace(context.device().getInfo<CL_DEVICE_NAME>(), found).first->second;
-      CHECK(found.threshold == same.threshold);
-      CHECK(found.noise == same.noise);
-    }
+    return arrays;
   });
 }
 

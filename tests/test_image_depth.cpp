@@ -91,13 +91,3 @@ TEST_CASE("image depth: a hundredth of the contrast at 16 bits is tracked like f
     }
   }
 }
-
-TEST_CASE("image depth: images whose bit depth differs from the rig's are refused", "[odometry][device]") {
-  const RenderedScene scene("room", 160, 100, 1);
-  StereoRig rig = scene.rig;
-  rig.max_value = 65535;
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(rig, device, scene.config);
-  CHECK_THROWS_AS(odometry.track(scene.frame(0)), DataError);
-  CHECK_THROWS_WITH(odometry.track(scene.frame(0)), Catch::Matchers::Contains("65535"));
-}

@@ -11,7 +11,7 @@ using namespace matching;
 
 namespace {
 
-const RenderedScene& room() {
+const RenderedScene& kept_room() {
   static const RenderedScene scene("room", 320, 200, 2, 6);
   return scene;
 }
@@ -27,14 +27,14 @@ std::vector<std::string> devices_and_reference() {
 TEST_CASE("kept frame edges: at most half a megabyte, and patches and descriptors close to the original ones",
           "[device]") {
   Device device("reference");
-  const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-  const auto frame_edges = frontend->process(room().frame(0));
+  const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
+  const auto frame_edges = frontend->process(kept_room().frame(0));
   const frontend::KeptFrameEdges kept = frontend->keep();
   REQUIRE(kept.edges.size() > 500);
   CHECK(kept.edges.size() <= frontend::kKeptEdges);
   CHECK(static_cast<double>(kept.bytes()) / static_cast<double>(kept.edges.size()) * frontend::kKeptEdges < 500'000);
-  const auto patches = reference::side_patches(room().left[0].view(), kept.edges.left_x, kept.edges.left_y,
-                                               kept.edges.left_direction, room().config.patches);
+  const auto patches = reference::side_patches(kept_room().left[0].view(), kept.edges.left_x, kept.edges.left_y,
+                                               kept.edges.left_direction, kept_room().config.patches);
   const frontend::KeptPatches unpacked = frontend::unpack_patches(kept);
   for (std::size_t k = 0; k < kept.edges.size(); ++k) {
     const auto* const before = patches.data() + k * kEdgePatchBytes;
@@ -54,12 +54,12 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
   for (const std::string& name : devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());
-    const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-    odometry::MotionSearch search(room().config, *frontend, room().rig);
-    const auto base = frontend->process(room().frame(0));
+    const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
+    odometry::MotionSearch search(kept_room().config, *frontend, kept_room().rig);
+    const auto base = frontend->process(kept_room().frame(0));
     const frontend::KeptFrameEdges kept = frontend->keep();
     odometry::MotionQuery query;
-    query.current = frontend->process(room().frame(1));
+    query.current = frontend->process(kept_room().frame(1));
     query.base = base;
     const auto whole = search.find(query);
     query.base = frontend->restore(kept);
@@ -67,7 +67,7 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
     const auto restored = search.find(query);
     REQUIRE(whole->ok());
     REQUIRE(restored->ok());
-    const Eigen::Isometry3d truth = room().world_from_left[1].inverse() * room().world_from_left[0];
+    const Eigen::Isometry3d truth = kept_room().world_from_left[1].inverse() * kept_room().world_from_left[0];
     const Eigen::Isometry3d error = restored->motion.current_from_previous * truth.inverse();
     CHECK(error.translation().norm() < 0.01);
     CHECK(Eigen::AngleAxisd(error.linear()).angle() < 0.003);
@@ -87,16 +87,16 @@ TEST_CASE("kept frame edges: restoring one leaves the current frame and the fram
   for (const std::string& name : devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());
-    const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-    frontend->process(room().frame(0));
+    const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
+    frontend->process(kept_room().frame(0));
     const frontend::KeptFrameEdges kept = frontend->keep();
-    const auto current = frontend->process(room().frame(1));
+    const auto current = frontend->process(kept_room().frame(1));
     const StereoEdges before = current->edges;
     const auto first = frontend->restore(kept), second = frontend->restore(kept);
     CHECK(first != second);
     CHECK(same_bytes(current->edges, before));
     CHECK(same_bytes(first->edges, kept.edges));
     CHECK(frontend->keep().frame == 1);
-    CHECK(frontend->process(room().frame(0))->frame == 2);
+    CHECK(frontend->process(kept_room().frame(0))->frame == 2);
   }
 }

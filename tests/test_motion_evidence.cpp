@@ -175,23 +175,3 @@ TEST_CASE("motion evidence: global matches confirm the motion that they follow",
   evidence.compare_globally(global, nullptr, problem.motion, verdict);
   CHECK_FALSE(verdict.agrees_globally);
 }
-
-TEST_CASE("motion evidence: what one motion explains beside another is where the other one is wrong", "[odometry]") {
-  generated::Problem thing = thing_of(3000, 0.3), scene = scene_of(3000);
-  TwoMotions seen(thing, scene);
-  const double area = seen.area_of(scene.motion);
-  const Config config;
-  const MotionEvidence evidence(config, generated::car_rig());
-  const auto beside = [&](const Eigen::Isometry3d& chosen) {
-    return evidence.explained_beside(seen.step, chosen, config.pose.inlier_distance);
-  };
-  CHECK(beside(scene.motion).explained_area() == 0);
-  CHECK(beside(thing.motion).explained_area() > 0.6 * area);
-  CHECK(beside(thing.motion).explained_area() <= area);
-  CHECK(seen.step.cells.count(true) > seen.step.cells.count(false));
-  // The scene is all around the object, which covers a third of the image.
-  const double all = seen.step.cells.spread();
-  CHECK(beside(thing.motion).spread(true) > 0.8 * all);
-  seen.area_of(thing.motion);
-  CHECK(beside(scene.motion).spread(true) < 0.6 * all);
-}

@@ -166,16 +166,6 @@ TEST_CASE("motion search: verdict, inliers and covariance are those of the motio
   }
 }
 
-TEST_CASE("motion search: a query that allows the prediction only and has none is answered", "[odometry]") {
-  TwoFrames frames(3000);
-  frames.query.only_near_prediction = true;
-  const auto step = frames.search->find(frames.query);  // nothing is predicted and nothing else allowed
-  CHECK_FALSE(step->ok());
-  CHECK(step->base == frames.query.base);
-  CHECK_FALSE(step->verdict.is_confirmed());
-  CHECK(frames.frontend->coarse + frames.frontend->guided + frames.frontend->global + frames.frontend->beside == 0);
-}
-
 TEST_CASE("motion search: another motion is searched for at the start, in every tenth frame and after a loss",
           "[odometry][long]") {
   TwoFrames frames(3000);
@@ -203,16 +193,4 @@ TEST_CASE("motion search: without the global search the coarse search widens", "
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->largest_radius == static_cast<float>(wide));
   CHECK(frames.frontend->global == 0);
-}
-
-TEST_CASE("motion search: the keyframe is preferred", "[odometry]") {
-  TwoFrames frames(3000);
-  // The keyframe is the base's frame, so the same motion applies.
-  const auto key = frames.frontend->process(frames.scene.frame(0));
-  frames.query.current = frames.frontend->process(frames.scene.frame(1));
-  frames.query.key = key;
-  frames.query.prediction = frames.truth();
-  const auto step = frames.search->find(frames.query);
-  REQUIRE(step->ok());
-  CHECK(step->base == key);
 }

@@ -149,38 +149,6 @@ TEST_CASE("odometry: the search beside the rig check leaves no trace of a frame 
   }
 }
 
-TEST_CASE("odometry: black frames between two places make two segments, and a third back in the first place",
-          "[odometry][device]") {
-  const RenderedScene elsewhere("cables", 240, 150, 3);
-  Config config = room().config;
-  config.stereo.max_disparity = std::max(config.stereo.max_disparity, elsewhere.config.stereo.max_disparity);
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, config);
-  const Image black(240, 150);
-  std::vector<StereoFrame> frames;
-  for (std::size_t i : {0, 1, 2}) frames.push_back(room().frame(i));
-  for (int k = 0; k < 2; ++k) frames.push_back({0, black.view(), black.view()});
-  for (std::size_t i : {0, 1, 2}) frames.push_back(elsewhere.frame(i));
-  for (std::size_t i : {5, 6, 7}) frames.push_back(room().frame(i));
-  std::vector<int> segments, warned;
-  std::vector<FrameResult> results;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    results.push_back(odometry.track(at(static_cast<std::int64_t>(i), frames[i])));
-    segments.push_back(results[i].segment);
-    for (const Warning& warning : results[i].warnings)
-      if (warning.kind == WarningKind::unknown_motion) warned.push_back(static_cast<int>(i));
-  }
-  CHECK(segments == std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2});
-  CHECK(warned == std::vector<int>{6});  // each kind once
-  CHECK_THAT(results[9].message, Catch::Matchers::Contains("segment 2 starts: relocalised against frame 8"));
-  for (const auto& [first, truth, index] :
-       {std::tuple<std::size_t, const RenderedScene&, std::size_t>{6, elsewhere, 1}, {9, room(), 6}}) {
-    const Eigen::Isometry3d motion =
-        results[first].world_from_left.value().inverse() * results[first + 1].world_from_left.value();
-    check_pose(motion, truth.world_from_left[index].inverse() * truth.world_from_left[index + 1], 6e-3, 0.15);
-  }
-}
-
 TEST_CASE("odometry: a turn by a third of the view, and one about the optical axis, are found", "[odometry][device]") {
   const auto world = synthetic::make_room(7, room().rig.left.fx);
   const auto render = [&](const Eigen::Isometry3d& camera_from_world) {

@@ -42,15 +42,12 @@ void compare_clusters(const Rows& rows) {
   }
   lists.moving.x = lists.moving.y = lists.moving.strength = lists.moving.scale_shift = lists.moving.direction;
   x.insert(x.end(), y.begin(), y.end());
-  for_each_variant("paper_clusters", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("paper_clusters", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
     auto candidates = upload(context, lists.candidates);
     const auto moving = upload(context, lists.moving);
     opencl::Buffer<cl_float> refined;
     refined.write(context, x);
-    context.check_kernels(true);
     stages::PaperClusters stage(context, variants);
-    context.check_kernels(false);
-    CHECK(context.kernel_faults().empty());
     stages::DevicePaperClusters clusters;
     stage.cluster(moving.positions(), candidates, refined, clusters);
     const auto found = clusters.read(false);
@@ -71,6 +68,11 @@ void compare_clusters(const Rows& rows) {
       different += same ? 0 : 1;
     }
     CHECK(different == 0);
+    return {{"first", found.first},
+            {"members", found.members},
+            {"x", found.x},
+            {"y", found.y},
+            {"direction", found.direction}};
   });
 }
 
@@ -125,7 +127,7 @@ void compare_cascade(const StereoRig& rig, int step, std::size_t expected) {
   const auto in_left = view_of(left, grid_of_edges(rig.left.width, rig.left.height, step, 0, 0, 1)),
              in_right = view_of(right, grid_of_edges(rig.right.width, rig.right.height, step, -2.3, 0, 2));
   const auto truth = paper::match_stereo(in_left, in_right, geometry, config, offset, false);
-  for_each_variant("paper_clusters", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("paper_clusters", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
     const PaperOnDevice a(context, left, in_left.edges, offset), b(context, right, in_right.edges, offset);
     auto candidates = upload(context, truth.candidates);
     upload(context, truth.scores, candidates);
@@ -154,6 +156,7 @@ void compare_cascade(const StereoRig& rig, int step, std::size_t expected) {
     }
     CHECK(chosen > expected);
     CHECK(different <= 1 + in_left.edges.size() / 100);
+    return {{"chosen", found.chosen}, {"x", found.x}, {"similarity", found.similarity}};
   });
 }
 

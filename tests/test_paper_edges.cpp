@@ -58,20 +58,6 @@ TEST_CASE("paper edges: a step of any direction is located to 0.02 px with noise
   CHECK(per_pixel < 2.2);
 }
 
-TEST_CASE("paper edges: pixel centres are integers, and the bright side gives the direction its sign",
-          "[paper][edges]") {
-  for (const double side : {0.0, 90.0, 180.0, 270.0}) {
-    const Image image = render_half_plane(48, 49, 23.5, 24.5, side * kDegree);
-    const reference::ReferenceEdges edges = paper::grid_edges(image.view(), {}, kGridThreshold);
-    REQUIRE(edges.size() > 40);
-    const bool upright = side == 0 || side == 180;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      REQUIRE(std::abs(upright ? edges.x[i] - 23.5 : edges.y[i] - 24.5) < 0.01);
-      REQUIRE(edge_turn(edges.direction[i], (side - 90) * kDegree) < 0.2 * kDegree);
-    }
-  }
-}
-
 TEST_CASE("paper edges: they hold what the detector of every pixel finds, in the order of their pixels",
           "[paper][edges]") {
   const Image image = textured_image(143, 97);

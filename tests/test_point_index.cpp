@@ -1,6 +1,4 @@
 #include <catch2/catch.hpp>
-#include <numeric>
-#include <set>
 
 #include "device/temporal_matching.hpp"
 #include "matching.hpp"
@@ -23,18 +21,19 @@ EdgePositions crowded_edges(int count, int width, int height, std::uint64_t seed
   return edges;
 }
 
-void check_index(const EdgePositions& edges, int width, int height, const stages::DevicePointIndex& index) {
+void add_index(const EdgePositions& edges, int width, int height, const stages::DevicePointIndex& index,
+               StageArrays& arrays) {
   reference::PointIndex expected;
   reference::make_point_index(edges.x, edges.y, width, height, expected);
   const std::size_t count = edges.size(), starts = expected.cell_first.size();
-  CHECK(index.layout().columns == expected.columns);
-  CHECK(index.layout().rows == expected.rows);
-  CHECK(index.cells.read(starts) == expected.cell_first);
-  CHECK(index.cells.read(count, starts) == expected.order);
-  const auto points = index.points.read(3 * count);
-  std::size_t k = 0;
+  std::vector<float> points;
   for (const auto* values : {&edges.x, &edges.y, &edges.direction})
-    for (const auto number : expected.order) CHECK(points[k++] == (*values)[static_cast<std::size_t>(number)]);
+    for (const auto number : expected.order) points.push_back((*values)[static_cast<std::size_t>(number)]);
+  arrays.emplace_back("layout", std::vector{index.layout().columns, index.layout().rows},
+                      std::vector{expected.columns, expected.rows});
+  arrays.emplace_back("cells", index.cells.read(starts), expected.cell_first);
+  arrays.emplace_back("order", index.cells.read(count, starts), expected.order);
+  arrays.emplace_back("points", index.points.read(3 * count), points);
 }
 
 }  // namespace
@@ -54,35 +53,10 @@ TEST_CASE("point index: sorted by cells of 8 x 4 px in rows, then by number; poi
   CHECK(index.cell_first == std::vector<std::int32_t>(3, 0));
 }
 
-TEST_CASE("point index: a square holds every point within its radius, also beyond the border", "[temporal][matching]") {
-  matching::Random random(4);
-  std::vector<float> xs, ys;
-  for (int k = 0; k < 500; ++k) {
-    xs.push_back(static_cast<float>(random(-5, 85)));
-    ys.push_back(static_cast<float>(random(-5, 35)));
-  }
-  reference::PointIndex index;
-  reference::make_point_index(xs, ys, 80, 30, index);
-  auto sorted = index.order;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::int32_t> all(500);
-  std::iota(all.begin(), all.end(), 0);
-  CHECK(sorted == all);
-  for (int k = 0; k < 200; ++k) {
-    const auto x = static_cast<float>(random(-20, 100)), y = static_cast<float>(random(-20, 50)),
-               radius = static_cast<float>(random(0, 12));
-    std::set<std::int32_t> visited;
-    index.visit_square(x, y, radius, [&](std::int32_t number) { CHECK(visited.insert(number).second); });
-    for (std::int32_t i = 0; i < 500; ++i) {
-      const auto p = static_cast<std::size_t>(i);
-      if (std::hypot(xs[p] - x, ys[p] - y) <= radius) CHECK(visited.count(i) == 1);
-    }
-  }
-}
-
 TEST_CASE("point index: devices sort the edges of both sides like the reference",
           "[temporal][matching][device][oclgrind]") {
-  for_each_variant("point_index", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("point_index", [&](opencl::Context& context, const Variants& variants) {
+    StageArrays arrays;
     stages::PointIndex stage(context, variants);
     stages::DevicePointIndex left_index(83, 31), right_index(90, 29);
     for (const auto& [left_count, right_count] : {std::pair(700, 513), {0, 3}, {1, 0}, {401, 800}}) {
@@ -90,8 +64,9 @@ TEST_CASE("point index: devices sort the edges of both sides like the reference"
       stages::DevicePositions edges;
       edges.write(context, {left, right});
       stage.run(edges.list(0), edges.list(1), left_index, right_index);
-      check_index(left, 83, 31, left_index);
-      check_index(right, 90, 29, right_index);
+      add_index(left, 83, 31, left_index, arrays);
+      add_index(right, 90, 29, right_index, arrays);
     }
+    return arrays;
   });
 }

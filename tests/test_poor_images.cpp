@@ -12,7 +12,7 @@ using rig::RigReport;
 
 namespace {
 
-const RenderedScene& room() {
+const RenderedScene& bright_room() {
   static const RenderedScene scene("room", 320, 200, 1);
   return scene;
 }
@@ -25,11 +25,11 @@ Image brighter(const Image& image, double factor) {
 }
 
 RigReport examine(const StereoRig& rig, const Image& left, const Image& right) {
-  return rig::RigMonitor::examine(rig, {0, left.view(), right.view()}, room().config.stereo.max_disparity);
+  return rig::RigMonitor::examine(rig, {0, left.view(), right.view()}, bright_room().config.stereo.max_disparity);
 }
 
 StereoRig pitched() {
-  StereoRig rig = room().rig;
+  StereoRig rig = bright_room().rig;
   rig.right_from_left.linear() = Eigen::AngleAxisd(0.5 * kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
   return rig;
 }
@@ -37,11 +37,11 @@ StereoRig pitched() {
 }  // namespace
 
 TEST_CASE("poor images: clipped images do not make a right calibration doubtful", "[rig]") {
-  const Image &left = room().left[0], &right = room().right[0];
+  const Image &left = bright_room().left[0], &right = bright_room().right[0];
   for (const double factor : {1.4, 2.0, 3.0}) {
     INFO(factor);
-    CHECK(examine(room().rig, brighter(left, factor), brighter(right, factor)).findings.empty());
-    for (const auto& finding : examine(room().rig, left, brighter(right, factor)).findings) {
+    CHECK(examine(bright_room().rig, brighter(left, factor), brighter(right, factor)).findings.empty());
+    for (const auto& finding : examine(bright_room().rig, left, brighter(right, factor)).findings) {
       INFO(finding.warning.text);
       CHECK(finding.warning.kind == WarningKind::poor_images);
     }
@@ -49,9 +49,9 @@ TEST_CASE("poor images: clipped images do not make a right calibration doubtful"
 }
 
 TEST_CASE("poor images: corners beside saturated pixels are counted apart", "[rig]") {
-  const rig::CornerMatcher matcher(room().rig);
-  const Image left = brighter(room().left[0], 2), right = brighter(room().right[0], 2);
-  const auto plain = matcher.search({0, room().left[0].view(), room().right[0].view()}, 30);
+  const rig::CornerMatcher matcher(bright_room().rig);
+  const Image left = brighter(bright_room().left[0], 2), right = brighter(bright_room().right[0], 2);
+  const auto plain = matcher.search({0, bright_room().left[0].view(), bright_room().right[0].view()}, 30);
   const auto clipped = matcher.search({0, left.view(), right.view()}, 30);
   CHECK(clipped.saturated > plain.saturated);
   CHECK(clipped.searched < plain.searched);
@@ -68,7 +68,7 @@ TEST_CASE("poor images: where corners leave their lines, the images are named be
     CHECK(report.mismatch() == nullptr);
     return report.findings.front().warning;
   };
-  const Image &left = room().left[0], &right = room().right[0];
+  const Image &left = bright_room().left[0], &right = bright_room().right[0];
   CHECK(said(left, right).kind == WarningKind::doubtful_calibration);
   const Warning uneven = said(brighter(left, 0.4), right);
   CHECK(uneven.kind == WarningKind::poor_images);

@@ -22,7 +22,7 @@ using namespace matching;
 namespace {
 
 /// Frames of the room, rendered once.
-const RenderedScene& room() {
+const RenderedScene& estimated_room() {
   static const RenderedScene scene("room", 240, 150, 8);
   return scene;
 }
@@ -46,7 +46,7 @@ int bonnet(int x, int y) {
 /// The lower third of the images, nearer than the facade that passes, does not move.
 std::vector<std::pair<Image, Image>> bonnet_before_a_facade() {
   std::vector<std::pair<Image, Image>> frames;
-  const RenderedScene facade("facade", room().rig.left.width, room().rig.left.height, 24, 2);
+  const RenderedScene facade("facade", estimated_room().rig.left.width, estimated_room().rig.left.height, 24, 2);
   for (std::size_t i = 0; i < 24; ++i) {
     Image left = facade.left[i], right = facade.right[i];
     for (int y = 2 * left.height / 3; y < left.height; ++y)
@@ -59,7 +59,7 @@ std::vector<std::pair<Image, Image>> bonnet_before_a_facade() {
   return frames;
 }
 
-StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
+StereoFrame stamped(std::int64_t stamp_ns, StereoFrame frame) {
   frame.stamp_ns = stamp_ns;
   return frame;
 }
@@ -101,56 +101,57 @@ TEST_CASE("rig estimate: the corrected rig reconstructs points nearer by what is
 
 TEST_CASE("rig estimate: a known offset holds for the first frame and for the first after a restart", "[rig][device]") {
   // A calibration whose right principal point is 0.8 px off, which is known.
-  StereoRig off = room().rig;
+  StereoRig off = estimated_room().rig;
   off.right.cx += 0.8;
-  Config known = room().config;
+  Config known = estimated_room().config;
   known.pose.disparity_offset = -0.8;
   known.pose.disparity_offset_sigma = 0;
   Device device(all_devices().front(), kept_programs());
-  StereoOdometry right(room().rig, device, room().config), odometry(off, device, known);
-  const double truth = median_depth(room().frame(0), right.track(room().frame(0)), right);
+  StereoOdometry right(estimated_room().rig, device, estimated_room().config), odometry(off, device, known);
+  const double truth = median_depth(estimated_room().frame(0), right.track(estimated_room().frame(0)), right);
   for (int part = 0; part < 2; ++part) {
-    const FrameResult first = odometry.track(at(0, room().frame(0)));
+    const FrameResult first = odometry.track(stamped(0, estimated_room().frame(0)));
     REQUIRE(first.status == FrameStatus::first);
     CHECK(first.rig.disparity_offset == -0.8);
-    CHECK(median_depth(room().frame(0), first, odometry) == Approx(truth).epsilon(1e-3));
+    CHECK(median_depth(estimated_room().frame(0), first, odometry) == Approx(truth).epsilon(1e-3));
     const FrameDetails details = odometry.details();
     CHECK(median_depth(edge_points(details.stereo, odometry.rig(), details.rig).position) ==
           Approx(median_depth(edge_points(right.stereo_edges(), right.rig()).position)).epsilon(1e-3));
-    CHECK(odometry.track(at(1, room().frame(1))).status == FrameStatus::tracked);
+    CHECK(odometry.track(stamped(1, estimated_room().frame(1))).status == FrameStatus::tracked);
     odometry.restart();
   }
 }
 
 TEST_CASE("rig estimate: disparity errors are hundredths of a pixel with the true calibration", "[rig][device]") {
   Device device(all_devices().front(), kept_programs());
-  StereoRig off = room().rig;
+  StereoRig off = estimated_room().rig;
   off.right.fx *= 1.02;  // disparities are wrong by up to 2.4 px, at the sides
-  StereoOdometry right(room().rig, device, room().config), wrong(off, device, room().config);
-  const double before = right.track(room().frame(0)).rig.disparity_error;
-  CHECK(wrong.track(room().frame(0)).rig.disparity_error == before);
+  StereoOdometry right(estimated_room().rig, device, estimated_room().config),
+      wrong(off, device, estimated_room().config);
+  const double before = right.track(estimated_room().frame(0)).rig.disparity_error;
+  CHECK(wrong.track(estimated_room().frame(0)).rig.disparity_error == before);
   double with_right = 0, with_wrong = 0;
   for (std::size_t i = 1; i < 8; ++i) {
-    with_right = right.track(room().frame(i)).rig.disparity_error;
-    with_wrong = wrong.track(room().frame(i)).rig.disparity_error;
+    with_right = right.track(estimated_room().frame(i)).rig.disparity_error;
+    with_wrong = wrong.track(estimated_room().frame(i)).rig.disparity_error;
   }
   CHECK(with_right < 0.08);
   CHECK(with_wrong > 1.15 * before);
   wrong.restart();
-  CHECK(wrong.track(at(0, room().frame(0))).rig.disparity_error == before);
+  CHECK(wrong.track(stamped(0, estimated_room().frame(0))).rig.disparity_error == before);
 }
 
 TEST_CASE("rig estimate: the points and the kept edges of a displaced keyframe are those of its rig", "[rig][device]") {
-  Config config = room().config;
+  Config config = estimated_room().config;
   config.odometry.key_rig = false;  // every frame becomes one
   Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, config), sound(room().rig, device, config);
+  StereoOdometry odometry(estimated_room().rig, device, config), sound(estimated_room().rig, device, config);
   Map map(odometry);
   FrameResult result, undisturbed;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Image right = displaced(room().right[i], i == 3 ? 3 : 0);
-    result = odometry.track({room().frame(i).stamp_ns, room().left[i].view(), right.view()});
-    undisturbed = sound.track(room().frame(i));
+    const Image right = displaced(estimated_room().right[i], i == 3 ? 3 : 0);
+    result = odometry.track({estimated_room().frame(i).stamp_ns, estimated_room().left[i].view(), right.view()});
+    undisturbed = sound.track(estimated_room().frame(i));
     map.add(result);
   }
   REQUIRE(result.new_key_rig);
@@ -162,8 +163,8 @@ TEST_CASE("rig estimate: the points and the kept edges of a displaced keyframe a
   CHECK(details.previous_rig.displacement == 0);
   CHECK(median_depth(edge_points(details.stereo, odometry.rig(), details.rig).position) == Approx(truth).epsilon(0.02));
   CHECK(std::abs(median_depth(edge_points(details.stereo, odometry.rig()).position) / truth - 1) > 0.05);
-  const double seen = median_depth(room().frame(3), undisturbed, sound);
-  CHECK(median_depth({0, room().left[3].view(), room().right[3].view()}, result, odometry) ==
+  const double seen = median_depth(estimated_room().frame(3), undisturbed, sound);
+  CHECK(median_depth({0, estimated_room().left[3].view(), estimated_room().right[3].view()}, result, odometry) ==
         Approx(seen).epsilon(0.02));
   // What a map keeps of it.
   const auto latest = odometry::LatestFrame::of(odometry);
@@ -173,37 +174,38 @@ TEST_CASE("rig estimate: the points and the kept edges of a displaced keyframe a
 }
 
 TEST_CASE("rig estimate: a saved map of displaced keyframes locates images that are not displaced", "[rig][device]") {
-  Config config = room().config;
+  Config config = estimated_room().config;
   config.odometry.key_rig = false;
   config.map.min_gap = 1;
   config.pose.disparity_offset_sigma = 0;
   Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, config);
+  StereoOdometry odometry(estimated_room().rig, device, config);
   Map map(odometry);
   for (std::size_t i = 0; i < 8; ++i) {
-    const Image right = displaced(room().right[i], i < 3 ? 0 : 3);  // told where a motion is predicted
-    const FrameResult result = odometry.track({room().frame(i).stamp_ns, room().left[i].view(), right.view()});
+    const Image right = displaced(estimated_room().right[i], i < 3 ? 0 : 3);  // told where a motion is predicted
+    const FrameResult result =
+        odometry.track({estimated_room().frame(i).stamp_ns, estimated_room().left[i].view(), right.view()});
     CHECK((result.rig.displacement != 0) == (i >= 3));
     map.add(result);
   }
-  Localiser localiser(map.saved(), room().rig, device, config);
+  Localiser localiser(map.saved(), estimated_room().rig, device, config);
   for (const std::size_t i : {3, 5, 7}) {
-    const Localisation found = localiser.locate(room().frame(i));
+    const Localisation found = localiser.locate(estimated_room().frame(i));
     REQUIRE(found.map_from_left);
-    const Eigen::Isometry3d truth = room().world_from_left[0].inverse() * room().world_from_left[i];
+    const Eigen::Isometry3d truth = estimated_room().world_from_left[0].inverse() * estimated_room().world_from_left[i];
     CHECK((found.map_from_left->translation() - truth.translation()).norm() < 0.03);
   }
 }
 
 TEST_CASE("rig estimate: a search is a function, whatever it finds of the rig", "[rig][odometry][device]") {
   Device device(all_devices().front(), kept_programs());
-  const auto frontend = frontend::make_frontend(room().rig, device, room().config);
-  odometry::MotionSearch search(room().config, *frontend, room().rig);
+  const auto frontend = frontend::make_frontend(estimated_room().rig, device, estimated_room().config);
+  odometry::MotionSearch search(estimated_room().config, *frontend, estimated_room().rig);
   odometry::MotionQuery query;
-  query.base = frontend->process(room().frame(0));
-  const Image right = displaced(room().right[1], 3);
-  query.current = frontend->process({1, room().left[1].view(), right.view()});
-  query.prediction = room().world_from_left[1].inverse() * room().world_from_left[0];
+  query.base = frontend->process(estimated_room().frame(0));
+  const Image right = displaced(estimated_room().right[1], 3);
+  query.current = frontend->process({1, estimated_room().left[1].view(), right.view()});
+  query.prediction = estimated_room().world_from_left[1].inverse() * estimated_room().world_from_left[0];
   query.displacement = {0.6, 3};
   query.rig.disparity_offset_sigma = 0.3;
   const auto once = search.find(query);
@@ -222,7 +224,7 @@ TEST_CASE("rig estimate: a search is a function, whatever it finds of the rig", 
 }
 
 TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig][odometry][device]") {
-  Config config = room().config;
+  Config config = estimated_room().config;
   config.pose.disparity_offset_sigma = 0;  // the offset learned is the rig's, and stays
   Device device(all_devices().front(), kept_programs());
   struct Ending {
@@ -233,16 +235,16 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
   std::vector<Ending> endings(3);
   endings[0] = {"displaced", {}, [](const FrameResult& result) { return result.rig.displacement != 0; }};
   for (std::size_t i = 0; i < 5; ++i)
-    endings[0].frames.emplace_back(room().left[i], displaced(room().right[i], i == 4 ? 3 : 0));
+    endings[0].frames.emplace_back(estimated_room().left[i], displaced(estimated_room().right[i], i == 4 ? 3 : 0));
   // The right half of both images moves on its own.
   endings[1] = {"ambiguous", {}, [](const FrameResult& result) { return result.ambiguous_motion; }};
   for (std::size_t i = 0; i < 7; ++i) {
-    Image left = room().left[i], right = room().right[i];
+    Image left = estimated_room().left[i], right = estimated_room().right[i];
     for (int y = 0; y < left.height; ++y) {
       for (int x = left.width / 2; x < left.width; ++x) {
         const auto pixel = static_cast<std::size_t>(y * left.width + x);
-        left.pixels[pixel] = room().left[7 - i].pixels[pixel];
-        right.pixels[pixel] = room().right[7 - i].pixels[pixel];
+        left.pixels[pixel] = estimated_room().left[7 - i].pixels[pixel];
+        right.pixels[pixel] = estimated_room().right[7 - i].pixels[pixel];
       }
     }
     endings[1].frames.emplace_back(left, right);
@@ -254,7 +256,7 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
   endings[2].frames = bonnet_before_a_facade();
   for (const Ending& ending : endings) {
     INFO(ending.name);
-    StereoOdometry fresh(room().rig, device, config), restarted(room().rig, device, config);
+    StereoOdometry fresh(estimated_room().rig, device, config), restarted(estimated_room().rig, device, config);
     bool is_reached = false;
     for (std::size_t i = 0; i < ending.frames.size(); ++i) {
       const auto& [left, right] = ending.frames[i];
@@ -265,8 +267,8 @@ TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig]
     restarted.restart();
     for (std::size_t i = 0; i < 8; ++i) {
       CAPTURE(i);
-      const auto expected = fresh.track(at(static_cast<std::int64_t>(i), room().frame(i))),
-                 result = restarted.track(at(static_cast<std::int64_t>(i), room().frame(i)));
+      const auto expected = fresh.track(stamped(static_cast<std::int64_t>(i), estimated_room().frame(i))),
+                 result = restarted.track(stamped(static_cast<std::int64_t>(i), estimated_room().frame(i)));
       CHECK(result.status == expected.status);
       // The rows that were learned are the rig's, and stay: poses differ by less than they are known to.
       CHECK(result.current_from_reference->isApprox(*expected.current_from_reference, 1e-5));

@@ -98,16 +98,19 @@ std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, c
   const auto geometry = corrected(make_epipolar_geometry(rig, config), error, rig);
   const auto lists = reference::stereo_candidates(left, right, geometry, probe);
   const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, error, left, right);
-  for_each_variant("stereo_candidates", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("stereo_candidates", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
     stages::StereoCandidates stage(context, variants);
     const auto device_left = upload(context, left), device_right = upload(context, right);
     stages::DeviceCandidates found;
     stage.run(device_left, device_right, rig.right.height, geometry, probe, found);
-    const auto target = found.target.read(static_cast<std::size_t>(found.host_total));
-    check_lists(found.first.read(left.size() + 1), target, rig, config, probe, error, left, right);
+    const auto lists_found = found.read();
+    check_lists(lists_found.first, lists_found.target, rig, config, probe, error, left, right);
     std::vector<cl_int> listed(right.size());
-    for (const auto j : target) listed[static_cast<std::size_t>(j)] = 1;
-    if (left.size() > 0) CHECK(stage.listed().read(right.size()) == listed);
+    for (const auto j : lists_found.target) listed[static_cast<std::size_t>(j)] = 1;
+    if (left.size() == 0) listed.clear();
+    return {{"first", lists_found.first},
+            {"target", lists_found.target},
+            {"listed", stage.listed().read(listed.size()), listed}};
   });
   return certain;
 }
@@ -132,44 +135,34 @@ std::pair<EdgeSet, EdgeSet> random_scene(const StereoRig& rig, int count, double
 
 }  // namespace
 
-TEST_CASE("epipolar line: on a rectified rig the position is the disparity", "[stereo][matching]") {
-  const StereoRig rig = flat_rig(640, 480, 500, 0.2);
-  StereoConfig config;
-  config.min_depth = 2;  // 500 * 0.2 / 2 = 50 px
-  const auto line = epipolar_line(make_epipolar_geometry(rig, config), 321.25f, 77.5f);
-  REQUIRE(line.valid);
-  CHECK(line.x == Approx(321.25).margin(1e-3));
-  CHECK(line.y == Approx(77.5).margin(1e-3));
-  CHECK(line.ex == Approx(-1));
-  CHECK(line.ey == Approx(0).margin(1e-6));
-  CHECK(line.s_max == Approx(50).margin(1e-3));
-  config.max_disparity = 25;
-  CHECK(epipolar_line(make_epipolar_geometry(rig, config), 5, 5).s_max == 25.0f);
-}
-
-TEST_CASE("epipolar line: passes through the projections of every depth in a general rig", "[stereo][matching]") {
-  const StereoRig rig = crooked_rig();
+TEST_CASE("epipolar line: passes through the projections of every depth, of which the nearest ends it",
+          "[stereo][matching]") {
   StereoConfig config;
   config.min_depth = 0.7;
-  const auto geometry = make_epipolar_geometry(rig, config);
-  Random random(3);
-  for (int k = 0; k < 200; ++k) {
-    const Vector2d p(random(0, rig.left.width), random(0, rig.left.height));
-    const auto line = epipolar_line(geometry, static_cast<float>(p.x()), static_cast<float>(p.y()));
-    REQUIRE(line.valid);
-    double last = -1;
-    for (const double depth : {1e6, 50.0, 5.0, 1.3, 0.7}) {
-      const Vector2d from_start = in_right(rig, p, depth) - Vector2d(line.x, line.y);
-      const double s = from_start.x() * line.ex + from_start.y() * line.ey;
-      CHECK(std::abs(from_start.y() * line.ex - from_start.x() * line.ey) < 1e-3);
-      CHECK(s > last);
-      last = s;
+  for (const StereoRig& rig : {crooked_rig(), flat_rig(640, 480, 500, 0.2)}) {
+    const auto geometry = make_epipolar_geometry(rig, config);
+    Random random(3);
+    for (int k = 0; k < 200; ++k) {
+      const Vector2d p(random(0, rig.left.width), random(0, rig.left.height));
+      const auto x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
+      const auto line = epipolar_line(geometry, x, y);
+      REQUIRE(line.valid);
+      double last = -1;
+      for (const double depth : {1e6, 50.0, 5.0, 1.3, 0.7}) {
+        const Vector2d from_start = in_right(rig, p, depth) - Vector2d(line.x, line.y);
+        const double s = from_start.x() * line.ex + from_start.y() * line.ey;
+        CHECK(std::abs(from_start.y() * line.ex - from_start.x() * line.ey) < 1e-3);
+        CHECK(s > last);
+        last = s;
+      }
+      CHECK(line.s_max == Approx(last).margin(1e-3));
+      const double direction = random(-kPi, kPi);
+      CHECK(left_epipolar_sine(geometry, x, y, static_cast<float>(direction)) ==
+            Approx(epipolar_sine(rig, p, direction)).margin(1e-5));
     }
-    CHECK(line.s_max == Approx(last).margin(1e-3));
-    const double direction = random(-kPi, kPi);
-    CHECK(left_epipolar_sine(geometry, static_cast<float>(p.x()), static_cast<float>(p.y()),
-                             static_cast<float>(direction)) == Approx(epipolar_sine(rig, p, direction)).margin(1e-5));
   }
+  config.max_disparity = 25;
+  CHECK(epipolar_line(make_epipolar_geometry(flat_rig(640, 480, 500, 0.2), config), 5, 5).s_max == 25.0f);
 }
 
 TEST_CASE("epipolar line: corrected by a rectification error it is that of a displaced and rolled right camera",

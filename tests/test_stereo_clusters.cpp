@@ -43,7 +43,7 @@ struct ClusterLists {
     left.x = left.y = left.direction = std::vector<float>(rows, 1.0f);
     EdgeSet placed = right;
     placed.x = placed.y = placed.direction;
-    for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants) {
+    check_stage("stereo_clusters", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
       stages::StereoClusters stage(context, variants);
       auto lists = upload(context, candidates);
       upload(context, scores, lists);
@@ -56,10 +56,14 @@ struct ClusterLists {
       const auto stride = static_cast<std::size_t>(found.stride);
       const auto packed = found.packed.read(3 * stride);
       const auto anchor = found.anchor.read(stride);
+      std::vector<float> written;  // of each row's clusters
       std::size_t different = 0;
       for (std::size_t i = 0; i < rows; ++i) {
         const auto expected = static_cast<std::size_t>(truth.first[i]),
                    at = static_cast<std::size_t>(candidates.first[i]);
+        for (std::size_t k = at; k < at + static_cast<std::size_t>(count[i]); ++k)
+          written.insert(written.end(),
+                         {packed[k], packed[stride + k], packed[2 * stride + k], static_cast<float>(anchor[k])});
         bool same = count[i] == truth.first[i + 1] - truth.first[i];
         for (std::size_t k = 0; same && k < static_cast<std::size_t>(count[i]); ++k) {
           same = anchor[at + k] == truth.anchor[expected + k] &&
@@ -71,6 +75,7 @@ struct ClusterLists {
         different += same ? 0 : 1;
       }
       CHECK(different <= band);
+      return {{"count", count}, {"clusters", written}};
     });
   }
 };

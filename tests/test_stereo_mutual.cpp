@@ -55,17 +55,15 @@ struct MutualScene {
   /// \param searched see StereoMutual::run()
   void compare_devices(const EpipolarGeometry* searched) const {
     const StereoEdges truth = match(), seen = match(searched != nullptr ? *searched : geometry);
-    for_each_variant("stereo_mutual", [&](opencl::Context& context, const Variants& variants) {
+    check_stage("stereo_mutual", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
       stages::StereoMutual stage(context, config, variants);
       stages::Patches right_patches(context, 97, 71, all.patches, {});
       const auto image = upload(context, right_image);
       right_patches.prepare(image.pixels);
       stages::DeviceClusters device_clusters;
       device_clusters.stride = static_cast<int>(clusters.position.size());
-      std::vector<float> packed;
-      for (const auto* block : {&clusters.position, &clusters.direction, &clusters.similarity})
-        packed.insert(packed.end(), block->begin(), block->end());
-      device_clusters.packed.write(context, packed);
+      device_clusters.packed.write(context,
+                                   packed<double>({&clusters.position, &clusters.direction, &clusters.similarity}));
       device_clusters.anchor.write(context, clusters.anchor);
       stages::DeviceRelaxation device_relaxation;
       device_relaxation.chosen.write(context, relaxation.chosen);
@@ -74,24 +72,22 @@ struct MutualScene {
       StereoEdges found;
       stage.run(upload(context, left), upload(context, right), right_patches, geometry, searched, device_clusters,
                 device_relaxation, result, found);
-      REQUIRE(found.left_index == truth.left_index);
-      CHECK(found.right_index == truth.right_index);
-      CHECK(found.left_x == truth.left_x);
-      CHECK(found.left_y == truth.left_y);
-      CHECK(found.left_direction == truth.left_direction);
-      CHECK(found.left_scale_shift == truth.left_scale_shift);
-      CHECK(found.right_direction == truth.right_direction);
-      CHECK(found.ncc == truth.ncc);
-      for (std::size_t i = 0; i < truth.size(); ++i) {
-        CHECK(found.right_x[i] == Approx(truth.right_x[i]).margin(1e-3));
-        CHECK(found.right_y[i] == Approx(truth.right_y[i]).margin(1e-3));
-      }
       // The right patches are sampled where the edges lie in the image.
       const auto recut =
           reference::side_patches(right_image.view(), seen.right_x, seen.right_y, seen.right_direction, all.patches);
       const auto apart = rounded_apart(result.right_patches.read(recut.size()), recut);
       CHECK(apart.largest <= 1);
       CHECK(apart.differing <= apart.samples / 98);
+      return {{"left index", found.left_index, truth.left_index},
+              {"right index", found.right_index, truth.right_index},
+              {"left x", found.left_x, truth.left_x},
+              {"left y", found.left_y, truth.left_y},
+              {"left direction", found.left_direction, truth.left_direction},
+              {"left scale shift", found.left_scale_shift, truth.left_scale_shift},
+              {"right direction", found.right_direction, truth.right_direction},
+              {"ncc", found.ncc, truth.ncc},
+              {"right x", found.right_x, truth.right_x, {1e-3}},
+              {"right y", found.right_y, truth.right_y, {1e-3}}};
     });
   }
 };

@@ -62,7 +62,7 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
   const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius),
                                                     static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
-  for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants) {
+  check_stage("temporal_candidates", [&](opencl::Context& context, const Variants& variants) -> StageArrays {
     stages::DevicePositions device_current, device_predicted;
     device_current.write(context, {current});
     stages::DevicePointIndex device_index(kRowWidth, height), other(kRowWidth, height);
@@ -72,9 +72,9 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
     stages::DeviceCandidates lists;
     stage.run(device_predicted.list(), step, device_index, static_cast<float>(radius), static_cast<float>(orientation),
               lists);
-    check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
-                lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current, radius, orientation,
-                step);
+    const auto found = lists.read();
+    check_lists(found.first, found.target, predicted, current, radius, orientation, step);
+    return {{"first", found.first}, {"target", found.target}};
   });
   return certain;
 }
@@ -106,18 +106,17 @@ TEST_CASE("temporal candidates: a circle around the predicted position and a ful
   CHECK(check_everywhere(predicted, current, 30, 5, 0.15, 1) == 3);
 }
 
-TEST_CASE("temporal candidates: the lists match the definition", "[temporal][matching][device]") {
+TEST_CASE("temporal candidates: the lists match the definition, also beyond the initial capacity",
+          "[temporal][matching][device]") {
   const auto current = scattered_edges(700, 90, 61, 3);
   CHECK(check_everywhere(scattered_edges(300, 90, 61, 4, 15), current, 61, 10, 0.6, 1) > 500);
   CHECK(check_everywhere(scattered_edges(301, 90, 61, 5, 15), current, 61, 7.3, 1.5, 8) > 50);
-}
-
-TEST_CASE("temporal candidates: lists longer than the initial capacity are complete", "[temporal][matching][device]") {
   CHECK(check_everywhere(scattered_edges(20, 50, 40, 6), scattered_edges(400, 50, 40, 7), 40, 200, 4, 1) == 20 * 400);
 }
 
 TEST_CASE("temporal candidates: empty queries and empty targets", "[temporal][matching][device][oclgrind]") {
-  CHECK(check_everywhere({}, scattered_edges(9, 50, 40, 7), 40, 10, 4, 1) == 0);
-  CHECK(check_everywhere(scattered_edges(9, 50, 40, 7), {}, 40, 10, 4, 8) == 0);
-  CHECK(check_everywhere({}, {}, 40, 10, 4, 1) == 0);
+  const auto some = scattered_edges(9, 50, 40, 7);
+  for (const auto& [queries, targets] : {std::pair(0, 9), std::pair(9, 0), std::pair(0, 0)})
+    CHECK(check_everywhere(queries == 0 ? std::vector<Edge>() : some, targets == 0 ? std::vector<Edge>() : some, 40, 10,
+                           4, queries == 9 ? 8 : 1) == 0);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "image_faults.hpp"
 #include "quadedge/camera.hpp"
@@ -13,11 +14,15 @@ namespace attack {
 using namespace quadedge;
 namespace {
 
+using Source = Sequence (*)();
 Sequence room() { return rendered("room", 10); }
 Sequence cables() { return rendered("cables", 10); }
 Sequence facade() { return rendered("facade", 10); }
 Sequence flight() { return recorded("euroc_mh_01_easy", 12); }
 Sequence drive() { return recorded("kitti_odometry/sequences/06", 8); }
+/// What the names of rows append for a source.
+const std::map<Source, std::string> kSources = {
+    {room, ""}, {cables, ", cables"}, {facade, ", facade"}, {flight, ", EuRoC"}, {drive, ", KITTI"}};
 
 void exchange(Sequence& s) { std::swap(s.left, s.right); }
 
@@ -97,25 +102,13 @@ Alteration boards_before_a_moving_camera(double area, bool fine, std::size_t beg
   return [=](Sequence& s) { add_board(s, {area, 4, 11, fine, begin, false}); };
 }
 
-/// Changes the pixels of every image, depending on the frame number.
-Alteration every_pixel(std::function<double(double grey, int x, int y, int frame)> change) {
-  return [change](Sequence& s) {
-    for (auto* images : {&s.left, &s.right})
-      for (std::size_t i = 0; i < images->size(); ++i) {
-        Image& image = (*images)[i];
-        for (int y = 0; y < image.height; ++y)
-          for (int x = 0; x < image.width; ++x) {
-            const double grey = change(image.view().value(x, y), x, y, static_cast<int>(i));
-            image.set(x, y, std::clamp(static_cast<int>(std::lround(grey)), 0, 255));
-          }
-      }
-  };
-}
-
 /// A darker bar over 15 % of the height, rolling by 20 px per frame.
-double rolling_bar(double grey, int, int y, int frame) { return (y + 20 * frame) % 249 < 37 ? 0.6 * grey : grey; }
-
-double exposure_ramp(double grey, int, int, int frame) { return grey * (0.6 + 0.1 * frame); }
+double rolling_bar(const Image& image, int x, int y, bool, std::size_t frame) {
+  return (y + 20 * static_cast<int>(frame)) % 249 < 37 ? 0.6 * image.view().value(x, y) : image.view().value(x, y);
+}
+double exposure_ramp(const Image& image, int x, int y, bool, std::size_t frame) {
+  return image.view().value(x, y) * (0.6 + 0.1 * static_cast<double>(frame));
+}
 
 /// Every fifth frame comes from another scene.
 void foreign_frames(Sequence& s) {
@@ -133,10 +126,9 @@ bool blames_calibration(const Warning& warning) {
 
 /// Bad images of a good rig, rendered and recorded.
 void add_image_faults(std::vector<GeometryCase>& cases) {
-  const std::pair<const char*, Sequence (*)()> sources[] = {{"room", room}, {"EuRoC", flight}, {"KITTI", drive}};
-  for (const auto& [name, source] : sources) {
+  for (const Source source : {room, flight, drive}) {
     const auto add = [&](const std::string& fault, const Alteration& alteration, Demand demand = Demand::blameless) {
-      cases.push_back({fault + ", " + name, demand, source, alteration});
+      cases.push_back({fault + (source == room ? ", room" : kSources.at(source)), demand, source, alteration});
     };
     add("brightness x1.4", brighter(1.4, 1.4));
     add("brightness x2", brighter(2, 2));
@@ -161,82 +153,61 @@ std::vector<GeometryCase> make_cases() {
       {"facade", Demand::sound, facade, nothing},  {"EuRoC flight", Demand::sound, flight, nothing},
       {"KITTI 06", Demand::sound, drive, nothing},
   };
-  const auto add = [&](const char* name, Demand demand, Sequence (*source)(), const Alteration& alteration) {
-    cases.push_back({name, demand, source, alteration});
+  const auto add = [&](const std::string& name, Demand demand, const std::vector<Source>& sources,
+                       const Alteration& alteration) {
+    for (const Source source : sources) cases.push_back({name + kSources.at(source), demand, source, alteration});
   };
   // The rig does not fit the images.
-  add("left and right exchanged", Demand::reported, room, exchange);
-  add("left and right exchanged, cables", Demand::reported, cables, exchange);
-  add("left and right exchanged, facade", Demand::reported, facade, exchange);
-  add("left and right exchanged, EuRoC", Demand::reported, flight, exchange);
-  add("left and right exchanged, KITTI", Demand::reported, drive, exchange);
-  add("sign of the baseline", Demand::reported, room,
+  const Demand reported = Demand::reported;
+  add("left and right exchanged", reported, {room, cables, facade, flight, drive}, exchange);
+  add("sign of the baseline", reported, {room},
       [](Sequence& s) { s.rig.right_from_left.translation() = -s.rig.right_from_left.translation(); });
-  add("both images mirrored", Demand::reported, room, [](Sequence& s) { mirror(s.left), mirror(s.right); });
-  add("right image mirrored", Demand::reported, room, [](Sequence& s) { mirror(s.right); });
-  add("right image a negative", Demand::reported, room,
+  add("both images mirrored", reported, {room}, [](Sequence& s) { mirror(s.left), mirror(s.right); });
+  add("right image mirrored", reported, {room}, [](Sequence& s) { mirror(s.right); });
+  add("right image a negative", reported, {room},
       [](Sequence& s) { std::for_each(s.right.begin(), s.right.end(), negate); });
-  add("right image turned by 90 degrees", Demand::reported, room,
-      right_image([](const Sequence& s, double u, double v) { return turned_by(s, u, v, 1); }));
-  add("right image turned by 180 degrees", Demand::reported, room,
-      right_image([](const Sequence& s, double u, double v) { return turned_by(s, u, v, 2); }));
-  add("left focal length 20 % up", Demand::reported, room,
+  for (const int quarters : {1, 2})
+    add("right image turned by " + std::to_string(90 * quarters) + " degrees", reported, {room},
+        right_image([=](const Sequence& s, double u, double v) { return turned_by(s, u, v, quarters); }));
+  add("left focal length 20 % up", reported, {room, cables},
       [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
-  add("left focal length 20 % up, cables", Demand::reported, cables,
-      [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
-  add("right pitch 1 degree", Demand::reported, room, right_turned(1, x));
-  add("right pitch 1 degree, cables", Demand::reported, cables, right_turned(1, x));
-  add("right pitch 1 degree, EuRoC", Demand::reported, flight, right_turned(1, x));
-  add("right pitch 3 degrees", Demand::reported, room, right_turned(3, x));
-  add("right pitch 3 degrees, KITTI", Demand::reported, drive, right_turned(3, x));
-  add("right yaw 2 degrees", Demand::reported, room, right_turned(2, y));
-  add("right yaw -2 degrees", Demand::reported, room, right_turned(-2, y));
-  add("right yaw 2 degrees, EuRoC", Demand::reported, flight, right_turned(2, y));
-  add("right yaw -2 degrees, EuRoC", Demand::reported, flight, right_turned(-2, y));
-  add("right roll 2 degrees", Demand::reported, room, right_turned(2, z));
-  add("fy halved", Demand::reported, room, [](Sequence& s) { s.rig.left.fy /= 2, s.rig.right.fy /= 2; });
-  add("right camera frozen", Demand::reported, room,
+  add("right pitch 1 degree", reported, {room, cables, flight}, right_turned(1, x));
+  add("right pitch 3 degrees", reported, {room, drive}, right_turned(3, x));
+  add("right yaw 2 degrees", reported, {room, flight}, right_turned(2, y));
+  add("right yaw -2 degrees", reported, {room, flight}, right_turned(-2, y));
+  add("right roll 2 degrees", reported, {room}, right_turned(2, z));
+  add("fy halved", reported, {room}, [](Sequence& s) { s.rig.left.fy /= 2, s.rig.right.fy /= 2; });
+  add("right camera frozen", reported, {room, flight},
       [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
-  add("left camera frozen", Demand::reported, room,
+  add("left camera frozen", reported, {room},
       [](Sequence& s) { std::fill(s.left.begin(), s.left.end(), Image(s.left.front())); });
-  add("right camera frozen, EuRoC", Demand::reported, flight,
-      [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
-  const auto stop_both = [](Sequence& s) {
+  add("both cameras frozen for three frames", reported, {room, flight}, [](Sequence& s) {
     for (auto* views : {&s.left, &s.right})
       for (std::size_t i = 3; i < 6; ++i) (*views)[i] = Image((*views)[2]);
-  };
-  add("both cameras frozen for three frames", Demand::reported, room, stop_both);
-  add("both cameras frozen for three frames, EuRoC", Demand::reported, flight, stop_both);
-  const auto late = [](Sequence& s) {
+  });
+  add("right camera a frame late", reported, {room, cables, flight}, [](Sequence& s) {
     s.right.pop_back();
     s.left.erase(s.left.begin());
     s.world_from_left.erase(s.world_from_left.begin());
-  };
-  add("right camera a frame late", Demand::reported, room, late);
-  add("right camera a frame late, cables", Demand::reported, cables, late);
-  add("right camera a frame late, EuRoC", Demand::reported, flight, late);
-  add("distorted images as pinhole", Demand::reported, room, distort);
-  add("distorted images as pinhole, facade", Demand::reported, facade, distort);
-  add("distorted images as pinhole, EuRoC", Demand::reported, flight,
+  });
+  add("distorted images as pinhole", reported, {room, facade}, distort);
+  add("distorted images as pinhole", reported, {flight},
       [](Sequence& s) { s.rig.left_undistortion = s.rig.right_undistortion = {}; });
-  add("max_disparity a third", Demand::reported, room, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
-  add("max_disparity a third, EuRoC", Demand::reported, flight,
-      [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
-  add("max_disparity 2 px", Demand::reported, room, [](Sequence& s) { s.config.stereo.max_disparity = 2; });
-  add("min_depth 20 m", Demand::reported, room,
+  add("max_disparity a third", reported, {room, flight}, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
+  add("max_disparity 2 px", reported, {room}, [](Sequence& s) { s.config.stereo.max_disparity = 2; });
+  add("min_depth 20 m", reported, {room},
       [](Sequence& s) { s.config.stereo.max_disparity = 0, s.config.stereo.min_depth = 20; });
-  add("baseline three times", Demand::scale, room, [](Sequence& s) { s.rig.right_from_left.translation() *= 3; });
+  add("baseline three times", Demand::scale, {room}, [](Sequence& s) { s.rig.right_from_left.translation() *= 3; });
   // Cases that must keep working.
-  add("right camera of half the resolution", Demand::right, room, halve_right);
-  add("right camera of half the resolution, cables", Demand::right, cables, halve_right);
-  add("both focal lengths 20 % up", Demand::right, room, [](Sequence& s) {
+  add("right camera of half the resolution", Demand::right, {room, cables}, halve_right);
+  add("both focal lengths 20 % up", Demand::right, {room}, [](Sequence& s) {
     for (auto* camera : {&s.rig.left, &s.rig.right}) camera->fx *= 1.2, camera->fy *= 1.2;
   });
-  add("both principal points off by 20 px", Demand::right, room, [](Sequence& s) {
+  add("both principal points off by 20 px", Demand::right, {room}, [](Sequence& s) {
     for (auto* camera : {&s.rig.left, &s.rig.right}) camera->cx += 20, camera->cy += 20;
   });
-  add("right pitch 0.5 degrees", Demand::right, room, right_turned(0.5, x));
-  add("salt and pepper, 5 %", Demand::right, room, [](Sequence& s) {
+  add("right pitch 0.5 degrees", Demand::right, {room}, right_turned(0.5, x));
+  add("salt and pepper, 5 %", Demand::right, {room}, [](Sequence& s) {
     unsigned state = 1;
     for (auto* images : {&s.left, &s.right})
       for (auto& image : *images)
@@ -245,67 +216,59 @@ std::vector<GeometryCase> make_cases() {
           if ((state >> 8U) % 1000 < 50) value = (state & 0x80000000U) != 0 ? 255 : 0;
         }
   });
-  add("shuffled frames", Demand::reported, room, [](Sequence& s) {
+  add("shuffled frames", reported, {room}, [](Sequence& s) {
     const Sequence ordered = s;
     for (std::size_t i = 0; i < s.size(); ++i) {
       const std::size_t j = i * 7 % s.size();
       s.left[i] = ordered.left[j], s.right[i] = ordered.right[j], s.world_from_left[i] = ordered.world_from_left[j];
     }
   });
-  add("exposure ramp", Demand::right, room, every_pixel(exposure_ramp));
-  add("rolling bar", Demand::right, room, every_pixel(rolling_bar));
-  add("rolling bar, cables", Demand::right, cables, every_pixel(rolling_bar));
-  add("foreign frames", Demand::reported, room, foreign_frames);
-  add(
-      "every 8th frame, cables", Demand::reported, [] { return rendered("cables", 8, 8); }, nothing);
-  add(
-      "every 8th frame, room", Demand::reported, [] { return rendered("room", 8, 8); }, nothing);
-  add(
-      "every 16th frame, cables", Demand::reported, [] { return rendered("cables", 6, 16); }, nothing);
-  add(
-      "light x0.3 and noise 8, room", Demand::reported, [] { return rendered("room", 10, 1, 0, 0.3, 8); }, nothing);
-  add(
-      "light x0.3 and noise 8, cables", Demand::reported, [] { return rendered("cables", 10, 1, 0, 0.3, 8); }, nothing);
-  add(
-      "blur over the whole time, room", Demand::reported, [] { return rendered("room", 10, 1, 0.85); }, nothing);
-  add(
-      "blur over the whole time, cables", Demand::reported, [] { return rendered("cables", 10, 1, 0.85); }, nothing);
-  add("checkerboard, 6 px per frame", Demand::reported, room, [](Sequence& s) { show_checkerboard(s, 40, 6, 12); });
-  add("checkerboard, 37 px per frame", Demand::reported, room, [](Sequence& s) { show_checkerboard(s, 40, 37, 12); });
+  add("exposure ramp", Demand::right, {room}, every_pixel(exposure_ramp));
+  add("rolling bar", Demand::right, {room, cables}, every_pixel(rolling_bar));
+  add("foreign frames", reported, {room}, foreign_frames);
+  const std::pair<const char*, Source> hard[] = {
+      {"every 8th frame, cables", [] { return rendered("cables", 8, 8); }},
+      {"every 8th frame, room", [] { return rendered("room", 8, 8); }},
+      {"every 16th frame, cables", [] { return rendered("cables", 6, 16); }},
+      {"light x0.3 and noise 8, room", [] { return rendered("room", 10, 1, 0, 0.3, 8); }},
+      {"light x0.3 and noise 8, cables", [] { return rendered("cables", 10, 1, 0, 0.3, 8); }},
+      {"blur over the whole time, room", [] { return rendered("room", 10, 1, 0.85); }},
+      {"blur over the whole time, cables", [] { return rendered("cables", 10, 1, 0.85); }}};
+  for (const auto& [name, source] : hard) cases.push_back({name, reported, source, nothing});
+  for (const int speed : {6, 37})
+    add("checkerboard, " + std::to_string(speed) + " px per frame", reported, {room},
+        [speed](Sequence& s) { show_checkerboard(s, 40, speed, 12); });
   add_image_faults(cases);
   // Moving boards.
-  for (const double area : {0.1, 0.3, 0.45})
-    for (const bool fine : {false, true})
-      for (const auto source : {room, cables})
-        cases.push_back({std::string("board over ") + std::to_string(static_cast<int>(100 * area)) +
-                             " % before a moving camera" + (source == cables ? ", cables" : "") +
-                             (fine ? ", mosaic" : ""),
-                         Demand::right, source, boards_before_a_moving_camera(area, fine)});
-  for (const bool fine : {false, true})
-    cases.push_back({std::string("board over 60 % before a moving camera") + (fine ? ", mosaic" : ""), Demand::reported,
-                     room, boards_before_a_moving_camera(0.6, fine)});
-  add("board over 60 % appears, cables", Demand::reported, cables, boards_before_a_moving_camera(0.6, true, 5));
-  for (const double area : {0.1, 0.2, 0.4, 0.6})
-    for (const double speed : {2.0, 4.0, 8.0})
-      for (const bool fine : {false, true})
-        cases.push_back({"still camera, board over " + std::to_string(static_cast<int>(100 * area)) + " %, " +
-                             std::to_string(static_cast<int>(speed)) + " px" + (fine ? ", mosaic" : ""),
-                         area < 0.5 ? Demand::right : Demand::reported, room, boards(area, speed, fine)});
+  const auto board = [](double area, bool fine) {
+    return "board over " + std::to_string(static_cast<int>(std::lround(100 * area))) + " %" + (fine ? ", mosaic" : "");
+  };
+  for (const bool fine : {false, true}) {
+    for (const double area : {0.1, 0.3, 0.45})
+      add("moving camera, " + board(area, fine), Demand::right, {room, cables},
+          boards_before_a_moving_camera(area, fine));
+    add("moving camera, " + board(0.6, fine), reported, {room}, boards_before_a_moving_camera(0.6, fine));
+    for (const double area : {0.1, 0.2, 0.4, 0.6})
+      for (const int speed : {2, 4, 8})
+        add("still camera, " + board(area, fine) + ", " + std::to_string(speed) + " px",
+            area < 0.5 ? Demand::right : reported, {room}, boards(area, speed, fine));
+  }
+  add("board over 60 % appears", reported, {cables}, boards_before_a_moving_camera(0.6, true, 5));
   // Unsolved cases. The counts were measured when the row was added; a change that fixes a fault lowers them.
   const std::pair<const char*, int> open[] = {
       {"right camera a frame late, cables", 5},
       {"two equal posters, 200 px apart", 1},  // the first step, for which nothing speaks
-      {"board over 45 % before a moving camera, cables", 0},
-      {"board over 45 % before a moving camera, cables, mosaic", 0},
+      {"moving camera, board over 45 %, cables", 0},
+      {"moving camera, board over 45 %, mosaic, cables", 0},
       {"still camera, board over 20 %, 2 px", 0},
-      {"still camera, board over 20 %, 2 px, mosaic", 0},
+      {"still camera, board over 20 %, mosaic, 2 px", 0},
       {"still camera, board over 20 %, 4 px", 0},
-      {"still camera, board over 20 %, 4 px, mosaic", 0},
+      {"still camera, board over 20 %, mosaic, 4 px", 0},
       {"still camera, board over 40 %, 2 px", 0},
-      {"still camera, board over 40 %, 2 px, mosaic", 0},
-      {"still camera, board over 40 %, 4 px, mosaic", 0},
+      {"still camera, board over 40 %, mosaic, 2 px", 0},
+      {"still camera, board over 40 %, mosaic, 4 px", 0},
       {"still camera, board over 60 %, 2 px", 2},
-      {"still camera, board over 60 %, 2 px, mosaic", 4},
+      {"still camera, board over 60 %, mosaic, 2 px", 4},
   };
   for (const auto& [name, steps] : open)
     for (auto& row : cases)

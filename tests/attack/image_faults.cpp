@@ -10,24 +10,6 @@ namespace attack {
 using namespace quadedge;
 namespace {
 
-/// Changes the pixels of every image. \param change grey level of the changed image, before it is clipped
-Alteration every_pixel(
-    const std::function<double(const Image& image, int x, int y, bool is_left, std::size_t frame)>& change) {
-  return [change](Sequence& s) {
-    for (const bool is_left : {true, false}) {
-      auto& images = is_left ? s.left : s.right;
-      for (std::size_t i = 0; i < images.size(); ++i) {
-        const Image before = images[i];
-        for (int y = 0; y < before.height; ++y)
-          for (int x = 0; x < before.width; ++x) {
-            const double grey = change(before, x, y, is_left, i);
-            images[i].set(x, y, std::clamp(static_cast<int>(std::lround(grey)), 0, before.max_value));
-          }
-      }
-    }
-  };
-}
-
 /// A circle on a lens [px].
 struct Drop {
   double x, y, radius;
@@ -66,6 +48,22 @@ void put(const Drop& drop, Image& image) {
 }
 
 }  // namespace
+
+Alteration every_pixel(const PixelChange& change) {
+  return [change](Sequence& s) {
+    for (const bool is_left : {true, false}) {
+      auto& images = is_left ? s.left : s.right;
+      for (std::size_t i = 0; i < images.size(); ++i) {
+        const Image before = images[i];
+        for (int y = 0; y < before.height; ++y)
+          for (int x = 0; x < before.width; ++x) {
+            const double grey = change(before, x, y, is_left, i);
+            images[i].set(x, y, std::clamp(static_cast<int>(std::lround(grey)), 0, before.max_value));
+          }
+      }
+    }
+  };
+}
 
 Alteration brighter(double left, double right) {
   return every_pixel([=](const Image& image, int x, int y, bool is_left, std::size_t) {

@@ -5,6 +5,9 @@
 
 namespace attack {
 
+/// The grey level of a pixel of the changed image, before it is clipped.
+using PixelChange = std::function<double(const quadedge::Image& image, int x, int y, bool is_left, std::size_t frame)>;
+Alteration every_pixel(const PixelChange& change);
 /// Multiplies the grey levels of the left and of the right images and clips them, as longer exposures do.
 Alteration brighter(double left, double right);
 /// Divides the grey levels of every second frame, whose noise stays: exposures in turn.
