@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "edges/compare_frontends.hpp"
+#include "benchmark/compare_frontends.hpp"
 #include "motion/quads.hpp"
 #include "motion/ransac.hpp"
 #include "motion/refinement.hpp"

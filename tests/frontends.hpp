@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "edges/compare_frontends.hpp"
+#include "benchmark/compare_frontends.hpp"
 #include "matching.hpp"
 #include "quadedge/synthetic.hpp"
 

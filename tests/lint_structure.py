@@ -22,19 +22,20 @@ SIZED = {"host", "include", "kernels", "python", "bench", "ros2", "scripts", "te
 # Most lines of source per folder. Whoever raises a limit says why in the commit.
 MOST_LINES = {
     "bench": 550,
-    "host/benchmark": 970,
+    "host/benchmark": 1090,
     "host/cli": 4455,
-    "host/common": 940,
+    "host/common": 1060,
     "host/data": 6110,
     "host/data/calibrations": 2145,
-    "host/device": 4700,
-    "host/edges": 3215,
+    "host/device": 4735,
+    "host/edges": 2920,
     "host/geometry": 2245,
     "host/motion": 6640,
+    "host/oracle": 455,
     "host/output": 2825,
-    "host/paper": 960,
+    "host/paper": 910,
     "host/places": 2305,
-    "host/reference": 2455,
+    "host/reference": 2380,
     "host/rig": 4375,
     "host/scenes": 2845,
     "include": 2270,
@@ -42,10 +43,10 @@ MOST_LINES = {
     "python": 10580,
     "ros2": 90,
     "scripts": 2265,
-    "tests": 34037,
+    "tests": 34200,
 }
-WORKBENCH = ("host/benchmark/", "host/cli/", "host/data/", "host/output/", "host/paper/", "host/reference/",
-             "host/scenes/")
+WORKBENCH = ("host/benchmark/", "host/cli/", "host/data/", "host/oracle/", "host/output/", "host/paper/",
+             "host/reference/", "host/scenes/")
 # Lines of systems that do the same, counted alike.
 MODELS = {"tracker": "Basalt 31,000, OpenVINS 28,000", "Python": "rko_lio 3,200", "words of pages": "15,000"}
 STALE_PHRASES = re.compile(

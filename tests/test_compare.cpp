@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/compare_frontends.hpp"
 #include "benchmark/variant_comparison.hpp"
 #include "devices.hpp"
-#include "edges/compare_frontends.hpp"
 #include "frontends.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"

@@ -4,9 +4,10 @@
 #include "device/stage.hpp"
 #include "device/variants.hpp"
 #include "devices.hpp"
-#include "edges/compare_frontends.hpp"
+#include "edges/self_test_data.hpp"
 #include "program.hpp"
 #include "quadedge/self_test.hpp"
+#include "self_test_now.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -24,9 +25,17 @@ void copy_kernels(const std::string& folder, const std::string& file, const std:
 
 }  // namespace
 
+TEST_CASE("self-test: the stored frames and rows are what the renderer and the reference make now", "[selftest]") {
+  const frontend::SelfTestData now = self_test_now();
+  const bool is_up_to_date = frontend::bytes_of(now) == frontend::bytes_of(frontend::self_test_data());
+  INFO("cmake --build build --target self_test_data, for a change that is meant");
+  CHECK(is_up_to_date);
+  CHECK(now.paper_config().stereo.sift_max == read_preset("paper").stereo.sift_max);
+}
+
 TEST_CASE("self-test: every stage of the reference finds something to compare", "[selftest]") {
   Device reference("reference");
-  for (const auto& stage : frontend::observe_stages(frontend::small_sequence(), reference, {})) {
+  for (const auto& stage : frontend::observe_stages(frontend::self_test_data().sequence, reference, {})) {
     INFO(stage.stage);
     CHECK(stage.rows.size() >= (stage.stage == "edge_threshold" ? 1U : 50U));
   }

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "benchmark/bench_record.hpp"
+#include "benchmark/compare_frontends.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
 #include "device/variants.hpp"
-#include "edges/compare_frontends.hpp"
 #include "edges/prediction.hpp"
 #include "output/json_values.hpp"
 #include "output/statistics.hpp"

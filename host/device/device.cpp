@@ -14,6 +14,7 @@
 
 #include "device/context.hpp"
 #include "device/device_limits.hpp"
+#include "device/oracle.hpp"
 #include "device/status.hpp"
 
 namespace quadedge {
@@ -211,18 +212,25 @@ std::vector<DeviceInfo> by_preference(std::vector<DeviceInfo> devices) {
   return devices;
 }
 
+namespace {
+std::optional<Oracle>& oracle() {
+  static std::optional<Oracle> registered;
+  return registered;
+}
+}  // namespace
+
+const Oracle* registered_oracle() { return oracle() ? &*oracle() : nullptr; }
+void register_oracle(const Oracle& registered) { oracle() = registered; }
+
 Device::Device(const std::string& choice, const DeviceOptions& options) : Device(choice, options, {}) {}
 
 Device::Device(const std::string& choice, const DeviceOptions& options, const opencl::DeviceLimits& limits) {
   if (choice == "reference") {
-    info_.index = -1;
-    info_.platform = "none";
-    info_.name = "plain C++ reference";
-    info_.driver = "-";
-    info_.opencl = "-";
-    info_.type = "reference";
-    info_.compute_units = 1;
-    info_.single_precision = {true, true, true, false, false, true};
+    if (registered_oracle() == nullptr)
+      throw DeviceError(
+          "the device 'reference' is part of the library quadedge: link quadedge::quadedge instead of "
+          "quadedge::quadedge_core");
+    info_ = registered_oracle()->info;
     return;
   }
   const auto devices = find_devices();

@@ -3,10 +3,9 @@
 #include "device/edge_detection.hpp"
 #include "device/grid_edges.hpp"
 #include "device/images.hpp"
-#include "paper/grid_edges.hpp"
+#include "device/oracle.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
-#include "reference/edge_detection.hpp"
 
 namespace quadedge {
 
@@ -16,10 +15,7 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
   EdgeSet edges;
   std::size_t found = 0;
   if (device.is_reference()) {
-    reference::EdgeThreshold threshold(config.edges);
-    const auto detect = config.is_paper() ? paper::grid_edges : reference::detect_edges;
-    const auto all = detect(image, config.edges, threshold.next({image}));
-    edges = reference::to_edge_set(reference::outside_mask(all, mask, config.edges.margin));
+    edges = registered_oracle()->detect_edges(image, config, mask);
     found = edges.size();
   } else {
     auto& context = *device.context();

@@ -9,8 +9,8 @@ namespace {
 
 /// Candidates with their scores and the decisions of the filters.
 struct Judged {
-  reference::Candidates lists;
-  reference::CandidateScores scores;  ///< undefined where no filter has computed them
+  Candidates lists;
+  CandidateScores scores;  ///< undefined where no filter has computed them
 
   explicit Judged(const stages::DeviceCandidates& read)
       : lists{read.first.read(static_cast<std::size_t>(read.rows) + 1), read.target.read(size(read))},
@@ -20,7 +20,7 @@ struct Judged {
   /// The candidates that a filter leaves, with the scores that the next filter compares.
   template <class Filter>
   CandidateLists after(Filter filter) const {
-    return reference::alive_after(filter, lists, scores);
+    return alive_after(filter, lists, scores);
   }
 };
 
@@ -42,11 +42,11 @@ void DeviceFrontend::tap_stereo() {
   const auto count = clusters_.count.read(rows);
   const auto position = clusters_.packed.read(size),
              similarity = clusters_.packed.read(size, 2 * static_cast<std::size_t>(clusters_.stride));
-  const reference::StereoClusters clusters{judged.lists.first,
-                                           {position.begin(), position.end()},
-                                           {},
-                                           clusters_.anchor.read(size),
-                                           {similarity.begin(), similarity.end()}};
+  const StereoClusters clusters{judged.lists.first,
+                                {position.begin(), position.end()},
+                                {},
+                                clusters_.anchor.read(size),
+                                {similarity.begin(), similarity.end()}};
   const auto x = left_.edges.packed.read(rows),
              y = left_.edges.packed.read(rows, static_cast<std::size_t>(left_.edges.stride));
   const auto tap_clusters = [&](StereoFilter filter, const auto& passes) {

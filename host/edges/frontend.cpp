@@ -2,13 +2,12 @@
 #include "edges/frontend.hpp"
 
 #include "common/images.hpp"
+#include "device/oracle.hpp"
 #include "device/variants.hpp"
 #include "edges/common_view.hpp"
 #include "edges/device_frontend.hpp"
 #include "edges/memory_fit.hpp"
 #include "edges/paper_device_frontend.hpp"
-#include "edges/paper_reference_frontend.hpp"
-#include "edges/reference_frontend.hpp"
 
 namespace quadedge::frontend {
 
@@ -30,9 +29,8 @@ std::shared_ptr<const PixelMask> Frontend::take_masks(const StereoFrame& frame) 
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,
                                         std::vector<Warning>* warnings) {
   opencl::check_variants(config.variants);
-  if (config.is_paper() && device.is_reference()) return std::make_unique<PaperReferenceFrontend>(rig, config);
   const StereoRig seen = config.is_paper() ? rig : within_common_view(rig);
-  if (device.is_reference()) return std::make_unique<ReferenceFrontend>(seen, config);
+  if (device.is_reference()) return registered_oracle()->make_frontend(seen, config);
   const MemoryFit fit = fit_memory(seen, config, device.context()->limits().memory_bytes);
   if (warnings != nullptr && !fit.message.empty()) warnings->push_back({WarningKind::device_memory, fit.message});
   if (config.is_paper()) return std::make_unique<PaperDeviceFrontend>(seen, *device.context(), fit.config);

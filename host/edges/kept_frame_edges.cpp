@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "reference/edge_descriptions.hpp"
+#include "common/stored_patch.hpp"
 
 namespace quadedge::frontend {
 namespace {
@@ -36,18 +36,18 @@ std::array<int, 2 * kPatchLargest + 1> sample_nibbles() {
 void append_samples(const std::int8_t* edge, std::vector<int>& values) {
   static const auto nibbles = sample_nibbles();
   for (int side = 0; side < 2; ++side)
-    for (const double sample : reference::stored_side(edge, side))
+    for (const double sample : stored_side(edge, side))
       values.push_back(nibbles[static_cast<std::size_t>(static_cast<int>(sample) + kPatchLargest)]);
 }
 
 /// Restores the patches of one edge from sample `first` on.
 void restore_patches(const std::uint8_t* bytes, std::size_t first, std::int8_t* edge) {
   for (int side = 0; side < 2; ++side) {
-    reference::PatchValues values;
+    PatchValues values;
     double sum = 0;
     for (double& value : values) sum += value = nibble(bytes, first++) - kZeroNibble;
     for (double& value : values) value -= sum / kPatchSamples;
-    reference::store_side(values, side, edge);
+    store_side(values, side, edge);
   }
 }
 

@@ -5,16 +5,17 @@
 #include <utility>
 
 #include "common/matching_constants.hpp"
+#include "edges/tap_lists.hpp"
 
 namespace quadedge::frontend {
 namespace {
 
-reference::Candidates lists_of(const stages::DeviceCandidates& candidates) {
+Candidates lists_of(const stages::DeviceCandidates& candidates) {
   const CandidateLists lists = candidates.read();
   return {lists.first, lists.target};
 }
 
-reference::CandidateScores scores_of(const stages::DeviceCandidates& candidates) {
+CandidateScores scores_of(const stages::DeviceCandidates& candidates) {
   const auto count = static_cast<std::size_t>(candidates.host_total);
   return {candidates.ncc.read(count), candidates.sift.read(count), candidates.state.read(count)};
 }
@@ -32,9 +33,9 @@ std::vector<std::vector<paper::Cluster>> rows_of(const stages::DevicePaperCluste
 }
 
 /// Clusters on the left edges' epipolar lines.
-reference::StereoClusters on_lines(const stages::DevicePaperClusters::Lists& lists, const EdgeSet& left,
-                                   const EpipolarGeometry& geometry) {
-  reference::StereoClusters clusters;
+StereoClusters on_lines(const stages::DevicePaperClusters::Lists& lists, const EdgeSet& left,
+                        const EpipolarGeometry& geometry) {
+  StereoClusters clusters;
   clusters.first = lists.first;
   clusters.direction.assign(lists.direction.begin(), lists.direction.end());
   clusters.similarity.assign(lists.similarity.begin(), lists.similarity.end());
@@ -201,6 +202,20 @@ void PaperDeviceFrontend::match_side(PaperDeviceFrameEdges& before, PaperDeviceF
                found.candidates);
   refinement_.in_time(seen(before), seen(now), found.candidates, found.refined);
   clustering_.cluster(now.positions.list(index_of(side)), found.candidates, found.refined, found.clusters);
+}
+
+CandidateLists PaperDeviceFrontend::near_lines(const EpipolarGeometry& geometry) {
+  stages::DeviceCandidates lists;
+  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, {}, lists);
+  return lists.read();
+}
+
+CandidateLists PaperDeviceFrontend::near_previous(const FrameEdges& before, const FrameEdges&, Side side) {
+  stages::DeviceCandidates lists;
+  temporal_candidates_.run(frames_.own(before).positions.list(index_of(side)), 1,
+                           side == Side::left ? left_index_ : right_index_, static_cast<float>(config_.temporal.radius),
+                           kAnyDirection, lists);
+  return lists.read();
 }
 
 void PaperDeviceFrontend::find_quads(const FrameEdges& base, const FrameEdges& current,

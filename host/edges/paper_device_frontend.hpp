@@ -73,6 +73,8 @@ class PaperDeviceFrontend : public PaperFrontend {
   void keep_descriptions(PaperDeviceFrameEdges& now);
   void find_quads(const FrameEdges& base, const FrameEdges& current, std::array<paper::SideMatching, 2>* all,
                   TemporalMatches& matches) override;
+  CandidateLists near_lines(const EpipolarGeometry& geometry) override;
+  CandidateLists near_previous(const FrameEdges& before, const FrameEdges& now, Side side) override;
   void match_side(PaperDeviceFrameEdges& before, PaperDeviceFrameEdges& now, Side side, bool all_scores,
                   TimeSide& found);
 

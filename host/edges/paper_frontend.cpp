@@ -2,14 +2,13 @@
 #include "edges/paper_frontend.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 
+#include "common/filter_limits.hpp"
 #include "edges/prediction.hpp"
 #include "edges/tap_lists.hpp"
 #include "geometry/disparity_range.hpp"
-#include "reference/edge_detection.hpp"
 
 namespace quadedge::frontend {
 namespace {
@@ -75,14 +74,11 @@ void PaperFrontend::match(const FrameEdges& base, const FrameEdges& current, con
 }
 
 void PaperFrontend::tap_stereo(const paper::StereoMatching& matching) {
-  const EdgeSet left = edges(Side::left), right = edges(Side::right);
-  for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
-    const auto lists = reference::stereo_candidates(
-        left, right, without_limits(geometry_, filter < StereoFilter::disparity, true), {});
-    tap_->stereo_filter(filter, {lists.first, lists.target, {}, {}, {}});
-  }
+  const EdgeSet left = edges(Side::left);
+  for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity})
+    tap_->stereo_filter(filter, near_lines(without_limits(geometry_, filter < StereoFilter::disparity, true)));
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
-    tap_->stereo_filter(filter, reference::alive_after(filter, matching.candidates, matching.scores));
+    tap_->stereo_filter(filter, alive_after(filter, matching.candidates, matching.scores));
   for (const auto filter : {StereoFilter::refinement, StereoFilter::similarity}) {
     const auto passes = [&](std::size_t, std::size_t k) {
       return filter == StereoFilter::refinement || matching.clusters.similarity[k] >= config_.stereo.refined_ncc_min;
@@ -93,12 +89,9 @@ void PaperFrontend::tap_stereo(const paper::StereoMatching& matching) {
 
 void PaperFrontend::tap_temporal(const FrameEdges& before, const FrameEdges& now, const paper::SideMatching& matching,
                                  Side side) {
-  const PinholeCamera& camera = side == Side::left ? calibration_.left : calibration_.right;
-  const auto displaced = paper::near_previous(before.edges.positions(side), now.edges.positions(side), camera.width,
-                                              camera.height, config_.temporal.radius, kAnyDirection);
-  tap_->temporal_filter(TemporalFilter::displacement, side, {displaced.first, displaced.target, {}, {}, {}});
+  tap_->temporal_filter(TemporalFilter::displacement, side, near_previous(before, now, side));
   for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter))
-    tap_->temporal_filter(filter, side, reference::alive_after(filter, matching.candidates, matching.scores));
+    tap_->temporal_filter(filter, side, alive_after(filter, matching.candidates, matching.scores));
   tap_->temporal_filter(TemporalFilter::refinement, side,
                         lists_of(matching.clusters, [](std::size_t, std::size_t) { return true; }));
 }

@@ -1,8 +1,11 @@
 #pragma once
 /// \file paper_frontend.hpp  What both front ends of the paper's method (doc/paper.md) do alike.
 
+#include <array>
+
 #include "edges/frontend.hpp"
-#include "paper/cascades.hpp"
+#include "edges/paper_matches.hpp"
+#include "geometry/epipolar_geometry.hpp"
 
 namespace quadedge::frontend {
 
@@ -30,6 +33,10 @@ class PaperFrontend : public Frontend {
   /// Both cascades in time, and the quads. \param all of either side, for a tap, else null
   virtual void find_quads(const FrameEdges& base, const FrameEdges& current, std::array<paper::SideMatching, 2>* all,
                           TemporalMatches& matches) = 0;
+  /// For a tap: the candidates of all left edges of the latest frame within the limits of `geometry`.
+  virtual CandidateLists near_lines(const EpipolarGeometry& geometry) = 0;
+  /// For a tap: the stereo edges of `now` within the radius of each of `before`, whatever their directions.
+  virtual CandidateLists near_previous(const FrameEdges& before, const FrameEdges& now, Side side) = 0;
 
   Config config_;
   EpipolarGeometry geometry_;

@@ -1,7 +1,8 @@
 #pragma once
 /// \file tap_lists.hpp  The clusters that a tap receives after the filters of stereo matching.
 
-#include "reference/stereo_matching.hpp"
+#include "common/candidate_lists.hpp"
+#include "geometry/epipolar_geometry.hpp"
 
 namespace quadedge::frontend {
 
@@ -10,7 +11,7 @@ constexpr float kAnyDirection = 4.0f;
 
 /// The clusters of left edges, at their places on the epipolar lines, for which `passes(edge, cluster)` holds.
 template <class Passes>
-CandidateLists clusters_that(const reference::StereoClusters& clusters, const EpipolarGeometry& geometry,
+CandidateLists clusters_that(const StereoClusters& clusters, const EpipolarGeometry& geometry,
                              const std::vector<float>& x, const std::vector<float>& y, const Passes& passes) {
   CandidateLists lists;
   lists.first.assign(1, 0);

@@ -311,20 +311,6 @@ SideMatching match_side(const StereoEdgesInView& before, const StereoEdgesInView
   return matching;
 }
 
-std::vector<Quad> close_loop(const std::vector<Cluster>& left, const std::vector<Cluster>& right) {
-  std::vector<Quad> quads;
-  for (std::size_t l = 0; l < left.size(); ++l) {
-    for (std::size_t r = 0; r < right.size(); ++r) {
-      const auto& others = right[r].members;
-      const auto shared = std::find_if(left[l].members.begin(), left[l].members.end(), [&](std::int32_t edge) {
-        return std::find(others.begin(), others.end(), edge) != others.end();
-      });
-      if (shared != left[l].members.end()) quads.push_back({l, r, *shared});
-    }
-  }
-  return quads;
-}
-
 TemporalMatches quads_of(const SideMatching& left, const SideMatching& right) {
   TemporalMatches matches;
   const auto ncc_of = [](const SideMatching& side, std::size_t row, std::int32_t edge) {

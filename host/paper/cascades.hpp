@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/filter_limits.hpp"
+#include "edges/paper_matches.hpp"
 #include "geometry/epipolar_geometry.hpp"
 #include "paper/side_patches.hpp"
 #include "quadedge/config.hpp"
@@ -44,12 +45,6 @@ struct Hypothesis {
   std::int32_t target = 0;                             ///< its number
 };
 
-/// Candidates that count as one edge.
-struct Cluster {
-  Place centre;  ///< centroid of the members, direction weighted by a Gaussian of the distance from it
-  std::vector<std::int32_t> members;  ///< targets, the nearest to the centroid first
-};
-
 /// Agglomerative clustering with single linkage: in the order of the list, the first member that has a nearest one of
 /// another cluster within a pixel and 20 degrees joins it, up to ten members, until none does.
 std::vector<Cluster> clusters_of(const std::vector<Hypothesis>& hypotheses);
@@ -61,14 +56,6 @@ struct View {
   Picture picture;
   EdgeSet edges;
   Described described;
-};
-
-/// Every left edge's candidates after each filter. Row i is left edge i.
-struct StereoMatching {
-  reference::Candidates candidates;    ///< after epipolar proximity, limited disparity and orientation
-  reference::CandidateScores scores;   ///< and the decisions of the filters on them
-  reference::StereoClusters clusters;  ///< refined and clustered; similarity: NCC at the representative
-  std::vector<std::int32_t> chosen;    ///< index of the best cluster, -1: none
 };
 
 /// \param geometry of the calibration; its orientation is that of filter 3, which compares modulo half a turn
@@ -89,13 +76,6 @@ struct StereoEdgesInView {
   int width, height;  ///< of the image [px]
 };
 
-/// Candidates in one image after each filter. Row i is stereo edge i of the earlier frame.
-struct SideMatching {
-  reference::Candidates candidates;            ///< after displacement and orientation
-  reference::CandidateScores scores;           ///< and the decisions of the filters on them
-  std::vector<std::vector<Cluster>> clusters;  ///< of the refined candidates, per row
-};
-
 /// Current edges within `radius` px of the previous position whose direction differs by at most `orientation`, modulo
 /// half a turn [rad]. `width` x `height`: of the current image [px].
 reference::Candidates near_previous(const EdgePositionsView& before, const EdgePositionsView& now, int width,
@@ -104,15 +84,6 @@ reference::Candidates near_previous(const EdgePositionsView& before, const EdgeP
 /// Filters 1 to 8. \param all_scores see judge()
 SideMatching match_side(const StereoEdgesInView& before, const StereoEdgesInView& now, const TemporalConfig& config,
                         const RefinementSettings& settings, bool all_scores);
-
-/// Two clusters that hold the same current stereo edge: the circle is closed.
-struct Quad {
-  std::size_t left, right;  ///< numbers of the clusters in their rows
-  std::int32_t edge;        ///< of the edges that both hold, the nearest to the left centroid
-};
-
-/// The quads of one row, at most one per pair of clusters.
-std::vector<Quad> close_loop(const std::vector<Cluster>& left, const std::vector<Cluster>& right);
 
 /// Plain C++ twin of kernels/paper_quads.cl: all quads of two frames, in the order of the previous edges, of which each
 /// may own several.

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "edges/paper_matches.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
@@ -46,11 +47,6 @@ class Picture {
 
   int width_, height_, stride_;
   std::vector<Sample> samples_;  ///< the last row and column are there twice
-};
-
-/// Position [px] and direction [rad] of an edge.
-struct Place {
-  float x = 0, y = 0, direction = 0;
 };
 
 /// Both patches of an edge, centred `offset` px from it.

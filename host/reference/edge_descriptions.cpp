@@ -108,42 +108,13 @@ std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& mo
 
 namespace {
 
-/// Position of sample k = kPatchSide i + j.
-int position(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
-
 float side_ncc(const std::int8_t* a, int side_a, const std::int8_t* b, int side_b) {
   int products = 0;
-  for (int k = 0; k < kPatchSamples; ++k) products += a[position(side_a, k)] * b[position(side_b, k)];
+  for (int k = 0; k < kPatchSamples; ++k) products += a[sample_position(side_a, k)] * b[sample_position(side_b, k)];
   return static_cast<float>(products) * inverse_norm(a, side_a) * inverse_norm(b, side_b);
 }
 
 }  // namespace
-
-void store_side(const PatchValues& values, int side, std::int8_t* edge) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  const double scale = largest < kFlatPatchContrast ? 0.0 : kPatchLargest / largest;
-  int squares = 0;
-  for (int k = 0; k < kPatchSamples; ++k) {
-    const int sample = static_cast<int>(std::nearbyint(values[k] * scale));
-    edge[position(side, k)] = static_cast<std::int8_t>(sample);
-    squares += sample * sample;
-  }
-  const float inverse = squares == 0 ? 0.0f : 1.0f / std::sqrt(static_cast<float>(squares));
-  std::memcpy(edge + kInverseNorms + side * sizeof(float), &inverse, sizeof(float));
-}
-
-PatchValues stored_side(const std::int8_t* edge, int side) {
-  PatchValues values;
-  for (int k = 0; k < kPatchSamples; ++k) values[k] = edge[position(side, k)];
-  return values;
-}
-
-float inverse_norm(const std::int8_t* edge, int side) {
-  float inverse;
-  std::memcpy(&inverse, edge + kInverseNorms + side * sizeof(float), sizeof(float));
-  return inverse;
-}
 
 std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<float>& xs,
                                       const std::vector<float>& ys, const std::vector<float>& directions,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/layouts.hpp"
+#include "common/stored_patch.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
@@ -15,7 +16,10 @@ namespace quadedge::reference {
 
 // Plain C++ twin of kernels/photometric.cl, double precision.
 
-using PatchValues = std::array<double, kPatchSamples>;
+using quadedge::inverse_norm;
+using quadedge::PatchValues;
+using quadedge::store_side;
+using quadedge::stored_side;
 
 /// Where a patch lies: its first sample, rows of 7 samples along (-sine, cosine) to the bright side, 1 px apart, and
 /// kPatchRowStep px along the tangent (cosine, sine) from row to row.
@@ -80,18 +84,6 @@ std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& mo
 std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<float>& xs,
                                       const std::vector<float>& ys, const std::vector<float>& directions,
                                       const PatchesConfig& config);
-
-/// Stores a mean-free patch, sample (i, j) at 7 i + j, as the dark (`side` 0) or bright (1) one of the edge at `edge`:
-/// scaled so that its largest sample becomes +-127, rounded to the nearest integer (halves to the even one), with 1 /
-/// norm of these integers. A patch whose samples are all below `kFlatPatchContrast` becomes zeros with 0 for 1 / norm,
-/// so that its NCC with anything is 0.
-void store_side(const PatchValues& values, int side, std::int8_t* edge);
-
-/// The integers that store_side() wrote.
-PatchValues stored_side(const std::int8_t* edge, int side);
-
-/// 1 / norm of those integers.
-float inverse_norm(const std::int8_t* edge, int side);
 
 /// NCC of two edges from their patches (`kEdgePatchBytes` each), the highest over the four pairings of sides: sums of
 /// products in integers, which are exact, multiplied in single precision by 1 / norm of `a` and then of `b`, so that

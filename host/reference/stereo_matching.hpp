@@ -53,14 +53,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
 
 // Plain C++ twin of kernels/stereo_clusters.cl.
 
-/// Representatives of clusters of candidates. Row i (left edge) owns first[i] .. first[i + 1].
-struct StereoClusters {
-  std::vector<std::int32_t> first;
-  std::vector<double> position;      ///< on the left edge's epipolar line [px from the point at infinity]
-  std::vector<double> direction;     ///< [rad], weighted mean of the members
-  std::vector<std::int32_t> anchor;  ///< right edge of the most similar member; among equals the first in scan order
-  std::vector<double> similarity;    ///< of that member
-};
+using quadedge::StereoClusters;
 
 /// Clusters the living candidates along their epipolar line (doc/method.md section 3, 8c).
 ///

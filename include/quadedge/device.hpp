@@ -52,13 +52,13 @@ struct DeviceLimits;
 Device open_limited(const std::string& choice, const DeviceOptions& options, const DeviceLimits& limits);
 }  // namespace opencl
 
-/// An open device: an OpenCL context with its queue and built kernels, or the C++ reference implementation. Objects in
-/// several threads may share one; their calls then wait for one another.
+/// An open device: an OpenCL context with its queue and built kernels, or the C++ reference of quadedge::quadedge.
+/// Objects in several threads may share one; their calls then wait for one another.
 class Device {
  public:
   /// `choice`: auto (first GPU, else first CPU), cpu, gpu, reference, an index of list_devices(), or a part of the
   /// platform's or the device's name (case-insensitive). \throws DeviceError with installation instructions and the
-  /// list of devices if nothing matches, and for a device that cannot store single bytes.
+  /// list of devices if nothing matches, if it cannot store single bytes, for `reference` without quadedge::quadedge.
   explicit Device(const std::string& choice = "auto", const DeviceOptions& options = {});
   ~Device();
   Device(Device&&) noexcept;

@@ -16,14 +16,14 @@ struct SelfTestResult {
   bool passed() const { return stage.empty(); }
 };
 
-/// Runs every stage on two small rendered frames, with each kind of search, on the device and in the C++ reference, and
-/// compares the results within a tolerance. A long loop (`long_loop`) is run first, because some drivers
+/// Runs every stage on two small frames, with each kind of search, and compares the results within a tolerance with
+/// those of the C++ reference, which the library holds. A long loop (`long_loop`) is run first, because some drivers
 /// terminate long loops early. Kernel arguments whose types differ from those that the host passes are listed in
 /// `difference` if the results are wrong; if the results are right, the test passes. Takes tens of milliseconds once
 /// the kernels are built. \param variants  stage -> kernel variant, as in Config \throws DeviceError if a kernel does
 /// not build or run
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants = {});
-/// The same for the method and the variants of `config`; of the paper's method with all its values.
+/// The same for the method and the variants of `config`; the values are those of the method's preset.
 SelfTestResult self_test(Device& device, const Config& config);
 
 }  // namespace quadedge

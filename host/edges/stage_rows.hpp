@@ -1,6 +1,6 @@
 #pragma once
-/// \file compare_frontends.hpp  Compares front ends: two runs on the same two frames, and the results of every
-/// stage as rows.
+/// \file stage_rows.hpp  Results of every stage for two small frames, as rows that can be compared between
+/// implementations.
 
 #include <array>
 #include <map>
@@ -12,17 +12,12 @@
 
 namespace quadedge::frontend {
 
-// Results of every stage for two small frames, as rows that can be compared between implementations.
-
 /// Two frames of a rectified stereo rig.
 struct SmallSequence {
   StereoRig rig;
   double max_disparity = 0;  ///< [px]
   Image left[2], right[2];
 };
-
-/// Renders the frames of the self-test, in which every stage finds something.
-SmallSequence small_sequence();
 
 /// Results of one stage, unordered. Numbers are integer multiples of a unit: 1/100 px for positions, 1/200 rad for
 /// directions, 1/500 for similarities, 1/100 grey level per px for gradients, 1 for descriptor distances and grey
@@ -47,23 +42,5 @@ std::vector<StageRows> observe_paper_stages(const SmallSequence& sequence, Devic
 /// Describes how the results of a stage differ; empty if they agree except for a fraction `allowed` of either side's
 /// rows. The reference computes in double precision, so that decisions near a limit may differ.
 std::string difference(const StageRows& found, const StageRows& expected, double allowed);
-
-/// The output of a front end for two frames.
-struct FrontendOutput {
-  FrameEdgesHandle first;  ///< those of the first frame
-  EdgeSet left_edges, right_edges;
-  StereoEdges previous, current;
-  TemporalMatches quads;                   ///< of a guided search
-  TemporalMatches coarse, global_matches;  ///< of a search with strict limits, and anywhere in the left image; none in
-                                           ///< the paper's method
-};
-
-/// Processes both frames and matches them by both kinds of search, predicting no motion.
-FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const StereoFrame& second,
-                            const Config& config);
-
-/// The first difference between two outputs in the order of the stages: stage, edge, kind of value, and the value in
-/// `a` and in `b`. Empty if positions, directions, indices and similarities are identical in every byte.
-std::string first_difference(const FrontendOutput& a, const FrontendOutput& b);
 
 }  // namespace quadedge::frontend

@@ -1,8 +1,9 @@
 /// \file paper_reference_frontend.cpp  Edges, descriptions and stereo matches frame by frame, quads on request.
-#include "edges/paper_reference_frontend.hpp"
+#include "oracle/paper_reference_frontend.hpp"
 
 #include <utility>
 
+#include "edges/tap_lists.hpp"
 #include "paper/grid_edges.hpp"
 #include "reference/images.hpp"
 
@@ -60,6 +61,18 @@ void PaperReferenceFrontend::find_stereo_edges(FrameEdges& current, paper::Stere
   now.left = std::move(left.picture);
   now.right = std::move(right.picture);
   if (all != nullptr) *all = std::move(matching);
+}
+
+CandidateLists PaperReferenceFrontend::near_lines(const EpipolarGeometry& geometry) {
+  const auto lists = reference::stereo_candidates(left_edges_, right_edges_, geometry, {});
+  return {lists.first, lists.target, {}, {}, {}};
+}
+
+CandidateLists PaperReferenceFrontend::near_previous(const FrameEdges& before, const FrameEdges& now, Side side) {
+  const PinholeCamera& camera = side == Side::left ? calibration_.left : calibration_.right;
+  const auto lists = paper::near_previous(before.edges.positions(side), now.edges.positions(side), camera.width,
+                                          camera.height, config_.temporal.radius, kAnyDirection);
+  return {lists.first, lists.target, {}, {}, {}};
 }
 
 void PaperReferenceFrontend::find_quads(const FrameEdges& base, const FrameEdges& current,

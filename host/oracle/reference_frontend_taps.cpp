@@ -1,13 +1,13 @@
 /// \file reference_frontend_taps.cpp  Passes data of the reference to a tap after each filter, from the candidate lists
 /// on.
-#include "edges/reference_frontend.hpp"
 #include "edges/tap_lists.hpp"
+#include "oracle/reference_frontend.hpp"
 #include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
 void ReferenceFrontend::tap_stereo() {
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
-    tap_->stereo_filter(filter, reference::alive_after(filter, candidates_, scores_));
+    tap_->stereo_filter(filter, alive_after(filter, candidates_, scores_));
   const auto tap_clusters = [&](StereoFilter filter, const auto& passes) {
     tap_->stereo_filter(filter, clusters_that(clusters_, range_.geometry(), left_edges_.x, left_edges_.y, passes));
   };
@@ -29,10 +29,9 @@ void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const FrameEd
     tap_->temporal_filter(TemporalFilter::displacement, side, {displaced.first, displaced.target, {}, {}, {}});
     const reference::TemporalMatchLists& lists = is_left ? result.left : result.right;
     for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter))
-      tap_->temporal_filter(filter, side, reference::alive_after(filter, lists.candidates, lists.scores));
-    tap_->temporal_filter(
-        TemporalFilter::agreement, side,
-        reference::alive_after(TemporalFilter::agreement, result.left.candidates, result.left.scores));
+      tap_->temporal_filter(filter, side, alive_after(filter, lists.candidates, lists.scores));
+    tap_->temporal_filter(TemporalFilter::agreement, side,
+                          alive_after(TemporalFilter::agreement, result.left.candidates, result.left.scores));
   }
 }
 

@@ -1,23 +1,17 @@
-/// \file compare_frontends.cpp  Quantises results to integer rows, and looks up each within a tolerance.
-#include "edges/compare_frontends.hpp"
+/// \file stage_rows.cpp  Quantises results to integer rows, and looks up each within a tolerance.
+#include "edges/stage_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
-#include <future>
-#include <map>
 #include <utility>
 
 #include "common/printed.hpp"
 #include "device/buffer.hpp"
 #include "device/context.hpp"
 #include "device/images.hpp"
-#include "device/stage.hpp"
 #include "edges/prediction.hpp"
 #include "geometry/undistortion.hpp"
-#include "quadedge/self_test.hpp"
-#include "quadedge/synthetic.hpp"
 
 namespace quadedge::frontend {
 namespace {
@@ -172,71 +166,7 @@ std::size_t missing(const std::vector<Row>& a, const std::vector<Row>& b, const 
   return count;
 }
 
-/// The first differing value of parallel arrays.
-class Difference {
- public:
-  /// \param stage that writes the arrays \param row name of a row in messages
-  Difference(const char* stage, const char* row, std::string& found) : stage_(stage), row_(row), found_(found) {}
-
-  template <class T>
-  Difference& operator()(const char* value, const std::vector<T>& a, const std::vector<T>& b) {
-    if (!found_.empty() || a == b) return *this;
-    const std::size_t both = std::min(a.size(), b.size());
-    std::size_t i = 0;
-    while (i < both && a[i] == b[i]) ++i;
-    if (i == both) {
-      found_ = printed("%s, %s: %zu instead of %zu values of %s", stage_, row_, a.size(), b.size(), value);
-    } else {
-      found_ = printed("%s, %s %zu: %s is %.9g instead of %.9g", stage_, row_, i, value, static_cast<double>(a[i]),
-                       static_cast<double>(b[i]));
-    }
-    return *this;
-  }
-
- private:
-  const char *stage_, *row_;
-  std::string& found_;
-};
-
-void compare(const char* row, const EdgeSet& a, const EdgeSet& b, std::string& found) {
-  Difference("edge_detection", row, found)("x", a.x, b.x)("y", a.y, b.y)("direction", a.direction, b.direction)(
-      "strength", a.strength, b.strength)("scale-space shift", a.scale_shift, b.scale_shift);
-  Difference("edge_detection", "row start", found)("number", a.row_first, b.row_first);
-}
-void compare(const char* row, const StereoEdges& a, const StereoEdges& b, std::string& found) {
-  Difference("stereo_mutual", row, found)("left edge", a.left_index, b.left_index)(
-      "right edge", a.right_index, b.right_index)("left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)(
-      "left direction", a.left_direction, b.left_direction)("right x", a.right_x, b.right_x)(
-      "right y", a.right_y, b.right_y)("right direction", a.right_direction, b.right_direction)("NCC", a.ncc, b.ncc)(
-      "scale-space shift", a.left_scale_shift, b.left_scale_shift);
-}
-void compare(const char* stage, const char* row, const TemporalMatches& a, const TemporalMatches& b,
-             std::string& found) {
-  Difference(stage, row, found)("previous edge", a.previous, b.previous)("current edge", a.current, b.current)(
-      "left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)("right x", a.right_x, b.right_x)(
-      "right y", a.right_y, b.right_y)("NCC", a.ncc, b.ncc)("competing clusters", a.competing_clusters,
-                                                            b.competing_clusters);
-}
-
 }  // namespace
-
-SmallSequence small_sequence() {
-  SyntheticOptions scene;
-  scene.width = 113;  // no multiple of any work-group
-  scene.height = 71;
-  scene.focal = 0.575 * scene.width;
-  scene.baseline = 0.15;
-  scene.frames = 2;
-  const SyntheticSequence rendered(scene);
-  SmallSequence sequence;
-  sequence.rig = rendered.rig();
-  sequence.max_disparity = rendered.rig().max_disparity;
-  for (int i = 0; i < 2; ++i) {
-    sequence.left[i] = rendered.render(i, Side::left).image;
-    sequence.right[i] = rendered.render(i, Side::right).image;
-  }
-  return sequence;
-}
 
 std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& device,
                                       const std::map<std::string, std::string>& variants) {
@@ -295,112 +225,4 @@ std::string difference(const StageRows& found, const StageRows& expected, double
       found.rows.size(), expected.rows.size(), wrong, lacking, row[0], row[1], row[2], row[3], row[4]);
 }
 
-FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const StereoFrame& second,
-                            const Config& config) {
-  FrontendOutput output;
-  output.first = frontend.process(first);
-  const auto now = frontend.process(second);
-  output.previous = output.first->edges;
-  output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
-  if (!config.is_paper()) {  // which has this search only
-    output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
-    output.global_matches = frontend.match_globally(*output.first, config.temporal.global_edges);
-  }
-  output.left_edges = frontend.edges(Side::left);
-  output.right_edges = frontend.edges(Side::right);
-  output.current = now->edges;
-  return output;
-}
-
-std::string first_difference(const FrontendOutput& a, const FrontendOutput& b) {
-  std::string found;
-  compare("left edge", a.left_edges, b.left_edges, found);
-  compare("right edge", a.right_edges, b.right_edges, found);
-  compare("stereo edge of the first frame", a.previous, b.previous, found);
-  compare("stereo edge of the second frame", a.current, b.current, found);
-  compare("temporal_match", "quad of the coarse search", a.coarse, b.coarse, found);
-  compare("temporal_match", "quad", a.quads, b.quads, found);
-  compare("global_matching", "quad of the global search", a.global_matches, b.global_matches, found);
-  return found;
-}
-
 }  // namespace quadedge::frontend
-
-namespace quadedge {
-namespace {
-
-/// Compares kernels with their host signatures while it exists.
-class KernelCheck {
- public:
-  explicit KernelCheck(opencl::Context* context) : context_(context) {
-    if (context_ != nullptr) context_->check_kernels(true);
-  }
-  ~KernelCheck() {
-    if (context_ != nullptr) context_->check_kernels(false);
-  }
-  KernelCheck(const KernelCheck&) = delete;
-  KernelCheck& operator=(const KernelCheck&) = delete;
-
-  /// The faults found so far, to follow a sentence.
-  std::string text() const {
-    std::string text;
-    if (context_ == nullptr) return text;
-    for (const auto& fault : context_->kernel_faults()) text += "; " + fault;
-    return text;
-  }
-
- private:
-  opencl::Context* context_;
-};
-
-using Rows = std::vector<frontend::StageRows>;
-
-/// What the reference finds with the default method, computed once.
-const Rows& expected_rows() {
-  static const Rows rows = [] {
-    Device reference("reference");
-    return frontend::observe_stages(frontend::small_sequence(), reference, {});
-  }();
-  return rows;
-}
-
-/// \param observe the stages on a device \param expect what the reference finds
-SelfTestResult compare_stages(Device& device, const std::function<Rows(Device&)>& observe,
-                              const std::function<Rows()>& expect) {
-  constexpr double kAllowed = 0.02;  // fraction of the rows: different rounding changes decisions near a limit
-  const auto use = device.use();
-  const KernelCheck kernels(device.context());
-  if (device.context() != nullptr) {
-    // Checked first, because the frames are small, so that no stage has long loops.
-    const std::string difference = stages::long_loop_difference(*device.context());
-    if (!difference.empty()) return {"long_loop", difference + kernels.text()};
-  }
-  auto computed = std::async(std::launch::async, expect);  // while kernels are built
-  const Rows found = observe(device), expected = computed.get();
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const std::string difference = frontend::difference(found.at(i), expected[i], kAllowed);
-    if (!difference.empty()) return {expected[i].stage, difference + kernels.text()};
-  }
-  return {};
-}
-
-}  // namespace
-
-SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
-  return compare_stages(
-      device, [&](Device& on) { return frontend::observe_stages(frontend::small_sequence(), on, variants); },
-      expected_rows);
-}
-
-SelfTestResult self_test(Device& device, const Config& config) {
-  if (!config.is_paper()) return self_test(device, config.variants);
-  const auto sequence = frontend::small_sequence();
-  return compare_stages(
-      device, [&](Device& on) { return frontend::observe_paper_stages(sequence, on, config); },
-      [&] {
-        Device reference("reference");
-        return frontend::observe_paper_stages(sequence, reference, config);
-      });
-}
-
-}  // namespace quadedge

@@ -1,5 +1,5 @@
 /// \file reference_frontend.cpp  Calls the plain C++ twins of the kernels, stage by stage.
-#include "edges/reference_frontend.hpp"
+#include "oracle/reference_frontend.hpp"
 
 #include <numeric>
 #include <stdexcept>

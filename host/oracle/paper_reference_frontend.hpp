@@ -2,6 +2,7 @@
 /// \file paper_reference_frontend.hpp  The front end of the paper's method in plain C++ on all processors.
 
 #include "edges/paper_frontend.hpp"
+#include "paper/cascades.hpp"
 #include "reference/edge_detection.hpp"
 
 namespace quadedge::frontend {
@@ -26,6 +27,8 @@ class PaperReferenceFrontend : public PaperFrontend {
   void find_stereo_edges(FrameEdges& current, paper::StereoMatching* all) override;
   void find_quads(const FrameEdges& base, const FrameEdges& current, std::array<paper::SideMatching, 2>* all,
                   TemporalMatches& matches) override;
+  CandidateLists near_lines(const EpipolarGeometry& geometry) override;
+  CandidateLists near_previous(const FrameEdges& before, const FrameEdges& now, Side side) override;
   EdgeSet detect(const Image& image, const PixelMask& mask);
 
   reference::EdgeThreshold threshold_;
