@@ -2,6 +2,7 @@
 #include "motion/motion_evidence.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "edges/prediction.hpp"
 #include "motion/moving_cells.hpp"
@@ -83,6 +84,29 @@ double MotionEvidence::still_near_edges(const MotionStep& step) {
     (follows_[q] != 0 ? following : still) += 1;
   }
   return still > kStillNearEdges * following ? still : 0;
+}
+
+double MotionEvidence::still_beside(const MotionStep& still, const Eigen::Isometry3d& motion) {
+  const double close = kCloseAgreement * config_.pose.inlier_distance, turn = pose::kInlierOrientation;
+  const pose::ScoringArrays& quads = still.quads.scoring;
+  std::vector<std::uint8_t> is_exact;
+  select(still, motion, 2 * close, turn, follows_);
+  select(still, Eigen::Isometry3d::Identity(), close, turn, is_still_);
+  select(still, Eigen::Isometry3d::Identity(), kCloseAgreement * close, turn, is_exact);
+  double alone = 0, exact = 0;
+  Eigen::Array2d sum = Eigen::Array2d::Zero(), squares = Eigen::Array2d::Zero();
+  for (std::size_t q = 0; q < is_still_.size(); ++q) {
+    if (is_still_[q] == 0 || follows_[q] != 0) continue;
+    alone += 1;
+    if (is_exact[q] == 0) continue;
+    exact += 1;
+    const Eigen::Array2d place(quads.left_x[q] / rig_.left.width, quads.left_y[q] / rig_.left.height);
+    sum += place;
+    squares += place.square();
+  }
+  if (exact < config_.pose.min_inliers || exact < kExactStill * alone) return 0;
+  const double spread = std::sqrt((squares / exact - (sum / exact).square()).sum()), whole = std::sqrt(2.0 / 12);
+  return spread > kSurroundingSpread * whole ? exact / static_cast<double>(is_still_.size()) : 0;
 }
 
 ExplainedCells MotionEvidence::explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen,

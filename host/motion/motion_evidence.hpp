@@ -34,6 +34,11 @@ class MotionEvidence {
   /// \param chosen current_from_base, since the base of `other`
   ExplainedCells explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen, double distance) const;
 
+  /// Quads that standstill explains exactly and a motion does not, over all of them; 0 unless they lie on all sides and
+  /// most that standstill explains closely are exact, which they are not by chance.
+  /// \param still quads near standstill \param motion since their base
+  double still_beside(const MotionStep& still, const Eigen::Isometry3d& motion);
+
   /// Compares a motion since the global matches' base with them: sets global_ratio, agrees_globally and rival_ratio. It
   /// agrees if they follow it in at least as many image cells as an estimate needs inliers: a global match can lie
   /// anywhere, so that a wrong motion agrees with hardly any. Matches in the same cell count once, since their errors

@@ -121,6 +121,7 @@ void MotionSearch::check(const MotionQuery& query, StepHandle& handle) {
   found.is_checked = found.ok() && !query.only_near_prediction && record_.is_check_due(found.verdict);
   Ambiguity other_part;
   if (found.is_checked) other_part = search_free_cells(query, found);
+  if (found.is_checked && !other_part.exists()) other_part = search_still_edges(query, found);
   found.shows_other_part = other_part.exists();
   if (!other_part.exists() && query.accepts_ambiguous) other_part = record_.recent_other_part();
   decide(query.accepts_ambiguous, other_part, found.verdict);
@@ -288,8 +289,8 @@ bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_k
   return true;
 }
 
-/// Whether some of the base's edges, evenly chosen, support a motion near standstill at all.
-bool MotionSearch::may_stand_still(const MotionQuery& query) {
+/// Matches some of the base's edges, evenly chosen, around where they were.
+StepHandle MotionSearch::match_at_rest(const MotionQuery& query) {
   PoseConfig limits = config_.pose;
   limits.min_hypotheses = 0;
   limits.inlier_distance *= kCloseAgreement;
@@ -297,9 +298,15 @@ bool MotionSearch::may_stand_still(const MotionQuery& query) {
   frontend::predict_positions(fits_.calibration(query), query.base->edges, fits_.measured(*query.base, query), still,
                               config_.temporal.radius, kStillStep, search_);
   hide_masked(hidden_, search_);
-  const StepHandle step = fits_.new_step(query, query.base);
+  StepHandle step = fits_.new_step(query, query.base);
   frontend_.match(*query.base, *query.current, search_, step->matches);
   fits_.fit(query, limits, still, pose::RefinementGoal::pose, *step);
+  return step;
+}
+
+/// Whether these support a motion near standstill at all.
+bool MotionSearch::may_stand_still(const MotionQuery& query) {
+  const StepHandle step = match_at_rest(query);
   evidence_.judge(search_.left, kStillSupport * config_.temporal.min_support, *step);
   return step->ok();
 }
@@ -419,6 +426,13 @@ Ambiguity MotionSearch::search_free_cells(const MotionQuery& query, const Motion
   OtherPart other = compare_in_free_cells(query, chosen, *matches, *rest);
   other.is_rest = true;
   return ambiguity_of(other, record_.was_ambiguous());
+}
+
+/// Edges that stand still among those of an object that fills most of the image may be all that shows the scene.
+Ambiguity MotionSearch::search_still_edges(const MotionQuery& query, const MotionStep& chosen) {
+  const StepHandle still = match_at_rest(query);
+  const double ratio = evidence_.still_beside(*still, motion_since(query.base, query, chosen));
+  return ratio > kStillAround ? Ambiguity{AmbiguityKind::static_scene, ratio} : Ambiguity{};
 }
 
 OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen,

@@ -76,6 +76,7 @@ class MotionSearch : public MotionFinder {
   StepHandle propose(Hypothesis hypothesis, const MotionQuery& query, const Candidates& candidates);
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                      const Others& others);
+  StepHandle match_at_rest(const MotionQuery& query);
   bool may_stand_still(const MotionQuery& query);
   bool use_support_of_base(const MotionQuery& query, Candidate& by_key);
   StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
@@ -84,6 +85,7 @@ class MotionSearch : public MotionFinder {
   /// Completes the verdict on the motion chosen. Returns its index.
   std::size_t choose(const Candidates& candidates, const MotionQuery& query, std::vector<Verdict>& verdicts) const;
   Ambiguity search_free_cells(const MotionQuery& query, const MotionStep& chosen);
+  Ambiguity search_still_edges(const MotionQuery& query, const MotionStep& chosen);
   OtherPart compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen, const MotionStep& matches,
                                   const MotionStep& proposed);
 

@@ -248,7 +248,7 @@ std::vector<GeometryCase> make_cases() {
       add("moving camera, " + board(area, fine), Demand::right, {room, cables},
           boards_before_a_moving_camera(area, fine));
     add("moving camera, " + board(0.6, fine), reported, {room}, boards_before_a_moving_camera(0.6, fine));
-    for (const double area : {0.1, 0.2, 0.4, 0.6})
+    for (const double area : {0.1, 0.2, 0.4, 0.6, 0.75})
       for (const int speed : {2, 4, 8})
         add("still camera, " + board(area, fine) + ", " + std::to_string(speed) + " px",
             area < 0.5 ? Demand::right : reported, {room}, boards(area, speed, fine));
@@ -269,6 +269,8 @@ std::vector<GeometryCase> make_cases() {
       {"still camera, board over 40 %, mosaic, 4 px", 0},
       {"still camera, board over 60 %, 2 px", 2},
       {"still camera, board over 60 %, mosaic, 2 px", 4},
+      {"still camera, board over 75 %, 2 px", 9},
+      {"still camera, board over 75 %, mosaic, 2 px", 9},
   };
   for (const auto& [name, steps] : open)
     for (auto& row : cases)
