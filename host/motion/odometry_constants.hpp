@@ -99,9 +99,9 @@ constexpr double kStaticQuadRatio = 0.05;
 /// Near edges that only standstill fits well count as static if they are so many times those that only the motion fits.
 constexpr double kStillNearEdges = 2;
 
-/// Edges at rest on all sides of what moves may be all that shows the scene: the part of the edges found near standstill
-/// from which they count, and the part of those explained closely that are exact. Sound recordings reach 0.15 and 0.53,
-/// a scene behind a board over three quarters of the image 0.12 to 0.52 and 0.72 to 0.95.
+/// Edges at rest on all sides of what moves may be all that shows the scene: the part of the edges found near
+/// standstill from which they count, and of those explained closely the part that is exact. Sound recordings reach 0.15
+/// and 0.53, a scene behind a board over three quarters of the image 0.12 to 0.52 and 0.72 to 0.95.
 constexpr double kStillAround = 0.1, kExactStill = 0.65;
 
 /// The camera seems to stand still if more than the first fraction of the quads is static. If more than the second
