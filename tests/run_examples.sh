@@ -37,4 +37,6 @@ edges="$(wc -l <"$work/edges.csv")"
 echo "$edges rows in edges.csv"
 [ "$edges" -gt 1000 ] && [ "$edges" -eq "$(wc -l <"$work/expected.csv")" ]
 
-"$work/03_own_images"
+"$quadedge" check "$work/room" --kalibr "$work/camchain.yaml" --quiet
+"$work/03_own_images" "$work/camchain.yaml" | tee "$work/frames.txt"
+[ "$(grep -c '^tracked' "$work/frames.txt")" -eq 4 ] && [ "$(grep -c '^lost' "$work/frames.txt")" -eq 1 ]
