@@ -232,8 +232,9 @@ def headline(results):
                          "r_rel [deg/100 m]": spread(r_rel), "commit": row["commit"]})
         for index, error in enumerate(("t_rel", "r_rel")):
             ahead = min(("QuadEdge", best), key=lambda system: statistics.median(of[system][1][index]))
-            smaller.setdefault(SYSTEMS[ahead].split(",")[0], []).append(f"{error} on {WHOLE[name].split(',')[0]}")
-    ahead = "; ".join(f"{system} is ahead in {', '.join(errors)}" for system, errors in smaller.items())
+            smaller.setdefault((SYSTEMS[ahead].split(",")[0], error), []).append(WHOLE[name].split(",")[0])
+    ahead = "; ".join(f"{system} is ahead in {error} on {' and '.join(names)}"
+                      for (system, error), names in smaller.items())
     return listed(rows, f"With the calibration as given, {ahead}. Medians of {part['seeds']} runs, and their range, "
                         f"{part['date']}. Rows of different commits show different code.\n")
 
