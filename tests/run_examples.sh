@@ -20,7 +20,6 @@ cmake -S "$source" -B "$work" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
 cmake --build "$work"
 
 quadedge="$prefix/bin/quadedge"
-"$quadedge" --version
 "$quadedge" synth "$work/room" --scene room --frames 3 --size 320x200 --quiet
 
 "$work/01_track_recording" "$work/room" "$work/trajectory.txt"
@@ -34,7 +33,6 @@ image="$(find "$work/room/rgb" -name '*.png' | sort | head -n 1)"
 "$work/02_detect_edges" "$image" >"$work/edges.csv"
 "$quadedge" edges "$image" --device reference --edges.threshold 4 --csv "$work/expected.csv" --quiet
 edges="$(wc -l <"$work/edges.csv")"
-echo "$edges rows in edges.csv"
 [ "$edges" -gt 1000 ] && [ "$edges" -eq "$(wc -l <"$work/expected.csv")" ]
 
 "$quadedge" check "$work/room" --kalibr "$work/camchain.yaml" --quiet
