@@ -3,6 +3,7 @@
 
 #include "edge_images.hpp"
 #include "frontends.hpp"
+#include "quadedge/odometry.hpp"
 #include "rig/interlacing.hpp"
 #include "rig/rig_constants.hpp"
 #include "rig/rig_monitor.hpp"

@@ -110,8 +110,7 @@ void check_rig(const StereoRig& rig, const char* source);
 
 /// Lens models, which map viewing rays to the image. doc/your-own-data.md gives the sources of the equations.
 enum class LensModel {
-  radial_tangential,  ///< OpenCV: k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tau_x tau_y]]]]; no parameters: a pinhole
-                      ///< camera
+  radial_tangential,  ///< OpenCV: k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tau_x tau_y]]]]; none: a pinhole
   equidistant,        ///< Kannala-Brandt, OpenCV's fisheye model: k1 k2 k3 k4 of the angle from the optical axis
   field_of_view,      ///< Devernay and Faugeras: w [rad]
   double_sphere,      ///< Usenko et al.: xi alpha

@@ -36,8 +36,7 @@ struct Config {
 #define QUADEDGE_TOP_CONSTANT(type, name, value, low, high, unit, level, help, paper) type name = value;
 #define QUADEDGE_TOP_CHOICE(name, value, choices, level, help, paper) std::string name = value;
 #include "quadedge/constants.inc"
-  std::map<std::string, std::string>
-      variants;  ///< stage -> kernel variant; stages that are not listed use the default of the device
+  std::map<std::string, std::string> variants;  ///< stage -> kernel variant; of others, the default of the device
 
   /// Whether the steps are the paper's (doc/paper.md).
   bool is_paper() const { return method == "paper"; }

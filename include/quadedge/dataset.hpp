@@ -33,15 +33,13 @@ struct Dataset {
   StereoRig rig;
   std::optional<StereoCalibration> calibration;  ///< calibration that the rig was made from, if it describes lenses
   std::vector<FrameFiles> frames;                ///< for a video, its file names in every frame; empty for a pipe
-  std::shared_ptr<const PairStream>
-      stream;  ///< source of pairs that are not stored as separate image files; otherwise null
+  std::shared_ptr<const PairStream> stream;      ///< of pairs that are not stored as separate image files, or null
   /// Ground-truth poses of the left camera; empty if there is no ground truth. Used for evaluation only.
   Trajectory truth;
-  std::string truth_file;       ///< file that the ground truth was read from
-  std::string disparity_truth;  ///< file with the disparities of the left view; empty if there is none
-  double disparity_truth_scale =
-      1;                  ///< px of this image per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
-  bool restarts = false;  ///< whether stamps may go back, where StereoOdometry::restart() is due
+  std::string truth_file;             ///< file that the ground truth was read from
+  std::string disparity_truth;        ///< file with the disparities of the left view; empty if there is none
+  double disparity_truth_scale = 1;   ///< px per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
+  bool restarts = false;              ///< whether stamps may go back, where StereoOdometry::restart() is due
   std::vector<std::string> notes;     ///< remarks for the user: nominal calibration, assumed timestamps, skipped images
   std::vector<std::string> warnings;  ///< options that contradict the data
 };

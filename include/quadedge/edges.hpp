@@ -55,13 +55,11 @@ struct EdgeSet {
 
 /// Mutually best stereo edges, in the scan order of their left edges. doc/method.md section 3.
 struct StereoEdges {
-  std::vector<std::int32_t> left_index;  ///< index of the left edge
-  std::vector<std::int32_t>
-      right_index;  ///< index of the right edge that was refined; neighbours on one left curve may share it
-  std::vector<float> left_x, left_y, left_direction;  ///< the detected left edge [px, rad]
-  std::vector<float> right_x, right_y,
-      right_direction;                  ///< the refined right point, on its epipolar line by the calibration
-  std::vector<float> left_scale_shift;  ///< of the left edge, see EdgeSet; empty: unknown
+  std::vector<std::int32_t> left_index;   ///< index of the left edge
+  std::vector<std::int32_t> right_index;  ///< of the right edge refined; neighbours on one left curve may share it
+  std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge [px, rad]
+  std::vector<float> right_x, right_y, right_direction;  ///< the refined point, on its epipolar line as calibrated
+  std::vector<float> left_scale_shift;                   ///< of the left edge, see EdgeSet; empty: unknown
   std::vector<float> ncc;  ///< NCC of the refined pair: the mean of the edges' own patches and the better side
 
   EdgePositionsView positions(Side side) const {
@@ -79,10 +77,9 @@ struct TemporalMatches {
   std::vector<float> right_x, right_y;  ///< refined position in the current right image [px]
   /// Directions there [rad], of the clusters that the paper's method forms in time; empty: those of the current edge.
   std::vector<float> left_direction, right_direction;
-  std::vector<float> ncc;  ///< mean of the left and the right NCC
-  std::vector<std::int32_t>
-      competing_clusters;  ///< further clusters of the previous edge's candidates (0: unambiguous)
-  int search = -1;         ///< number of the temporal search that found them, see Tap; -1: none
+  std::vector<float> ncc;                        ///< mean of the left and the right NCC
+  std::vector<std::int32_t> competing_clusters;  ///< further ones of the previous edge's candidates
+  int search = -1;                               ///< number of the temporal search that found them, see Tap; -1: none
   /// Previous stereo edges with at least one candidate in the left / right image in that search, before the agreement.
   int alive_left = 0, alive_right = 0;
 

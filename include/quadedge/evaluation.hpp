@@ -65,9 +65,6 @@ struct TrajectoryEvaluation {
   std::vector<TrajectoryEvaluation> segments;
 };
 
-/// Largest difference of the timestamps of a pose and its ground truth [ns].
-constexpr std::int64_t kStampToleranceNs = 10'000'000;
-
 /// Compares an estimated trajectory with ground truth. Poses are matched by nearest timestamp within
 /// `max_stamp_difference_ns`, each at most once. `from_frame`: matched poses before this index of the ESTIMATE are
 /// ignored, and the origin alignment uses the first remaining pose. The errors of the whole include the unknown motions

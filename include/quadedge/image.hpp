@@ -94,6 +94,16 @@ struct StereoFrame {
   ImageView left_mask = {}, right_mask = {};
 };
 
+/// Two grey images of the same time, owned.
+struct StereoPair {
+  int number = 0;  ///< number of the pair in its stream, from 0
+  std::int64_t stamp_ns = 0;
+  Image left = {}, right = {};
+  Image left_mask = {}, right_mask = {};  ///< see StereoFrame; empty: none
+  /// Valid as long as the pair.
+  StereoFrame view() const { return {stamp_ns, left.view(), right.view(), left_mask.view(), right_mask.view()}; }
+};
+
 /// Decodes a PNG, JPEG, PGM or PPM at its full bit depth, as read_grey_image() does; colour images are converted to
 /// luminance. `name` identifies the image in error messages. \throws DataError for a truncated or undecodable image.
 Image decode_grey_image(std::string_view bytes, const std::string& name);

@@ -8,13 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "quadedge/camera.hpp"
-#include "quadedge/config.hpp"
-#include "quadedge/device.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/image.hpp"
 #include "quadedge/map.hpp"
-#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 

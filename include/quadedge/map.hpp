@@ -9,9 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "quadedge/camera.hpp"
 #include "quadedge/odometry.hpp"
-#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 

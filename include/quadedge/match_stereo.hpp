@@ -1,25 +1,15 @@
 #pragma once
-/// \file match_stereo.hpp  Edges of a single image or pair, and stereo edges as points with tangents in space.
+/// \file match_stereo.hpp  Stereo edges of a single pair, and stereo edges as points with tangents in space.
 
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
-#include "quadedge/camera.hpp"
-#include "quadedge/config.hpp"
-#include "quadedge/device.hpp"
-#include "quadedge/edges.hpp"
+#include "quadedge/detect_edges.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/image.hpp"
 #include "quadedge/point_cloud.hpp"
 
 namespace quadedge {
-
-/// Third-order edges of one pinhole image, computed on `device`; none within edges.margin of the pixels hidden by
-/// `mask`.
-/// \throws DeviceError; UsageError if there are more than edges.max_edges edges; DataError if the stride is smaller
-/// than a row.
-EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config = {}, const PixelMask& mask = {});
 
 /// One column per stereo edge, in the left camera frame at the time of the edges. NaN for edges without depth: those
 /// parallel to their epipolar line (within 4 degrees) or behind a camera.

@@ -15,9 +15,9 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/poses.hpp"
 #include "quadedge/rig_estimate.hpp"
 #include "quadedge/rig_evidence.hpp"
-#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 
@@ -37,9 +37,8 @@ inline bool is_tracked(FrameStatus status) { return status == FrameStatus::first
 struct FrameCounts {
   int edges_left = 0, edges_right = 0;
   int stereo_edges = 0;
-  int temporal_left = 0,
-      temporal_right = 0;  ///< previous stereo edges with at least one candidate in the left / right image
-  int quads = 0;           ///< with the keyframe, or with the previous frame if the keyframe is out of view
+  int temporal_left = 0, temporal_right = 0;  ///< previous stereo edges with a candidate in the left / right image
+  int quads = 0;  ///< with the keyframe, or with the previous frame if the keyframe is out of view
   int inliers = 0;
 };
 

@@ -1,23 +1,12 @@
 #pragma once
 /// \file pair_stream.hpp  Stereo pairs that are not stored as image files: from videos and pipes.
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "quadedge/image.hpp"
 
 namespace quadedge {
-
-/// Two grey images of the same time.
-struct StereoPair {
-  int number = 0;  ///< number of the pair in its stream, from 0
-  std::int64_t stamp_ns = 0;
-  Image left = {}, right = {};
-  Image left_mask = {}, right_mask = {};  ///< see StereoFrame; empty: none
-  /// Valid as long as the pair.
-  StereoFrame view() const { return {stamp_ns, left.view(), right.view(), left_mask.view(), right_mask.view()}; }
-};
 
 /// Reads pairs in order, each once. To be used by one thread, except for stop().
 class PairReader {

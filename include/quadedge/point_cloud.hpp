@@ -9,9 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "quadedge/camera.hpp"
-#include "quadedge/config.hpp"
-#include "quadedge/image.hpp"
 #include "quadedge/odometry.hpp"
 
 namespace quadedge {
@@ -19,9 +16,8 @@ namespace quadedge {
 /// A point on an edge in space.
 struct CloudPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3f tangent =
-      Eigen::Vector3f::UnitX();  ///< unit length; its sign encodes contrast as in EdgeSet::direction
-  float grey = 0;                ///< grey level of the image at the edge, 0 to 255
+  Eigen::Vector3f tangent = Eigen::Vector3f::UnitX();  ///< its sign encodes contrast as in EdgeSet::direction
+  float grey = 0;                                      ///< grey level of the image at the edge, 0 to 255
   /// Standard deviation of the position in its least certain direction, usually the depth, due to edge noise alone;
   /// errors of the camera poses add to it [m].
   float sigma = 0;

@@ -16,19 +16,16 @@ struct RigEvidence {
   // From patches around stereo edges, aligned in both image directions:
   double epipolar_residual = kUnknown;  ///< median distance from the line [px]
   double epipolar_offset = kUnknown;    ///< signed distance in the middle of the image [px]; the slopes below add to it
-  double epipolar_slope_x = kUnknown,
-         epipolar_slope_y = kUnknown;  ///< change over the width and height of the left image [px]
+  double epipolar_slope_x = kUnknown, epipolar_slope_y = kUnknown;  ///< change over the left image's width, height [px]
   int epipolar_samples = 0;
   double epipolar_correction = 0;  ///< largest distance from the lines that the stereo search allowed for [px]
 
   // From a wide search around the epipolar lines, which is done in some frames only:
-  double found_ratio =
-      kUnknown;  ///< fraction of the corners that are found in the right image and, from there, again in the left
+  double found_ratio = kUnknown;  ///< fraction of the corners found in the right image and, from there, in the left
   double searched_residual = kUnknown;  ///< median distance of the corners found from their epipolar lines [px]
-  double on_line_ratio =
-      kUnknown;  ///< fraction of the corners found with sub-pixel accuracy that lie within 1 px of their line
-  double negative_ratio = kUnknown;  ///< fraction of the unique corners with a disparity below -1 px
-  double beyond_ratio = kUnknown;    ///< fraction of the unique corners with one above the maximum + 1 px
+  double on_line_ratio = kUnknown;      ///< fraction of those found to sub-pixel accuracy within 1 px of their line
+  double negative_ratio = kUnknown;     ///< fraction of the unique corners with a disparity below -1 px
+  double beyond_ratio = kUnknown;       ///< fraction of the unique corners with one above the maximum + 1 px
   bool is_searched() const { return found_ratio == found_ratio; }
 };
 

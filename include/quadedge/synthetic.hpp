@@ -9,8 +9,6 @@
 #include "quadedge/calibration.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
-#include "quadedge/pair_stream.hpp"
-#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 

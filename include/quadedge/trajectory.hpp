@@ -1,22 +1,16 @@
 #pragma once
-/// \file trajectory.hpp  Trajectories, their files (TUM, KITTI), and the covariance of a pose.
+/// \file trajectory.hpp  Trajectories and their files (TUM, KITTI).
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "quadedge/poses.hpp"
+
 namespace quadedge {
 
-/// One pose of the left camera.
-struct StampedPose {
-  std::int64_t stamp_ns = 0;
-  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-  /// Poses of different segments are not connected by measurements, see FrameResult::segment.
-  int segment = 0;
-};
-using Trajectory = std::vector<StampedPose>;
+/// Largest difference of the timestamps of a pose and its ground truth [ns].
+constexpr std::int64_t kStampToleranceNs = 10'000'000;
 
 /// Checks that every pose is a rotation and a translation of finite numbers. `source`: what the poses are, for the
 /// message. \throws DataError
@@ -39,24 +33,5 @@ void write_kitti(const std::string& path, const Trajectory& trajectory);
 
 /// Reads TUM or KITTI format, according to the number of columns in the first data line (8 or 12).
 Trajectory read_trajectory(const std::string& path);
-
-/// Covariance of a camera pose in a fixed frame: (x, y, z [m], rotation about x, y, z [rad]), along and about the axes
-/// of the FIXED frame. The errors are position_estimate - position_true and the rotation vector of R_estimate R_true^T,
-/// where R rotates from the camera frame to the fixed frame.
-using PoseCovariance = Eigen::Matrix<double, 6, 6>;
-
-/// Calibration errors, which are common to all frames of a recording (doc/method.md section 7):
-///   0        relative error of the baseline length
-///   1, 2, 3  rotation of the left camera's optical frame about its x, y, z [rad]: principal point, image axes
-///   4        relative error of the focal length
-/// and residual lens distortion, per motion of the image [rad], which is path length x inverse depth + rotation:
-///   5, 6, 7  a rotation about x, y, z [rad]
-///   8, 9, 10 a translation along x, y, z, relative to the depth, per rotation only
-/// and, last, what was not known of the disparity offset when the motion was measured, in its standard deviations then.
-constexpr int kRigErrors = 12;
-
-/// Derivative of the error of a pose in a fixed frame, in the order and about the axes of PoseCovariance, with respect
-/// to each of these errors.
-using RigSensitivity = Eigen::Matrix<double, 6, kRigErrors>;
 
 }  // namespace quadedge

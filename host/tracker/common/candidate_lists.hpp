@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/layouts.hpp"
-#include "quadedge/tap.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge {
 

@@ -12,7 +12,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
-#include "quadedge/tap.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge {
 

@@ -7,7 +7,7 @@
 
 #include "common/filter_limits.hpp"
 #include "device/stage.hpp"
-#include "quadedge/tap.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::stages {
 

@@ -2,7 +2,7 @@
 #include "device/temporal_matching.hpp"
 
 #include "common/matching_constants.hpp"
-#include "quadedge/tap.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::stages {
 namespace {

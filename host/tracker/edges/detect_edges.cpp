@@ -1,11 +1,12 @@
 /// \file detect_edges.cpp  Threshold, maxima, mask and directions of one image, on the host or on the device.
+#include "quadedge/detect_edges.hpp"
+
 #include "common/images.hpp"
 #include "device/edge_detection.hpp"
 #include "device/grid_edges.hpp"
 #include "device/images.hpp"
 #include "device/oracle.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/match_stereo.hpp"
 
 namespace quadedge {
 

@@ -14,7 +14,6 @@
 #include "quadedge/device.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
 
 namespace quadedge::frontend {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "quadedge/config.hpp"
-#include "quadedge/trajectory.hpp"
+#include "quadedge/poses.hpp"
 
 namespace quadedge::pose {
 

@@ -7,7 +7,7 @@
 
 #include "geometry/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
-#include "quadedge/trajectory.hpp"
+#include "quadedge/poses.hpp"
 
 namespace quadedge::places {
 

@@ -9,7 +9,7 @@
 #include "data/text.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/evaluation.hpp"
+#include "quadedge/trajectory.hpp"
 
 namespace quadedge {
 namespace data {

@@ -9,7 +9,7 @@
 #include "common/filter_limits.hpp"
 #include "common/layouts.hpp"
 #include "quadedge/edges.hpp"
-#include "quadedge/tap.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::reference {
 
