@@ -7,26 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/oriented_point.hpp"
 #include "motion/quads.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::paper {
-
-// Proposition 1: the motions compatible with one quad (paper section 4, Equations 4 to 7).
-
-/// The shortest rotation from unit vector `from` to unit vector `to` (Equation 6), accurate up to and including to =
-/// -from, for which it is a half turn about some axis orthogonal to `from`.
-Eigen::Matrix3d align(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
-
-/// One member of the family of motions that map `previous` to `current`, both points (metres) and unit tangents:
-///   R(theta) = Rot(current.tangent, theta) align(previous.tangent, current.tangent),
-///   T(theta) = Gamma_bar - R(theta) Gamma.
-/// The translation uses the points; the tangents printed in Equation 7 cannot determine one. \param theta [rad]
-/// \returns current_from_previous, left cameras
-Eigen::Isometry3d motion_of_one_quad(const pose::OrientedPoint& previous, const pose::OrientedPoint& current,
-                                     double theta);
 
 /// Proposition 2 as printed: the rotation of solve_two_quads(), the translation from the first point.
 /// \returns current_from_previous; nothing for a pair that Equation 9 excludes
