@@ -9,13 +9,14 @@ CHECKED = "31341f0a"
 
 
 def changed_since_release(repository: Path) -> set[Path] | None:
-    """The files that differ from CHECKED; None where the history does not reach it, as in a source archive."""
-    calls = [["diff", "--name-only", CHECKED, "--"], ["ls-files", "--others", "--exclude-standard"]]
+    """The files that differ from CHECKED, but for moved ones; None where the history lacks it, as a source archive."""
+    calls = [["diff", "--name-status", "-M100%", CHECKED, "--"], ["ls-files", "--others", "--exclude-standard"]]
     results = [subprocess.run(["git", "-C", repository, *call], capture_output=True, text=True, check=False)
                for call in calls]
     if any(result.returncode for result in results):
         return None
-    return {repository / name for result in results for name in result.stdout.splitlines()}
+    return {repository / line.split("\t")[-1] for result in results for line in result.stdout.splitlines()
+            if not line.startswith("R100")}
 
 
 def included_by(source: Path, repository: Path) -> set[Path]:
