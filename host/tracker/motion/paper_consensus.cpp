@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common/parallel.hpp"
+#include "motion/pair_search.hpp"
 #include "motion/pose_constants.hpp"
-#include "motion/sampling_order.hpp"
 #include "motion/two_quads.hpp"
 
 namespace quadedge::paper {
@@ -34,13 +34,7 @@ std::optional<Eigen::Isometry3d> motion_of_two_quads(const pose::QuadObservation
   static const pose::ConstraintLimits limits;
   pose::OrientedPair before{quads.previous[first].oriented_point(), quads.previous[second].oriented_point()};
   pose::OrientedPair after{quads.current[first].oriented_point(), quads.current[second].oriented_point()};
-  const pose::ConstraintCheck check = pose::check_constraints(before, after, limits);
-  if (!check.all()) return std::nullopt;
-  if (check.swapped) {
-    std::swap(before.first, before.second);
-    std::swap(after.first, after.second);
-  }
-  auto motion = pose::solve_two_quads(before, after, limits.max_cosine);
+  auto motion = pose::solve_constrained(before, after, limits);
   if (motion) motion->translation() = after.first.point - motion->linear() * before.first.point;
   return motion;
 }
@@ -77,21 +71,20 @@ PaperConsensus find_paper_consensus(const pose::QuadObservations& quads, const P
   std::mt19937_64 random(seed);
   std::vector<std::uint8_t> inlier;
   int needed = kMostHypotheses;
-  while (pool >= 2 && best.draws < config.max_draws && best.hypotheses < needed) {
-    ++best.draws;
-    const std::size_t a = pose::random_index(random, pool);
-    std::size_t b = pose::random_index(random, pool - 1);
-    if (b >= a) ++b;
-    const auto motion = motion_of_two_quads(quads, order[a], order[b]);
-    if (!motion) continue;
-    ++best.hypotheses;
-    const int inliers = find_inliers(quads, left, *motion, config.inlier_distance, inlier);
-    if (best.current_from_previous && inliers <= best.inliers) continue;
-    best.current_from_previous = motion;
-    best.inliers = inliers;
-    std::swap(best.inlier, inlier);
-    needed = hypotheses_needed(static_cast<double>(inliers) / static_cast<double>(quads.size()), config);
-  }
+  std::vector<pose::PairSample> drawn;
+  pose::try_pairs(
+      random, best.draws, drawn, [&](int) { return pool; },
+      [&](std::size_t a, std::size_t b, std::size_t) { return motion_of_two_quads(quads, order[a], order[b]); },
+      [&] { return pool < 2 || best.draws >= config.max_draws || best.hypotheses >= needed; },
+      [&](const Eigen::Isometry3d& motion) {
+        ++best.hypotheses;
+        const int inliers = find_inliers(quads, left, motion, config.inlier_distance, inlier);
+        if (best.current_from_previous && inliers <= best.inliers) return;
+        best.current_from_previous = motion;
+        best.inliers = inliers;
+        std::swap(best.inlier, inlier);
+        needed = hypotheses_needed(static_cast<double>(inliers) / static_cast<double>(quads.size()), config);
+      });
   return best;
 }
 

@@ -5,23 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <tbb/parallel_for.h>
 #include <utility>
-#include <vector>
 
-#include "motion/pose_constants.hpp"
-#include "motion/sampling_order.hpp"
-#include "motion/scoring.hpp"
 #include "motion/two_quads.hpp"
 
 namespace quadedge::pose {
 
 namespace {
-
-/// Pairs that are drawn one by one, which most searches do not exceed; then so many are solved together, in parallel
-/// by blocks.
-constexpr int kDrawsAlone = 256;
-constexpr std::size_t kDrawsTogether = 256, kDrawsPerBlock = 16;
 
 /// Indices of the non-zero bytes, ascending.
 void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_t>& rows) {
@@ -76,43 +66,17 @@ class Search {
     const double useful =
         std::max<double>(kMaxHypotheses, std::min(kDrawsPerPair * pairs, kDrawsForConsensus / (fewest * fewest)));
     const int max_draws = useful < config_.max_draws ? static_cast<int>(useful) : config_.max_draws;
-    const auto draw = [&](int number) -> PairSample {
-      const double pool_size = std::min(first_pool + growth * number, static_cast<double>(order.size()));
-      const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
-      order.sort_first(pool);
-      const std::size_t a = random_index(random_, pool);
-      std::size_t b = random_index(random_, pool - 1);
-      if (b >= a) ++b;
-      return {order[a], order[b], std::nullopt};
-    };
-    const auto is_done = [&] {
-      return best_.draws >= max_draws || best_.hypotheses >= std::min(needed_, kMaxHypotheses);
-    };
-    while (!is_done()) {
-      work_.drawn.clear();
-      const std::size_t together = best_.draws < kDrawsAlone ? 1 : kDrawsTogether;
-      while (work_.drawn.size() < together)
-        work_.drawn.push_back(draw(best_.draws + static_cast<int>(work_.drawn.size())));
-      solve_drawn();
-      for (std::size_t i = 0; i < together && !is_done(); ++i) {
-        ++best_.draws;
-        if (work_.drawn[i].motion) consider(*work_.drawn[i].motion);
-      }
-    }
-  }
-
-  /// Solves all pairs that are drawn, also those behind the end of the search: where the search ends does not depend on
-  /// how many are solved together.
-  void solve_drawn() {
-    const std::size_t blocks = (work_.drawn.size() + kDrawsPerBlock - 1) / kDrawsPerBlock;
-    if (work_.pairs.size() < blocks) work_.pairs.resize(blocks);
-    const auto solve_block = [&](std::size_t block) {
-      const std::size_t end = std::min(work_.drawn.size(), (block + 1) * kDrawsPerBlock);
-      for (std::size_t i = block * kDrawsPerBlock; i < end; ++i)
-        work_.drawn[i].motion = solve(work_.drawn[i].first, work_.drawn[i].second, work_.pairs[block]);
-    };
-    if (blocks == 1) return solve_block(0);
-    tbb::parallel_for(std::size_t{0}, blocks, solve_block);
+    try_pairs(
+        random_, best_.draws, work_.drawn,
+        [&](int number) {
+          const double pool_size = std::min(first_pool + growth * number, static_cast<double>(order.size()));
+          const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
+          order.sort_first(pool);
+          return pool;
+        },
+        [&](std::size_t a, std::size_t b, std::size_t block) { return solve(order[a], order[b], work_.pairs[block]); },
+        [&] { return best_.draws >= max_draws || best_.hypotheses >= std::min(needed_, kMaxHypotheses); },
+        [&](const Eigen::Isometry3d& motion) { consider(motion); });
   }
 
   std::optional<Eigen::Isometry3d> solve(std::size_t a, std::size_t b, PairWorkspace& work) const {
@@ -121,13 +85,7 @@ class Search {
     if (dx * dx + dy * dy < min_distance_squared_) return std::nullopt;
     OrientedPair before{quads_.previous[a].oriented_point(), quads_.previous[b].oriented_point()};
     OrientedPair after{quads_.current[a].oriented_point(), quads_.current[b].oriented_point()};
-    const ConstraintCheck check = check_constraints(before, after, limits_);
-    if (!check.all()) return std::nullopt;
-    if (check.swapped) {
-      std::swap(before.first, before.second);
-      std::swap(after.first, after.second);
-    }
-    auto motion = solve_two_quads(before, after, limits_.max_cosine);
+    const auto motion = solve_constrained(before, after, limits_);
     if (!motion || config_.local_optimisation_rounds == 0) return motion;
     work.terms[0] = make_sample_term(quads_, a, noise_, rig_.left);
     work.terms[1] = make_sample_term(quads_, b, noise_, rig_.left);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "motion/pair_search.hpp"
 #include "motion/pose_constants.hpp"
 #include "motion/sample_fit.hpp"
-#include "motion/sampling_order.hpp"
 #include "motion/scoring.hpp"
 
 namespace quadedge::pose {
@@ -21,12 +21,6 @@ struct Consensus {
   double cost = 1;                                                          ///< truncated_cost() over the scored quads
   int hypotheses = 0;  ///< motions scored, including an initial hypothesis
   int draws = 0;       ///< pairs drawn, including rejected ones
-};
-
-/// Two quads that were drawn, and the motion that they give, if they give one.
-struct PairSample {
-  std::size_t first, second;
-  std::optional<Eigen::Isometry3d> motion;
 };
 
 /// Buffers of the fit of one pair.
@@ -43,7 +37,7 @@ struct ConsensusWorkspace {
   ScoringArrays scored, preview;
   std::vector<SampleTerm> preview_terms;
   std::vector<PairSample> drawn;
-  std::vector<PairWorkspace> pairs;
+  std::vector<PairWorkspace> pairs = std::vector<PairWorkspace>(kDrawsTogether / kDrawsPerBlock);
   std::vector<std::int32_t> inlier_rows;
   std::vector<std::uint8_t> mask;
   SampleWorkspace fit;

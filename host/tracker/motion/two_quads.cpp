@@ -2,6 +2,7 @@
 #include "motion/two_quads.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "motion/pose_constants.hpp"
 
@@ -71,6 +72,15 @@ std::optional<Eigen::Isometry3d> solve_two_quads(const OrientedPair& previous, c
       0.5 * (current.first.point + current.second.point -
              current_from_previous.linear() * (previous.first.point + previous.second.point));
   return current_from_previous;
+}
+
+std::optional<Eigen::Isometry3d> solve_constrained(OrientedPair& previous, OrientedPair& current,
+                                                   const ConstraintLimits& limits) {
+  const ConstraintCheck check = check_constraints(previous, current, limits);
+  if (!check.all()) return std::nullopt;
+  if (check.swapped)
+    for (OrientedPair* pair : {&previous, &current}) std::swap(pair->first, pair->second);
+  return solve_two_quads(previous, current, limits.max_cosine);
 }
 
 }  // namespace quadedge::pose

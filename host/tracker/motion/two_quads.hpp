@@ -50,4 +50,8 @@ ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPa
 std::optional<Eigen::Isometry3d> solve_two_quads(const OrientedPair& previous, const OrientedPair& current,
                                                  double max_cosine);
 
+/// The motion of two pairs that pass all six constraints. Swaps the quads if they hold only in the other roles.
+std::optional<Eigen::Isometry3d> solve_constrained(OrientedPair& previous, OrientedPair& current,
+                                                   const ConstraintLimits& limits);
+
 }  // namespace quadedge::pose
