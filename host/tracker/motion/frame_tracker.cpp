@@ -19,16 +19,15 @@
 namespace quadedge::odometry {
 namespace {
 
-/// Milliseconds since the previous lap.
-class StageClock {
+/// Adds what passes until its end to a duration [ms].
+class Stopwatch {
  public:
-  double lap() {
-    const auto start = std::exchange(last_, Clock::now());
-    return std::chrono::duration<double, std::milli>(last_ - start).count();
-  }
+  explicit Stopwatch(double& ms) : ms_(ms) {}
+  ~Stopwatch() { ms_ += milliseconds_since(start_); }
 
  private:
-  Clock::time_point last_ = Clock::now();
+  double& ms_;
+  Clock::time_point start_ = Clock::now();
 };
 
 FrameStatus lost_status(Refusal refusal) {
@@ -55,6 +54,48 @@ FrameTracker::FrameTracker(const StereoRig& rig, Device& device, const Config& c
       motion_search_(make_search(config, preparation_.frontend(), rig_)) {}
 
 FrameResult FrameTracker::track(const StereoFrame& frame) {
+  check(frame);
+  FrameResult result;
+  const auto start = Clock::now();
+  edges_ms_ = search_ms_ = conclusion_ms_ = 0;
+  follow(frame, result);
+  result.timing.latency_ms = milliseconds_since(start);
+  const double pose_ms = motion_search_->take_pose_ms();
+  result.timing.stages = {{kStereoStage, edges_ms_}};
+  if (step_) {
+    result.timing.stages.push_back({kTemporalStage, search_ms_ - pose_ms});
+    result.timing.stages.push_back({kPoseStage, conclusion_ms_ + pose_ms});
+  }
+  if (device_.context() != nullptr && device_.context()->profiling())
+    for (const auto& row : device_.context()->take_profile())
+      result.timing.kernels.push_back({row.stage, row.kernel_ms});
+  return result;
+}
+
+/// The way of a frame: its edges; its motion, searched for while the images are checked; its pose, or why it is lost;
+/// what the next frame starts from.
+void FrameTracker::follow(const StereoFrame& frame, FrameResult& result) {
+  process(frame, result);
+  rig::RigReport report;
+  StepHandle found = search_and_judge(frame, report);
+  result.diagnostics.rig_evidence = report.evidence;
+  for (const auto& finding : report.findings)
+    if (finding.warning.kind == WarningKind::repeated_images) add_message(finding.warning.text, result);
+  if (const auto fault = preparation_.fault(report))
+    lose(fault->status, fault->text, result);
+  else if (!state_.has_started())
+    start(result);
+  else
+    conclude(std::move(found), result);
+  if (result.world_from_left) preparation_.adopt(report, std::exchange(current_from_last_, std::nullopt));
+  if (report.new_mask) hide(*report.new_mask);
+  result.segment = state_.segment;
+  state_.world_from_last = result.pose_or_prediction();
+  result.warnings = preparation_.new_warnings();
+}
+
+/// \throws DataError if the frame does not fit the rig, or goes back in time
+void FrameTracker::check(const StereoFrame& frame) {
   preparation_.check(frame);
   if (last_stamp_ns_ && frame.stamp_ns < *last_stamp_ns_) {
     throw DataError("timestamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
@@ -62,48 +103,6 @@ FrameResult FrameTracker::track(const StereoFrame& frame) {
   }
   since_last_.ns = last_stamp_ns_ ? frame.stamp_ns - *last_stamp_ns_ : 0;
   last_stamp_ns_ = frame.stamp_ns;
-  StageClock latency, clock;
-  FrameResult result;
-  result.stamp_ns = frame.stamp_ns;
-
-  process(frame, result);
-  // The images are checked on a processor that the search leaves idle. An error in the search waits for the check.
-  rig::RigReport rig_report;
-  tbb::task_group beside;
-  beside.run([&] { rig_report = preparation_.judge(frame); });
-  double stereo_ms = clock.lap();
-  StepHandle found = preparation_.has_enough_edges() && state_.has_started() ? search() : nullptr;
-  const double search_ms = clock.lap(), pose_ms = motion_search_->take_pose_ms();
-  beside.wait();
-  stereo_ms += clock.lap();
-  result.timing.stages.push_back({kStereoStage, stereo_ms});
-  result.diagnostics.rig_evidence = rig_report.evidence;
-  for (const auto& finding : rig_report.findings)
-    if (finding.warning.kind == WarningKind::repeated_images) add_message(finding.warning.text, result);
-  if (const auto fault = preparation_.fault(rig_report)) {
-    lose(fault->status, fault->text, result);
-  } else if (!state_.has_started()) {
-    start(result);
-  } else {
-    adopt(std::move(found), result);
-    result.timing.stages.push_back({kTemporalStage, search_ms - pose_ms});
-    if (step_->ok())
-      locate(*step_, result);
-    else
-      lose(lost_status(step_->verdict.refusal), refusal_text(step_->verdict), result);
-    result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
-  }
-  if (result.world_from_left) preparation_.adopt(rig_report, std::exchange(current_from_last_, std::nullopt));
-  if (rig_report.new_mask) hide(*rig_report.new_mask);
-  result.segment = state_.segment;
-  state_.world_from_last = result.pose_or_prediction();
-  result.warnings = preparation_.new_warnings();
-  result.timing.latency_ms = latency.lap();
-  if (device_.context() != nullptr && device_.context()->profiling()) {
-    for (const auto& row : device_.context()->take_profile())
-      result.timing.kernels.push_back({row.stage, row.kernel_ms});
-  }
-  return result;
 }
 
 void FrameTracker::restart() {
@@ -125,6 +124,8 @@ void FrameTracker::restart() {
 
 /// Turns the images into the current frame's edges.
 void FrameTracker::process(const StereoFrame& frame, FrameResult& result) {
+  const Stopwatch watch(edges_ms_);
+  result.stamp_ns = frame.stamp_ns;
   step_ = nullptr;
   current_ = nullptr;
   current_ = preparation_.process(frame, learned_.estimate());
@@ -167,9 +168,20 @@ void FrameTracker::start(FrameResult& result) {
   state_.set_key(current_, {*result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
+/// The images are checked on a processor that the search leaves idle. An error in the search waits for the check.
+StepHandle FrameTracker::search_and_judge(const StereoFrame& frame, rig::RigReport& report) {
+  tbb::task_group beside;
+  beside.run([&] { report = preparation_.judge(frame); });
+  StepHandle found = preparation_.has_enough_edges() && state_.has_started() ? search() : nullptr;
+  const Stopwatch watch(edges_ms_);
+  beside.wait();
+  return found;
+}
+
 /// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
 /// the motion since the lost frame is tried.
 StepHandle FrameTracker::search() {
+  const Stopwatch watch(search_ms_);
   MotionQuery query;
   query.current = current_;
   query.rig = current_->rig();
@@ -221,14 +233,17 @@ StepHandle FrameTracker::search_earlier(MotionQuery query) {
 }
 
 /// Takes over the result of the search. If the motion was found from a lost frame, a segment starts.
-void FrameTracker::adopt(StepHandle found, FrameResult& result) {
+void FrameTracker::conclude(StepHandle found, FrameResult& result) {
+  const Stopwatch watch(conclusion_ms_);
   step_ = std::move(found);
   motion_search_->remember(*step_);
   if (state_.lost && step_->base == state_.lost->frame_edges) start_segment(result);
-  if (step_->ok()) return_to_earlier(result);
   result.counts.temporal_left = step_->matches.alive_left;
   result.counts.temporal_right = step_->matches.alive_right;
   result.counts.quads = static_cast<int>(step_->matches.size());
+  if (!step_->ok()) return lose(lost_status(step_->verdict.refusal), refusal_text(step_->verdict), result);
+  return_to_earlier(result);
+  locate(*step_, result);
 }
 
 /// If the motion was found from an earlier keyframe, makes that the keyframe again. Nothing is known of the velocity.

@@ -39,12 +39,15 @@ class FrameTracker {
   frontend::Frontend& frontend() const { return preparation_.frontend(); }
 
  private:
+  void check(const StereoFrame& frame);
+  void follow(const StereoFrame& frame, FrameResult& result);
   void process(const StereoFrame& frame, FrameResult& result);
   void hide(const PixelMask& left);
   void start(FrameResult& result);
+  StepHandle search_and_judge(const StereoFrame& frame, rig::RigReport& report);
   StepHandle search();
   StepHandle search_earlier(MotionQuery query);
-  void adopt(StepHandle found, FrameResult& result);
+  void conclude(StepHandle found, FrameResult& result);
   void return_to_earlier(FrameResult& result);
   void start_segment(FrameResult& result);
   Eigen::Matrix<double, 6, 1> offset_sensitivity(const MotionStep& step) const;
@@ -56,7 +59,8 @@ class FrameTracker {
                bool keeps);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
 
-  StereoRig rig_;  ///< the cameras in which edges are detected
+  double edges_ms_ = 0, search_ms_ = 0, conclusion_ms_ = 0;  ///< parts of the way of the current frame
+  StereoRig rig_;                                            ///< the cameras in which edges are detected
   Device& device_;
   Config config_;
   FramePreparation preparation_;

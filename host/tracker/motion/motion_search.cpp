@@ -14,25 +14,27 @@
 namespace quadedge::odometry {
 namespace {
 
+/// Leaves an edge out.
+void hide(std::size_t i, TemporalSearch& search) {
+  search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = std::numeric_limits<float>::quiet_NaN();
+}
+
 /// Leaves out the edges that are predicted where another motion explains the image.
 void hide_explained(const ExplainedCells& other, TemporalSearch& search) {
-  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 0; i < search.left.size(); ++i) {
     const ExplainedCell* cell = other.at(search.left.x[i], search.left.y[i]);
-    if (cell != nullptr && cell->is_free()) continue;
-    search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+    if (cell == nullptr || !cell->is_free()) hide(i, search);
   }
 }
 
 /// Leaves out the edges that are predicted in masked pixels.
 void hide_masked(const PixelMask& hidden, TemporalSearch& search) {
-  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   if (hidden.empty()) return;
   for (std::size_t i = 0; i < search.left.size(); ++i) {
     const float x = search.left.x[i], y = search.left.y[i];
     if (!(x >= 0 && x < static_cast<float>(hidden.width) && y >= 0 && y < static_cast<float>(hidden.height))) continue;
     if (hidden.hidden[static_cast<std::size_t>(static_cast<int>(y) * hidden.width + static_cast<int>(x))] != 0)
-      search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+      hide(i, search);
   }
 }
 
@@ -62,14 +64,15 @@ bool MotionSearch::advance(State& state) {
     check(query, state.found);
     return true;
   }
-  const std::vector<Hypothesis>& hypotheses = hypotheses_at(state.level_);
-  while (state.next_ < hypotheses.size()) {
-    const Hypothesis hypothesis = hypotheses[state.next_++];
-    if (hypothesis == Hypothesis::near_prediction)
+  while (state.next_ < std::size(kTrials)) {
+    const Trial& trial = kTrials[state.next_++];
+    const bool has_global = config_.temporal.global_edges > 0;
+    if (trial.level > state.level_ || trial.with_global.value_or(has_global) != has_global) continue;
+    if (trial.hypothesis == Hypothesis::near_prediction)
       try_prediction(state.query, candidates);
     else
-      attempt(hypothesis, query, candidates);
-    if (hypothesis == Hypothesis::global_matches) return false;
+      attempt(trial.hypothesis, query, candidates);
+    if (trial.hypothesis == Hypothesis::global_matches) return false;
   }
   std::vector<Verdict> verdicts = verdicts_on(candidates, query);
   std::size_t chosen = verdicts.empty() ? 0 : choose(candidates, query, verdicts);
@@ -196,19 +199,6 @@ bool MotionSearch::follow_displacement(const MotionStep& near_prediction, Motion
   query.rig.displacement = jump->shift;
   query.rig.displacement_sigma = std::hypot(jump->sigma, rig::kJumpSigma, step.base->rig().displacement_sigma);
   return true;
-}
-
-/// The hypotheses of a level, in an order in which each has what it builds on.
-const std::vector<MotionSearch::Hypothesis>& MotionSearch::hypotheses_at(SearchLevel level) const {
-  using H = Hypothesis;
-  static const std::vector<H> near = {H::near_prediction};
-  static const std::vector<H> within_radius = {H::still_camera, H::large_radius, H::rest_of_confirmed};
-  static const std::vector<H> beside = {H::still_camera, H::rest_of_confirmed};
-  static const std::vector<H> all = {H::still_camera, H::global_matches, H::rest_of_global_matches,
-                                     H::rest_of_confirmed};
-  if (level == SearchLevel::prediction) return near;
-  if (config_.temporal.global_edges == 0) return within_radius;
-  return level == SearchLevel::everything ? all : beside;
 }
 
 /// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would

@@ -1,6 +1,7 @@
 #pragma once
 /// \file motion_search.hpp  Finds the motion of the current stereo edges since an earlier frame.
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,19 @@ class MotionSearch : public MotionFinder {
     large_radius,
     rest_of_confirmed
   };
+  /// What is tried from a level on, if it needs global matches, or is their substitute, only with or without them.
+  struct Trial {
+    Hypothesis hypothesis;
+    SearchLevel level;
+    std::optional<bool> with_global;
+  };
+  /// In an order in which each has what it builds on.
+  static constexpr Trial kTrials[] = {{Hypothesis::near_prediction, SearchLevel::prediction, {}},
+                                      {Hypothesis::still_camera, SearchLevel::inexpensive, {}},
+                                      {Hypothesis::large_radius, SearchLevel::inexpensive, false},
+                                      {Hypothesis::global_matches, SearchLevel::everything, true},
+                                      {Hypothesis::rest_of_global_matches, SearchLevel::everything, true},
+                                      {Hypothesis::rest_of_confirmed, SearchLevel::inexpensive, {}}};
   /// A motion that was proposed, and the result of the confirmation.
   struct Candidate {
     Hypothesis hypothesis;
@@ -69,7 +83,6 @@ class MotionSearch : public MotionFinder {
   static bool is_close_to_another(Hypothesis hypothesis);
   void try_prediction(MotionQuery& query, Candidates& candidates);
   bool follow_displacement(const MotionStep& near_prediction, MotionQuery& query);
-  const std::vector<Hypothesis>& hypotheses_at(SearchLevel level) const;
   void check(const MotionQuery& query, StepHandle& found);
   Ambiguity try_periods(const MotionQuery& query, StepHandle& found);
   void attempt(Hypothesis hypothesis, const MotionQuery& query, Candidates& candidates);
@@ -111,7 +124,7 @@ struct MotionSearch::State {
   friend class MotionSearch;
   Candidates candidates_;
   SearchLevel level_ = SearchLevel::prediction;
-  std::size_t next_ = 0;  ///< hypothesis of the level
+  std::size_t next_ = 0;  ///< number of a trial
 };
 
 }  // namespace quadedge::odometry
