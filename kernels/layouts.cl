@@ -3,13 +3,20 @@
 // kLikeThis.
 //
 // Structures are passed to kernels by value. Their fields are int, float, arrays or structures of these: all of 4
-// bytes, so that no compiler inserts padding. tests/test_layouts.cpp compares them on every device, field by
-// field.
+// bytes, so that no compiler inserts padding. tests/test_layouts.cpp compares their fields on every device.
 
+// STRUCTURE(NAME) {...}; defines a structure, of which the host also gets the name as that of an argument's type.
 #ifdef __cplusplus
 #define FLOAT_CONSTANT constexpr float
+#define STRUCTURE(NAME)                                              \
+  struct NAME;                                                       \
+  constexpr const char* argument_type(const NAME*) { return #NAME; } \
+  struct NAME
 #else
 #define FLOAT_CONSTANT constant float
+#define STRUCTURE(NAME)     \
+  typedef struct NAME NAME; \
+  struct NAME
 #endif
 
 // Side patches of an edge (patches.cl): rows of 16 bytes, 8 of the dark and 8 of the bright patch, the last of each
@@ -85,22 +92,20 @@ FLOAT_CONSTANT kBehindAll = 3.0f;
 
 // Positions of edges packed in one buffer of floats: of edge i, x [px] stands at first + i, y at first + stride + i and
 // direction [rad] at first + 2 stride + i.
-typedef struct {
-  int first, stride, count;
-} PackedPositions;
+STRUCTURE(PackedPositions) { int first, stride, count; };
 
 // A point index (point_index.cl): its points in the order of the index, and its cells.
-typedef struct {
+STRUCTURE(PackedPointIndex) {
   PackedPositions points;
   int columns, rows;  // cells
-} PackedPointIndex;
+};
 
 // The rig and the limits of the search in single precision, as kernels and reference use them.
 //
 // A left pixel p seen at depth Z projects to h + t / Z (homogeneous), h = K_R R0 K_L^-1 (p, 1), t = K_R T0: its
 // epipolar line starts at the point of infinite depth and runs towards nearer points. Positions on the line are
 // measured by s, pixels from the point at infinity; on a rectified rig s is the disparity.
-typedef struct {
+STRUCTURE(EpipolarGeometry) {
   float h[9];               // K_R R0 K_L^-1, row-major; rolled by the rectification error that the search follows
   float t[3];               // K_R T0
   float across[6];          // that error: px towards (ey, -ex) for 1, x, y, xx, xy, yy of the right pixel
@@ -111,15 +116,15 @@ typedef struct {
   float epipolar_distance;  // px
   float orientation;        // rad, modulo half a turn
   float min_epipolar_sine;  // sine of the smallest angle between an edge and its left epipolar line
-} EpipolarGeometry;
+};
 
 // Gauss-Newton on the position of a patch (photometric.cl).
-typedef struct {
+STRUCTURE(AlignmentSettings) {
   int steps;
   float tolerance;  // px
   float huber;      // grey levels
   float clamp;      // px
-} AlignmentSettings;
+};
 
 // Tallies of edge_threshold.cl.
 enum {
@@ -136,7 +141,7 @@ FLOAT_CONSTANT kNoiseMedian = 4.04693850f;
 FLOAT_CONSTANT kThresholdHold = 1.25f;
 
 // edge_threshold.cl. Thresholds in grey levels per px.
-typedef struct {
+STRUCTURE(ThresholdArguments) {
   int width, height;      // of the image
   int plane_stride;       // floats per row of the padded image
   float max_grey;         // grey level at which the camera saturates
@@ -144,7 +149,7 @@ typedef struct {
   float area;             // ratio of the image whose gradient shall exceed the threshold
   float per_noise;        // threshold per grey level of the noise's standard deviation
   float lowest, highest;  // highest wins
-} ThresholdArguments;
+};
 
 // Scratch memory of edge_detection_strip.cl and grid_edges.cl: lines per work-item, and floats of a line in front of
 // the first pixel.
@@ -152,22 +157,22 @@ enum { kStripLines = 11, kGridLines = 26, kStripLineFront = 16 };
 
 // edge_detection_strip.cl, edge_detection_tile.cl and grid_edges.cl. Edges are packed in blocks of max_edges floats: x,
 // y, direction, strength, scale-space shift.
-typedef struct {
+STRUCTURE(DetectionArguments) {
   int width, height;  // of the image
   int plane_stride;   // floats per row of the padded image
   int margin;         // px
   float newton_max;   // px
   int max_edges;
-} DetectionArguments;
+};
 
 // Numbers the epipolar lines in the same way in both images of a rig, in pixels of the left camera: the line through
 // (x, y) has number (across . (x, y, 1)) / (forward . (x, y, 1)) - bend . (xx, xy, yy). On a rectified rig that is y
 // less the principal point's.
-typedef struct {
+STRUCTURE(EpipolarRows) {
   float across_x, across_y, across_1;
   float forward_x, forward_y, forward_1;
   float bend_xx, bend_xy, bend_yy;
-} EpipolarRows;
+};
 
 enum {
   kSelectionUnit = 256,  // of the weights that edge_selection.cl adds up
@@ -179,63 +184,63 @@ FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px: a maximum mo
 FLOAT_CONSTANT kClosestSelection = 1.0f;  // px; maxima of a curve are hardly closer
 
 // edge_selection.cl.
-typedef struct {
+STRUCTURE(SelectionArguments) {
   int width, height;  // of the image
   EpipolarRows rows;
   float min_sine;  // of the angle between an edge and its epipolar line: what lies flatter cannot be matched
   float slack;     // by which that sine may differ between the images; 1: no difference is allowed for
-} SelectionArguments;
+};
 
 // patches.cl.
-typedef struct {
+STRUCTURE(PatchArguments) {
   int width, height;
   float offset;  // px from the edge to the middle of a patch
   int all;       // 0: only the edges that are wanted
   PackedPositions edges;
-} PatchArguments;
+};
 
 // sift.cl.
-typedef struct {
+STRUCTURE(SiftArguments) {
   int width, height;
   int stride;    // floats per row of the maps
   float offset;  // px from the edge to the middle of a descriptor
   PackedPositions edges;
-} SiftArguments;
+};
 
 // Left edges that search beyond the range of the others: those whose number is a multiple of `step`.
-typedef struct {
+STRUCTURE(DisparityProbe) {
   int step;             // 0: none
   float max_disparity;  // of these edges, px
-} DisparityProbe;
+};
 
 // stereo_candidates.cl: candidates per row that the first sweep can note.
 enum { kNotedCandidates = 32 };
-typedef struct {
+STRUCTURE(StereoCandidateArguments) {
   PackedPositions left, right;
   int right_height;  // px
   EpipolarGeometry geometry;
   DisparityProbe probe;
-} StereoCandidateArguments;
+};
 
 // Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters'
 // numbers in their cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT is
 // not used.
-typedef struct {
+STRUCTURE(FilterLimits) {
   float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
   int ncc_order, sift_order;
-} FilterLimits;
+};
 
 // candidate_filters.cl.
-typedef struct {
+STRUCTURE(FilterArguments) {
   int rows;
   int row_step;    // row r belongs to edge r * row_step of the first set
   int capacity;    // of the candidate lists
   int all_scores;  // not 0: both scores of every candidate, even where one decides
   FilterLimits limits;
-} FilterArguments;
+};
 
 // stereo_refinement.cl and stereo_refinement_lanes.cl.
-typedef struct {
+STRUCTURE(StereoRefinementArguments) {
   PackedPositions left, right;
   int capacity;  // of the candidate lists
   int left_width, left_height, right_width, right_height;
@@ -246,20 +251,20 @@ typedef struct {
   float similarity_min;
   int rejected_order;
   EpipolarGeometry geometry;
-} StereoRefinementArguments;
+};
 
 // stereo_clusters.cl. Clusters are packed in blocks of `capacity` floats: position, direction, similarity.
-typedef struct {
+STRUCTURE(StereoClusterArguments) {
   PackedPositions left, right;
   int capacity;  // of the candidate lists
   float cluster_gap;
   float cluster_orientation;  // rad
   int cluster_size_max;
   float cluster_sigma;
-} StereoClusterArguments;
+};
 
 // paper_refinement.cl. Settings as in AlignmentSettings. `fixed` are the edges of the rows, `moving` their candidates.
-typedef struct {
+STRUCTURE(PaperRefinementArguments) {
   PackedPositions fixed, moving;
   int capacity;  // of the candidate lists
   int fixed_width, fixed_height, moving_width, moving_height;
@@ -271,11 +276,11 @@ typedef struct {
   float shift_min_sine, shift_max;  // of the shift onto the line
   float largest_residual;           // rms that a free move may leave [grey levels]
   EpipolarGeometry geometry;        // for a move along a line
-} PaperRefinementArguments;
+};
 
 // paper_clusters.cl. Refined positions are packed in blocks of `candidates` floats: x, y; clusters in blocks of
 // `capacity`: x, y, direction of the centre, similarity; the first member and the number of members likewise, in ints.
-typedef struct {
+STRUCTURE(PaperClusterArguments) {
   PackedPositions moving;  // the candidates
   int rows;
   int candidates;     // capacity of the candidate lists
@@ -284,20 +289,18 @@ typedef struct {
   float orientation;  // rad
   int size_max;
   float sigma;  // px
-} PaperClusterArguments;
+};
 
 // paper_quads.cl. The clusters of either image are in blocks of that capacity, the quads in blocks of `capacity`.
-typedef struct {
-  int rows, left_capacity, right_capacity, capacity;
-} PaperQuadArguments;
+STRUCTURE(PaperQuadArguments) { int rows, left_capacity, right_capacity, capacity; };
 
 // paper_clusters.cl: paper_similarity().
-typedef struct {
+STRUCTURE(PaperSimilarityArguments) {
   int rows, capacity;  // of the clusters
   int width, height;   // of their image
   float offset;        // px from an edge to the middle of its patches
   float ncc_min;       // of the chosen cluster
-} PaperSimilarityArguments;
+};
 
 // coarse_disparity.cl.
 enum {
@@ -307,7 +310,7 @@ enum {
   kCoarsePlanes = 6         // per pixel: slope, its bounds half-way to either neighbour, grey level, its bounds
 };
 FLOAT_CONSTANT kNoCoarseDisparity = -1e9f;  // px, where it is not known
-typedef struct {
+STRUCTURE(CoarseDisparityArguments) {
   int width, height;               // of the half-size left image; that of the right one is as high
   int right_width;                 // of the half-size right image
   int levels;                      // disparities of two px of the images, a multiple of kCoarseLanes
@@ -316,7 +319,7 @@ typedef struct {
   int right_first;                 // place of the counterpart of column 0 at level 0
   int step_penalty, jump_penalty;  // of a path, for a change by one level and for any other
   float first;                     // position on the epipolar line at level 0, px of the images
-} CoarseDisparityArguments;
+};
 
 // stereo_relaxation.cl. Neighbours are found by cells of this size [px], of which each shows one edge: about the
 // distance of the points of a ring from one another, so that they find different edges.
@@ -337,7 +340,7 @@ FLOAT_CONSTANT kUsualSupport = 0.7f;
 // and its epipolar line at which it is taken: below it the angle's error is the slope.
 FLOAT_CONSTANT kSlopeMax = 0.5f;
 FLOAT_CONSTANT kSlopeMinSine = 0.2f;
-typedef struct {
+STRUCTURE(StereoRelaxationArguments) {
   PackedPositions left;
   int capacity;            // of the candidate lists
   int columns, cell_rows;  // cells of the left image
@@ -350,38 +353,38 @@ typedef struct {
   float coarse_reach;    // px along the epipolar line within which a coarse position speaks for a candidate
   float coarse_dissent;  // how likely it leaves the edge's other candidates
   EpipolarGeometry geometry;
-} StereoRelaxationArguments;
+};
 
 // stereo_mutual.cl.
-typedef struct {
+STRUCTURE(StereoMutualArguments) {
   PackedPositions left;
   int capacity;  // of the candidate lists
   float mutual_radius;
   EpipolarGeometry geometry;
-} StereoMutualArguments;
+};
 
 // point_index.cl.
-typedef struct {
+STRUCTURE(PointIndexArguments) {
   PackedPositions left_edges, right_edges;
   PackedPointIndex left, right;
-} PointIndexArguments;
+};
 
 // temporal_candidates.cl.
-typedef struct {
+STRUCTURE(TemporalCandidateArguments) {
   int rows;
   int row_step;  // row r belongs to base edge r * row_step
   PackedPositions predicted;
   PackedPointIndex index;
   float radius;       // px
   float orientation;  // rad
-} TemporalCandidateArguments;
+};
 
 // What makes the quad of a row (doc/method.md section 4, filter 8).
-typedef struct {
+STRUCTURE(QuadChoice) {
   float distance_weight;      // what a squared px from the predicted left position takes from the score
   float cluster_gap;          // px
   float cluster_orientation;  // rad
-} QuadChoice;
+};
 
 // A row of temporal_match.cl and temporal_quads.cl, ints: current edge or -1, competing clusters, score as bits, flags.
 enum {
@@ -392,7 +395,7 @@ enum {
 };
 
 // temporal_match.cl.
-typedef struct {
+STRUCTURE(TemporalMatchArguments) {
   int rows;
   int row_step;  // row r belongs to base edge r * row_step
   PackedPositions left_predicted, right_predicted;
@@ -402,31 +405,29 @@ typedef struct {
   float orientation;        // rad
   float ncc_min, ncc_nearly_best;
   QuadChoice choice;
-} TemporalMatchArguments;
+};
 
 // temporal_quads.cl: temporal_agreement().
-typedef struct {
+STRUCTURE(TemporalAgreementArguments) {
   int rows;
   int left_capacity, right_capacity;  // of the candidate lists
   int rejected_order;
-} TemporalAgreementArguments;
+};
 
 // temporal_quads.cl: temporal_best().
-typedef struct {
+STRUCTURE(TemporalBestArguments) {
   int rows;
   int row_step;                        // row r belongs to base edge r * row_step
   int capacity;                        // of the candidate lists
   PackedPositions predicted, current;  // of the left image
   QuadChoice choice;
-} TemporalBestArguments;
+};
 
 // global_matching.cl: edges packed in blocks of `stride` floats (left x, left y ...), of
 // which every step-th takes part.
-typedef struct {
-  int stride, count, step;
-} WideSelection;
-typedef struct {
+STRUCTURE(WideSelection) { int stride, count, step; };
+STRUCTURE(GlobalMatchingArguments) {
   WideSelection rows, columns;
   float neighbourhood;  // px
   float ratio;
-} GlobalMatchingArguments;
+};

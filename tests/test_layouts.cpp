@@ -21,12 +21,12 @@ struct Structure {
 std::vector<Structure> declared_structures() {
   std::string text = opencl::embedded_kernels().at("layouts.cl");
   text = std::regex_replace(text, std::regex("//[^\n]*"), "");
-  const std::regex structure(R"(typedef\s+struct\s*\{([^}]*)\}\s*(\w+)\s*;)"), field(R"((\w+)\s+([^;]+);)"),
+  const std::regex structure(R"(\nSTRUCTURE\((\w+)\) \{([^}]*)\};)"), field(R"((\w+)\s+([^;]+);)"),
       item(R"((\w+)(?:\[(\d+)\])?)");
   std::vector<Structure> found;
   for (std::sregex_iterator s(text.begin(), text.end(), structure), end; s != end; ++s) {
-    Structure declared{(*s)[2], {}};
-    const std::string body = (*s)[1];
+    Structure declared{(*s)[1], {}};
+    const std::string body = (*s)[2];
     for (std::sregex_iterator f(body.begin(), body.end(), field); f != end; ++f) {
       const std::string type = (*f)[1], names = (*f)[2];
       for (std::sregex_iterator n(names.begin(), names.end(), item); n != end; ++n) {
@@ -75,27 +75,31 @@ void check_structure(opencl::Context& context, const cl::Program& program, const
   CHECK(out.read(words + 1) == expected);
 }
 
+template <class... T>
+void check_structures(opencl::Context& context, const cl::Program& program, const std::vector<Structure>& structures) {
+  REQUIRE(structures.size() == sizeof...(T));
+  std::map<std::string, Structure> by_name;
+  for (const auto& structure : structures) by_name[structure.name] = structure;
+  (check_structure<T>(context, program, by_name.at(opencl::type_name<T>())), ...);
+}
+
 }  // namespace
 
 TEST_CASE("layouts: every structure has the host's layout on every device", "[device][oclgrind]") {
   const auto structures = declared_structures();
-  std::map<std::string, Structure> by_name;
-  for (const auto& structure : structures) by_name[structure.name] = structure;
-  std::size_t described = 0;
-#define COUNT(NAME) ++described;
-  QUADEDGE_KERNEL_STRUCTS(COUNT)
-#undef COUNT
-  REQUIRE(structures.size() == described);
   std::string source;
   for (const auto& structure : structures) source += reading_kernel(structure);
   for (const auto& index : all_devices()) {
     Device device(index, kept_programs());
     auto& context = *device.context();
     const auto program = build_program(context, {}, source);
-#define CHECK_ONE(NAME)               \
-  REQUIRE(by_name.count(#NAME) == 1); \
-  check_structure<NAME>(context, program, by_name[#NAME]);
-    QUADEDGE_KERNEL_STRUCTS(CHECK_ONE)
-#undef CHECK_ONE
+    check_structures<PackedPositions, PackedPointIndex, EpipolarGeometry, AlignmentSettings, ThresholdArguments,
+                     DetectionArguments, EpipolarRows, SelectionArguments, PatchArguments, SiftArguments,
+                     DisparityProbe, StereoCandidateArguments, FilterLimits, FilterArguments, StereoRefinementArguments,
+                     StereoClusterArguments, PaperRefinementArguments, PaperClusterArguments, PaperQuadArguments,
+                     PaperSimilarityArguments, CoarseDisparityArguments, StereoRelaxationArguments,
+                     StereoMutualArguments, PointIndexArguments, TemporalCandidateArguments, QuadChoice,
+                     TemporalMatchArguments, TemporalAgreementArguments, TemporalBestArguments, WideSelection,
+                     GlobalMatchingArguments>(context, program, structures);
   }
 }

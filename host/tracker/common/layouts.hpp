@@ -7,6 +7,7 @@ namespace quadedge {
 #include "../../../kernels/layouts.cl"  // shared source
 
 #undef FLOAT_CONSTANT
+#undef STRUCTURE
 
 static_assert(sizeof(int) == 4 && sizeof(float) == 4);
 static_assert(kInverseNorms + 2 * sizeof(float) <= kEdgePatchBytes);

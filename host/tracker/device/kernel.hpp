@@ -11,42 +11,6 @@
 #include "device/context.hpp"
 #include "device/status.hpp"
 
-// The structures of kernels/layouts.cl as kernel arguments.
-
-/// Every structure of kernels/layouts.cl; tests/test_layouts.cpp verifies that the list is complete.
-#define QUADEDGE_KERNEL_STRUCTS(VISIT) \
-  VISIT(PackedPositions)               \
-  VISIT(PackedPointIndex)              \
-  VISIT(EpipolarGeometry)              \
-  VISIT(AlignmentSettings)             \
-  VISIT(ThresholdArguments)            \
-  VISIT(DetectionArguments)            \
-  VISIT(EpipolarRows)                  \
-  VISIT(SelectionArguments)            \
-  VISIT(PatchArguments)                \
-  VISIT(SiftArguments)                 \
-  VISIT(DisparityProbe)                \
-  VISIT(StereoCandidateArguments)      \
-  VISIT(FilterLimits)                  \
-  VISIT(FilterArguments)               \
-  VISIT(StereoRefinementArguments)     \
-  VISIT(StereoClusterArguments)        \
-  VISIT(PaperRefinementArguments)      \
-  VISIT(PaperClusterArguments)         \
-  VISIT(PaperSimilarityArguments)      \
-  VISIT(PaperQuadArguments)            \
-  VISIT(CoarseDisparityArguments)      \
-  VISIT(StereoRelaxationArguments)     \
-  VISIT(StereoMutualArguments)         \
-  VISIT(PointIndexArguments)           \
-  VISIT(TemporalCandidateArguments)    \
-  VISIT(QuadChoice)                    \
-  VISIT(TemporalMatchArguments)        \
-  VISIT(TemporalAgreementArguments)    \
-  VISIT(TemporalBestArguments)         \
-  VISIT(WideSelection)                 \
-  VISIT(GlobalMatchingArguments)
-
 namespace quadedge::opencl {
 
 /// A `global const T*` argument.
@@ -71,10 +35,7 @@ constexpr const char* type_name() {
   if constexpr (std::is_same_v<T, cl_char>) return "char";
   if constexpr (std::is_same_v<T, cl_uchar>) return "uchar";
   if constexpr (std::is_same_v<T, cl_ushort>) return "ushort";
-#define QUADEDGE_DESCRIBE(NAME) \
-  if constexpr (std::is_same_v<T, NAME>) return #NAME;
-  QUADEDGE_KERNEL_STRUCTS(QUADEDGE_DESCRIBE)
-#undef QUADEDGE_DESCRIBE
+  if constexpr (std::is_class_v<T>) return argument_type(static_cast<const T*>(nullptr));
 }
 
 /// The type that a kernel argument is expected to have in the built program.
