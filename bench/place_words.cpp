@@ -44,7 +44,8 @@ void describe(const std::string& scene, std::uint64_t seed, Descriptors& all) {
   StereoOdometry odometry(sequence.rig());
   for (int frame = 0; frame < kFrames; frame += kEveryFrame) {
     odometry.track(sequence.pair(frame).view());
-    const Descriptors view = places::rooted_descriptors(odometry::LatestFrame::of(odometry).frontend.keep());
+    const Descriptors view =
+        places::rooted_descriptors(frontend::as_global(odometry::LatestFrame::of(odometry).frontend).keep());
     Eigen::Index next = all.cols();
     all.conservativeResize(Eigen::NoChange, next + (view.cols() + kEveryEdge - 1) / kEveryEdge);
     for (Eigen::Index i = 0; i < view.cols(); i += kEveryEdge) all.col(next++) = view.col(i);

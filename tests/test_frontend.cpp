@@ -82,9 +82,10 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
     Device device(device_name, kept_programs());
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     const auto first = frontend->process(scene.frame(0)), second = frontend->process(scene.frame(1));
-    const auto matches = frontend->match_globally(*first, scene.config.temporal.global_edges);
-    CHECK(same_bytes(matches, frontend->match_globally(*first, scene.config.temporal.global_edges)));
-    CHECK(frontend->match_globally(*first, 0).size() == 0);
+    const auto matches = frontend::as_global(*frontend).match_globally(*first, scene.config.temporal.global_edges);
+    CHECK(
+        same_bytes(matches, frontend::as_global(*frontend).match_globally(*first, scene.config.temporal.global_edges)));
+    CHECK(frontend::as_global(*frontend).match_globally(*first, 0).size() == 0);
     const StereoEdges& before = first->edges;
     std::size_t right = 0;
     for (std::size_t m = 0; m < matches.size(); ++m) {
@@ -110,18 +111,18 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
       return some;
     };
     TemporalMatches of_some;
-    frontend->match_globally(*first, *frontend->latest(), among(1), of_some);
-    CHECK(same_bytes(of_some, frontend->match_globally(*first, 1000000)));
-    frontend->match_globally(*first, *frontend->latest(), among(3), of_some);
+    frontend::as_global(*frontend).match_globally(*first, *frontend->latest(), among(1), of_some);
+    CHECK(same_bytes(of_some, frontend::as_global(*frontend).match_globally(*first, 1000000)));
+    frontend::as_global(*frontend).match_globally(*first, *frontend->latest(), among(3), of_some);
     CHECK(of_some.size() > 30);
     for (std::size_t m = 0; m < of_some.size(); ++m) {
       CHECK(of_some.previous[m] % 3 == 0);
       CHECK(of_some.current[m] % 3 == 0);
       CHECK(of_some.left_x[m] == second->edges.left_x[static_cast<std::size_t>(of_some.current[m])]);
     }
-    frontend->match_globally(*first, *frontend->latest(), {among(1).of_base, {}}, of_some);
+    frontend::as_global(*frontend).match_globally(*first, *frontend->latest(), {among(1).of_base, {}}, of_some);
     CHECK(of_some.size() == 0);
-    frontend->match_globally(*first, *frontend->latest(), {{}, among(1).of_current}, of_some);
+    frontend::as_global(*frontend).match_globally(*first, *frontend->latest(), {{}, among(1).of_current}, of_some);
     CHECK(of_some.size() == 0);
     return matches;
   };
@@ -187,7 +188,8 @@ TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "
     const auto other = frontend::make_frontend(scene.rig, device, scene.config);
     other->process(scene.frame(1));
     CHECK_THROWS_AS(other->match(*held, search_around(edges, 12)), std::invalid_argument);
-    CHECK_THROWS_AS(other->match_globally(*held, scene.config.temporal.global_edges), std::invalid_argument);
+    CHECK_THROWS_AS(frontend::as_global(*other).match_globally(*held, scene.config.temporal.global_edges),
+                    std::invalid_argument);
   }
 }
 

@@ -29,7 +29,7 @@ TEST_CASE("kept frame edges: at most half a megabyte, and patches and descriptor
   Device device("reference");
   const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
   const auto frame_edges = frontend->process(kept_room().frame(0));
-  const frontend::KeptFrameEdges kept = frontend->keep();
+  const frontend::KeptFrameEdges kept = frontend::as_global(*frontend).keep();
   REQUIRE(kept.edges.size() > 500);
   CHECK(kept.edges.size() <= frontend::kKeptEdges);
   CHECK(static_cast<double>(kept.bytes()) / static_cast<double>(kept.edges.size()) * frontend::kKeptEdges < 500'000);
@@ -55,14 +55,14 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
     INFO(name);
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
-    odometry::MotionSearch search(kept_room().config, *frontend, kept_room().rig);
+    odometry::MotionSearch search(kept_room().config, frontend::as_global(*frontend), kept_room().rig);
     const auto base = frontend->process(kept_room().frame(0));
-    const frontend::KeptFrameEdges kept = frontend->keep();
+    const frontend::KeptFrameEdges kept = frontend::as_global(*frontend).keep();
     odometry::MotionQuery query;
     query.current = frontend->process(kept_room().frame(1));
     query.base = base;
     const auto whole = search.find(query);
-    query.base = frontend->restore(kept);
+    query.base = frontend::as_global(*frontend).restore(kept);
     CHECK(query.base->frame == 0);
     const auto restored = search.find(query);
     REQUIRE(whole->ok());
@@ -77,9 +77,9 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
     for (std::size_t i = 0; i < query.current->edges.size(); ++i)
       among.of_current.push_back(static_cast<std::int32_t>(i));
     TemporalMatches found;
-    frontend->match_globally(*query.base, *frontend->latest(), among, found);
+    frontend::as_global(*frontend).match_globally(*query.base, *frontend->latest(), among, found);
     CHECK(found.size() > 100);
-    CHECK(same_bytes(found, frontend->match_globally(*query.base, 1000000)));
+    CHECK(same_bytes(found, frontend::as_global(*frontend).match_globally(*query.base, 1000000)));
   }
 }
 
@@ -89,14 +89,15 @@ TEST_CASE("kept frame edges: restoring one leaves the current frame and the fram
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
     frontend->process(kept_room().frame(0));
-    const frontend::KeptFrameEdges kept = frontend->keep();
+    const frontend::KeptFrameEdges kept = frontend::as_global(*frontend).keep();
     const auto current = frontend->process(kept_room().frame(1));
     const StereoEdges before = current->edges;
-    const auto first = frontend->restore(kept), second = frontend->restore(kept);
+    const auto first = frontend::as_global(*frontend).restore(kept),
+               second = frontend::as_global(*frontend).restore(kept);
     CHECK(first != second);
     CHECK(same_bytes(current->edges, before));
     CHECK(same_bytes(first->edges, kept.edges));
-    CHECK(frontend->keep().frame == 1);
+    CHECK(frontend::as_global(*frontend).keep().frame == 1);
     CHECK(frontend->process(kept_room().frame(0))->frame == 2);
   }
 }

@@ -11,10 +11,10 @@ using namespace matching;
 namespace {
 
 /// The reference front end with counters of its calls.
-class CountingFrontend : public frontend::Frontend {
+class CountingFrontend : public frontend::GlobalFrontend {
  public:
   CountingFrontend(const StereoRig& rig, const Config& config)
-      : Frontend(rig, config), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
+      : GlobalFrontend(rig, config), device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
 
   frontend::FrameEdgesHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
   frontend::FrameEdgesHandle latest() const override { return reference_->latest(); }
@@ -28,16 +28,16 @@ class CountingFrontend : public frontend::Frontend {
                       TemporalMatches& matches) override {
     ++global;
     global_edges = edges;
-    reference_->match_globally(base, current, edges, matches);
+    frontend::as_global(*reference_).match_globally(base, current, edges, matches);
   }
   void match_globally(const frontend::FrameEdges& base, const frontend::FrameEdges& current, const GlobalSearch& among,
                       TemporalMatches& matches) override {
     ++beside;
-    reference_->match_globally(base, current, among, matches);
+    frontend::as_global(*reference_).match_globally(base, current, among, matches);
   }
-  frontend::KeptFrameEdges keep() override { return reference_->keep(); }
+  frontend::KeptFrameEdges keep() override { return frontend::as_global(*reference_).keep(); }
   frontend::FrameEdgesHandle restore(const frontend::KeptFrameEdges& kept) override {
-    return reference_->restore(kept);
+    return frontend::as_global(*reference_).restore(kept);
   }
   EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }

@@ -12,7 +12,7 @@ places::PlaceSignature signature_of(const RenderedScene& scene, std::size_t fram
   Device device("reference");
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
   frontend->process(scene.frame(frame));
-  return places::place_signature(frontend->keep());
+  return places::place_signature(frontend::as_global(*frontend).keep());
 }
 
 }  // namespace

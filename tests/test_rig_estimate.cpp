@@ -168,9 +168,9 @@ TEST_CASE("rig estimate: the points and the kept edges of a displaced keyframe a
         Approx(seen).epsilon(0.02));
   // What a map keeps of it.
   const auto latest = odometry::LatestFrame::of(odometry);
-  const frontend::KeptFrameEdges kept = latest.frontend.keep();
+  const frontend::KeptFrameEdges kept = frontend::as_global(latest.frontend).keep();
   CHECK(kept.rig.displacement == result.rig.displacement);
-  CHECK(latest.frontend.restore(kept)->rig().displacement == result.rig.displacement);
+  CHECK(frontend::as_global(latest.frontend).restore(kept)->rig().displacement == result.rig.displacement);
 }
 
 TEST_CASE("rig estimate: a saved map of displaced keyframes locates images that are not displaced", "[rig][device]") {
@@ -200,7 +200,7 @@ TEST_CASE("rig estimate: a saved map of displaced keyframes locates images that 
 TEST_CASE("rig estimate: a search is a function, whatever it finds of the rig", "[rig][odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   const auto frontend = frontend::make_frontend(estimated_room().rig, device, estimated_room().config);
-  odometry::MotionSearch search(estimated_room().config, *frontend, estimated_room().rig);
+  odometry::MotionSearch search(estimated_room().config, frontend::as_global(*frontend), estimated_room().rig);
   odometry::MotionQuery query;
   query.base = frontend->process(estimated_room().frame(0));
   const Image right = displaced(estimated_room().right[1], 3);

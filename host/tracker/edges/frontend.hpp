@@ -39,27 +39,13 @@ class Frontend {
   /// The edges of the frame processed last. \throws std::out_of_range before the first
   virtual FrameEdgesHandle latest() const = 0;
   /// Stage 6: quads between an earlier frame, the base, and a current one, as a rule the latest. `search` has one entry
-  /// per stereo edge of the base. Replaces `matches`, as does match_globally().
+  /// per stereo edge of the base. Replaces `matches`.
   virtual void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,
                      TemporalMatches& matches) = 0;
-  /// Quads between a subset of the base's edges and the current frame, matched over the whole left image by wide
-  /// descriptors.
-  /// \param edges approximate number of the base's edges and, twice as many, of the current frame's that take part;
-  /// ignored for a restored frame, which has its own
-  virtual void match_globally(const FrameEdges& base, const FrameEdges& current, int edges,
-                              TemporalMatches& matches) = 0;
-  /// The same among the given edges only. For a restored base, of_base is ignored: all its edges take part.
-  virtual void match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
-                              TemporalMatches& matches) = 0;
   /// With the latest frame.
   TemporalMatches match(const FrameEdges& base, const TemporalSearch& search) {
     TemporalMatches matches;
     match(base, *latest(), search, matches);
-    return matches;
-  }
-  TemporalMatches match_globally(const FrameEdges& base, int edges) {
-    TemporalMatches matches;
-    match_globally(base, *latest(), edges, matches);
     return matches;
   }
 
@@ -72,11 +58,6 @@ class Frontend {
 
   /// Corrects the rows of every frame from the next one on. \param rows must outlive the use; null: as calibrated
   void correct_rows(RowCorrection* rows) { rows_ = rows == nullptr ? &as_calibrated_ : rows; }
-
-  /// Keeps the latest frame's edges in a compact form.
-  virtual KeptFrameEdges keep() = 0;
-  /// Restores kept frame edges as a base of match() and match_globally().
-  virtual FrameEdgesHandle restore(const KeptFrameEdges& kept) = 0;
 
   /// Whether the current frame is so noisy that its images were smoothed.
   bool is_smoothed() const { return is_smoothed_; }
@@ -122,6 +103,35 @@ class Frontend {
   HiddenPixels of_frame_;
   MaskTransfer to_left_, to_right_;
 };
+
+/// A front end that also matches over the whole image, and keeps frames as later bases: any but the paper's.
+class GlobalFrontend : public Frontend {
+ public:
+  /// Quads between a subset of the base's edges and the current frame, matched over the whole left image by wide
+  /// descriptors.
+  /// \param edges approximate number of the base's edges and, twice as many, of the current frame's that take part;
+  /// ignored for a restored frame, which has its own
+  virtual void match_globally(const FrameEdges& base, const FrameEdges& current, int edges,
+                              TemporalMatches& matches) = 0;
+  /// The same among the given edges only. For a restored base, of_base is ignored: all its edges take part.
+  virtual void match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
+                              TemporalMatches& matches) = 0;
+  TemporalMatches match_globally(const FrameEdges& base, int edges) {
+    TemporalMatches matches;
+    match_globally(base, *latest(), edges, matches);
+    return matches;
+  }
+  /// Keeps the latest frame's edges in a compact form.
+  virtual KeptFrameEdges keep() = 0;
+  /// Restores kept frame edges as a base of match() and match_globally().
+  virtual FrameEdgesHandle restore(const KeptFrameEdges& kept) = 0;
+
+ protected:
+  using Frontend::Frontend;
+};
+
+/// \throws std::bad_cast for the paper's front end
+inline GlobalFrontend& as_global(Frontend& frontend) { return dynamic_cast<GlobalFrontend&>(frontend); }
 
 /// Creates the front end of the paper's method if `config` asks for it, else the OpenCL front end on `device`, or the
 /// reference if `device` is the reference.

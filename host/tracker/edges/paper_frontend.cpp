@@ -2,7 +2,6 @@
 #include "edges/paper_frontend.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "common/filter_limits.hpp"
@@ -12,8 +11,6 @@
 
 namespace quadedge::frontend {
 namespace {
-
-[[noreturn]] void refuse() { throw std::logic_error("the paper's method keeps no rigs"); }
 
 /// Clusters as lists; those for which `wanted(row, number)` holds.
 template <class Wanted>
@@ -108,12 +105,5 @@ void PaperFrontend::tap_quads(const paper::SideMatching& left, const paper::Side
                           lists_of(side == Side::left ? left.clusters : right.clusters, is_closed));
   }
 }
-
-void PaperFrontend::match_globally(const FrameEdges&, const FrameEdges&, int, TemporalMatches&) { refuse(); }
-void PaperFrontend::match_globally(const FrameEdges&, const FrameEdges&, const GlobalSearch&, TemporalMatches&) {
-  refuse();
-}
-KeptFrameEdges PaperFrontend::keep() { refuse(); }
-FrameEdgesHandle PaperFrontend::restore(const KeptFrameEdges&) { refuse(); }
 
 }  // namespace quadedge::frontend

@@ -9,19 +9,13 @@
 
 namespace quadedge::frontend {
 
-/// The edges of an image are kept on the host. It has no global search and keeps no frames: those functions throw
-/// std::logic_error.
+/// The edges of an image are kept on the host.
 class PaperFrontend : public Frontend {
  public:
   FrameEdgesHandle process(const StereoFrame& frame) override;
   /// The search of the paper: around the previous positions, whatever `search` contains.
   void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,
              TemporalMatches& matches) override;
-  void match_globally(const FrameEdges& base, const FrameEdges& current, int edges, TemporalMatches& matches) override;
-  void match_globally(const FrameEdges& base, const FrameEdges& current, const GlobalSearch& among,
-                      TemporalMatches& matches) override;
-  KeptFrameEdges keep() override;
-  FrameEdgesHandle restore(const KeptFrameEdges& kept) override;
 
  protected:
   PaperFrontend(const StereoRig& rig, const Config& config);

@@ -194,7 +194,7 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
   collector.add_quads("temporal_candidates, temporal_quads",
                       frontend->match(*base, search_without_motion(edges, config.temporal, true)), edges);
   collector.add_quads("wide_description, global_matching",
-                      frontend->match_globally(*base, config.temporal.global_edges), edges);
+                      frontend::as_global(*frontend).match_globally(*base, config.temporal.global_edges), edges);
   return std::move(collector.stages);
 }
 

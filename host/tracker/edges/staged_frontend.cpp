@@ -10,7 +10,7 @@
 namespace quadedge::frontend {
 
 StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
-    : Frontend(rig, config),
+    : GlobalFrontend(rig, config),
       config_(config),
       range_(rig, config),
       gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()) {}

@@ -17,7 +17,7 @@ struct WideSubset {
 };
 
 /// Decides what is computed, how often a frame is searched, and which counts it has.
-class StagedFrontend : public Frontend {
+class StagedFrontend : public GlobalFrontend {
  public:
   FrameEdgesHandle process(const StereoFrame& frame) override;
   void match(const FrameEdges& base, const FrameEdges& current, const TemporalSearch& search,

@@ -40,7 +40,7 @@ void add_message(const std::string& message, FrameResult& result) {
 
 std::unique_ptr<MotionFinder> make_search(const Config& config, frontend::Frontend& frontend, const StereoRig& rig) {
   if (config.is_paper()) return std::make_unique<PaperSearch>(config, frontend, rig);
-  return std::make_unique<MotionSearch>(config, frontend, rig);
+  return std::make_unique<MotionSearch>(config, frontend::as_global(frontend), rig);
 }
 
 }  // namespace

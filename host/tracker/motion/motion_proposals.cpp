@@ -83,7 +83,7 @@ PoseConfig limits_of_proposals(const Config& config) {
   return limits;
 }
 
-MotionProposals::MotionProposals(const Config& config, frontend::Frontend& frontend, MotionFits& fits)
+MotionProposals::MotionProposals(const Config& config, frontend::GlobalFrontend& frontend, MotionFits& fits)
     : config_(config),
       limits_(limits_of_proposals(config)),
       global_limits_(limits_of_global_matches(config)),

@@ -54,7 +54,7 @@ PoseConfig limits_of_proposals(const Config& config);
 class MotionProposals {
  public:
   /// Refers to the front end and the fits, which must outlive the object.
-  MotionProposals(const Config& config, frontend::Frontend& frontend, MotionFits& fits);
+  MotionProposals(const Config& config, frontend::GlobalFrontend& frontend, MotionFits& fits);
 
   /// The camera moves as predicted: every n-th edge is searched for around the predicted position.
   StepHandle near_prediction(const MotionQuery& query);
@@ -84,7 +84,7 @@ class MotionProposals {
 
   Config config_;
   PoseConfig limits_, global_limits_;
-  frontend::Frontend& frontend_;
+  frontend::GlobalFrontend& frontend_;
   MotionFits& fits_;
   TemporalSearch search_;  ///< kept between calls, as are the next
   GlobalSearch among_;

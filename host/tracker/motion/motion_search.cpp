@@ -40,7 +40,7 @@ void hide_masked(const PixelMask& hidden, TemporalSearch& search) {
 
 }  // namespace
 
-MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig)
+MotionSearch::MotionSearch(const Config& config, frontend::GlobalFrontend& frontend, const StereoRig& rig)
     : config_(config),
       frontend_(frontend),
       fits_(config, rig),

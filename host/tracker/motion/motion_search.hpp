@@ -20,7 +20,7 @@ namespace quadedge::odometry {
 class MotionSearch : public MotionFinder {
  public:
   /// Refers to the front end, which must outlive the object. \param rig the calibration
-  MotionSearch(const Config& config, frontend::Frontend& frontend, const StereoRig& rig);
+  MotionSearch(const Config& config, frontend::GlobalFrontend& frontend, const StereoRig& rig);
 
   struct State;
   StepHandle find(const MotionQuery& query) override;
@@ -103,7 +103,7 @@ class MotionSearch : public MotionFinder {
                                   const MotionStep& proposed);
 
   Config config_;
-  frontend::Frontend& frontend_;
+  frontend::GlobalFrontend& frontend_;
   rig::JumpMeter jump_meter_;
   MotionFits fits_;
   MotionProposals proposals_;

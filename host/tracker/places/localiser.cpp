@@ -142,7 +142,7 @@ class Localiser::Implementation {
   Processors processors;
 
  private:
-  frontend::Frontend& frontend() const { return preparation_.frontend(); }
+  frontend::GlobalFrontend& frontend() const { return frontend::as_global(preparation_.frontend()); }
   void locate(const frontend::FrameEdgesHandle& frame_edges, Localisation& result);
   bool follow(const frontend::FrameEdgesHandle& frame_edges, Localisation& result);
   std::optional<Match> compare(const places::Place& place, const frontend::FrameEdgesHandle& frame_edges,

@@ -105,7 +105,7 @@ class Map::Implementation {
         config_(odometry.config()),
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
-        search_(for_places(config_), odometry::LatestFrame::of(odometry).frontend, odometry.rig()),
+        search_(for_places(config_), frontend::as_global(odometry::LatestFrame::of(odometry).frontend), odometry.rig()),
         closures_(graph_) {
     places::check_map_config(config_);
     if (const auto& latest = odometry::LatestFrame::of(odometry).frame_edges)
@@ -292,7 +292,7 @@ bool Map::Implementation::recognise(int node) {
   } else if (nearest(node, min_gap, 1, kNewView, view.inverse_depth) != nullptr) {
     return false;
   }
-  places::Place place{now.frontend.keep(), {}, node};
+  places::Place place{frontend::as_global(now.frontend).keep(), {}, node};
   place.signature = places::place_signature(place.kept);
   const auto may_be = [&](const places::Place& other) {
     return !graph_.is_joined(other.node, node) || node - other.node > min_gap;
@@ -369,7 +369,7 @@ Comparison Map::Implementation::begin(const NodeView& view, const places::Place&
   odometry::MotionQuery query;
   const odometry::LatestFrame now = odometry::LatestFrame::of(odometry_);
   query.current = view.edges;
-  query.base = now.frontend.restore(place.kept);
+  query.base = frontend::as_global(now.frontend).restore(place.kept);
   query.rig = now.rig.of(view.edges->rig());
   query.rig.disparity_error = 0;  // an error of the rig must not make places alike
   query.seed = config_.seed + static_cast<std::uint64_t>(view.frame);

@@ -67,7 +67,7 @@ FrontendOutput run_frontend(Frontend& frontend, const StereoFrame& first, const 
   output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
   if (!config.is_paper()) {  // which has this search only
     output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
-    output.global_matches = frontend.match_globally(*output.first, config.temporal.global_edges);
+    output.global_matches = frontend::as_global(frontend).match_globally(*output.first, config.temporal.global_edges);
   }
   output.left_edges = frontend.edges(Side::left);
   output.right_edges = frontend.edges(Side::right);

@@ -84,7 +84,7 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   match(false);
   if (!candidate.is_paper) {
     if (stage != kGuidedMatch) match(true);
-    candidate.frontend->match_globally(first, input.config.temporal.global_edges);
+    frontend::as_global(*candidate.frontend).match_globally(first, input.config.temporal.global_edges);
   }
   const auto names = booked_as(stage);
   double sum = kNaN;
