@@ -1,7 +1,7 @@
-/// \file place_words.cpp  Makes the table of words of host/places/place_store.hpp from rendered scenes: a
+/// \file place_words.cpp  Makes the table of words of host/tracker/places/place_store.hpp from rendered scenes: a
 /// projection on the principal axes of their wide descriptors, and words by k-means. The same table on every run.
 ///
-///   place_words > host/places/place_words.bin
+///   place_words > host/tracker/places/place_words.bin
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -1,7 +1,7 @@
 # Writes one C++ source that holds a fingerprint of everything that decides the pixels of the rendered scenes: the
 # renderer's sources and how they are compiled. Kept images of an older renderer are thereby rendered anew.
 # Included; leaves its path in renderer_version_source.
-file(GLOB renderer_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/host/scenes/*.?pp
+file(GLOB renderer_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/host/workbench/scenes/*.?pp
   ${CMAKE_CURRENT_SOURCE_DIR}/include/quadedge/synthetic.hpp ${CMAKE_CURRENT_SOURCE_DIR}/include/quadedge/camera.hpp)
 set(fingerprint "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_SYSTEM_PROCESSOR}")
 string(APPEND fingerprint " ${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS}")

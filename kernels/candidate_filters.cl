@@ -4,7 +4,7 @@
 // their SIFT descriptors in the order of the edges.
 // Out per candidate: NCC, SIFT distance and state; per row the number of survivors. One work-item = one row. With
 // KNOWN_NCC (paper_filters.cl) the NCC is there already, and descriptors are numbered as patches are.
-// Reference: host/reference/candidates.cpp.
+// Reference: host/workbench/reference/candidates.cpp.
 
 #ifdef KNOWN_NCC
 #define SIMILARITY(known, a, b) ((void)(a), (void)(b), (known))

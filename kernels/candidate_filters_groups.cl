@@ -2,7 +2,7 @@
 // work-items share a candidate, so that they read its patches and descriptors from contiguous memory.
 //
 // Needs similarity_lanes.cl. Input, output and bits are those of candidate_filters.cl, since all sums are integers.
-// Reference: host/reference/candidates.cpp.
+// Reference: host/workbench/reference/candidates.cpp.
 
 #define PAIRS (GROUP / PAIR_ITEMS)
 

@@ -1,7 +1,7 @@
 // candidate_positions.cl: positions of a left edge's candidates on its epipolar line, and which candidate is refined
 // for all at one position.
 // Functions only. Needs direction.cl and epipolar.cl.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // A left edge whose candidates are refined.
 typedef struct {

@@ -7,7 +7,7 @@
 //
 // One work-item = one row; in coarse_columns COLUMNS columns. Levels lie innermost, kCoarseLanes to a vector. The
 // planes of the right image are mirrored, so that counterparts of growing disparity follow one another.
-// Needs coarse_planes.cl. Define: COLUMNS. Reference: host/reference/coarse_disparity.cpp.
+// Needs coarse_planes.cl. Define: COLUMNS. Reference: host/workbench/reference/coarse_disparity.cpp.
 
 #ifndef COLUMNS
 #define COLUMNS 8

@@ -1,7 +1,7 @@
 // coarse_disparity_groups.cl: coarse_disparity.cl for work-groups: one group of GROUP work-items = one row or column,
-// whose levels the work-items share out.
+// whose levels the work-items share out. Needs coarse_planes.cl. Defines: GROUP, a power of two; COLUMNS = 1.
 //
-// Needs coarse_planes.cl. Defines: GROUP, a power of two; COLUMNS = 1. Reference: host/reference/coarse_disparity.cpp.
+// Reference: host/workbench/reference/coarse_disparity.cpp.
 
 #ifndef GROUP
 #define GROUP 64

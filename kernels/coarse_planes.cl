@@ -5,7 +5,7 @@
 // coarse_planes  these -> the planes of a row, one after the other: slope along the row, the bounds of the slope
 //                half-way to either neighbour, and half the grey level with its bounds
 //
-// One group = one row, whatever the size of the group. Reference: host/reference/coarse_disparity.cpp.
+// One group = one row, whatever the size of the group. Reference: host/workbench/reference/coarse_disparity.cpp.
 
 kernel void coarse_halve(global const uchar* bytes, const int width, const int half_width, global uchar* half_image) {
   const int y = (int)get_group_id(0);

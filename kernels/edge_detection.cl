@@ -1,9 +1,9 @@
 // edge_detection.cl: third-order edges: the code shared by edge_detection_strip.cl (for CPUs) and
 // edge_detection_tile.cl (for GPUs).
 //
-// doc/method.md section 1; reference: host/reference/edge_detection.cpp. Both forms give the same bytes, because every
-// number is computed by the macros and functions of this file in one order of operations. fma rounds once, in vectors
-// and scalars alike; exp and atan2 are written out for the same reason.
+// doc/method.md section 1; reference: host/workbench/reference/edge_detection.cpp. Both forms give the same bytes,
+// because every number is computed by the macros and functions of this file in one order of operations. fma rounds
+// once, in vectors and scalars alike; exp and atan2 are written out for the same reason.
 //
 // Data: plane = the image as floats with replicated border (padded_plane.cl); pixel (i, j) lies at
 // (j + PAD_Y) * stride + i + PAD_X.

@@ -3,7 +3,7 @@
 // In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or, with AT_PIXELS, of
 // edge_detection_tile.cl (flags over the image), which are thinned out in place; mask = height x width bytes, not 0
 // where a pixel is hidden.
-// Reference: host/reference/edge_detection.cpp.
+// Reference: host/workbench/reference/edge_detection.cpp.
 
 #ifdef AT_PIXELS
 

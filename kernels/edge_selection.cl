@@ -6,7 +6,7 @@
 // are numbered by EpipolarRows in the same way in both images, so that an edge and its counterpart are kept together.
 // First the maxima of both images are weighed by their number of edges at a spacing of 1 px, then the spacing is
 // computed from the budget, then the maxima are selected. All sums are integers, so their order does not matter.
-// Reference: host/reference/edge_detection.cpp.
+// Reference: host/workbench/reference/edge_detection.cpp.
 
 // The functions below for one maximum and for sixteen, with the same operations: T is float or float16, I int or int16.
 // crossing: the number of the epipolar line of a maximum; step: its difference between neighbouring maxima of the

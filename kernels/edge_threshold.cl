@@ -4,7 +4,7 @@
 // An image is tallied at lattice points kThresholdStep px apart, in the middle of square cells: the magnitude of the
 // gradient at the point, and the responses of the noise operator along the point's row. A tally is kThresholdBins
 // integers, first those of the gradient, then those of the noise; every row of the lattice has its own tally, so that
-// the result does not depend on the order of work-items. Reference: host/reference/edge_detection.cpp.
+// the result does not depend on the order of work-items. Reference: host/workbench/reference/edge_detection.cpp.
 //
 // GROUP 1: one work-item tallies a row of the lattice with float16. Otherwise a group tallies a row, as many points at
 // a time as it has work-items for the columns of pixels around them.

@@ -1,6 +1,6 @@
 // epipolar.cl: the epipolar line of a left pixel (doc/method.md section 3), as EpipolarGeometry of layouts.cl gives it.
 // Functions only.
-// Needs direction.cl. Reference: host/geometry/epipolar_geometry.cpp.
+// Needs direction.cl. Reference: host/tracker/geometry/epipolar_geometry.cpp.
 
 // A half line in the right image: from the point of infinite depth towards nearer points.
 typedef struct {

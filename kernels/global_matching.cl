@@ -12,7 +12,7 @@
 //                 farther than `neighbourhood` px from this one is at least as similar to that column, or a column
 //                 farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test
 //                 against a match elsewhere). One work-item = ROWS rows.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 #ifndef ROWS
 #define ROWS 8

@@ -3,7 +3,7 @@
 // own and compares it with all the rows of the group.
 //
 // In and out as in global_matching.cl, and the same bits: products are whole numbers.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 #define WORDS (kWideBytes / 4)
 #define PITCH (WORDS + 1)  // words between columns in local memory: work-items meet different banks

@@ -5,7 +5,7 @@
 // taps: of phase 0, then of phase 1: per order of derivation, 0 to 3, RADIUS + 1 weights for the pairs of pixels at
 // j + phase and -j; then, in the same order, COLUMNS weights for the pixels from -RADIUS on.
 // Out: edges in blocks of max_edges floats, sorted by the row of the pixel that they lie in, then by x.
-// Reference: host/paper/grid_edges.cpp.
+// Reference: host/workbench/paper/grid_edges.cpp.
 
 #ifndef STRIP_ROWS
 #define STRIP_ROWS 32

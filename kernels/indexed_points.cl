@@ -7,7 +7,7 @@ typedef struct {
   int columns, rows;
 } PointIndex;
 
-// The index at `at`; `points` and `cells` are the buffers of host/device/temporal_matching.hpp.
+// The index at `at`; `points` and `cells` are the buffers of host/tracker/device/temporal_matching.hpp.
 static inline PointIndex open_index(const PackedPointIndex at, global const float* points, global const int* cells) {
   PointIndex index;
   index.x = points + at.points.first;

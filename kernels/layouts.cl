@@ -1,5 +1,5 @@
 // layouts.cl: memory layouts shared by host and kernels, prepended to every program after common.cl. The host compiles
-// this file, too (host/common/layouts.hpp), so it must be valid C and C++. It also defines the constants named
+// this file, too (host/tracker/common/layouts.hpp), so it must be valid C and C++. It also defines the constants named
 // kLikeThis.
 //
 // Structures are passed to kernels by value. Their fields are int, float, arrays or structures of these: all of 4

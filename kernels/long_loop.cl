@@ -1,6 +1,6 @@
 // long_loop.cl: a loop longer than those of the stages. OpenCL sets no limit, but some drivers silently terminate loops
 // (Mesa's llvmpipe after 65,535 iterations of all loops of a kernel), so that edges are missing in large images only.
-// Part of the self-test; stage: host/device/stage.cpp.
+// Part of the self-test; stage: host/tracker/device/stage.cpp.
 //
 // Out: the state of a linear congruential generator, which compilers do not evaluate in advance. One work-item.
 

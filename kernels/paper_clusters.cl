@@ -6,7 +6,7 @@
 // its first member, as an offset in `members`, and their number. `members` are the targets, those of a cluster one
 // after the other, the nearest to the centre first.
 // One work-item = one row.
-// Reference: host/paper/cascades.cpp.
+// Reference: host/workbench/paper/cascades.cpp.
 
 // The refined candidates of a row that are alive: member m is candidate order[m], and of the cluster that the number of
 // one of its members identifies, cluster[m].

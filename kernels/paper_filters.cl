@@ -4,7 +4,7 @@
 // number of every edge.
 // Out: ncc, the highest of the four pairings of sides, -1 where patches are flat. One work-item = one row; four
 // candidates at once, each of which is summed in the same order.
-// Reference: judge() in host/paper/cascades.cpp.
+// Reference: judge() in host/workbench/paper/cascades.cpp.
 
 // Sums of both halves of two vectors, of four lanes and then of two: groups of lanes in the order of the vectors.
 static inline float16 fours(const float16 a, const float16 b) {

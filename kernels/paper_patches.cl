@@ -3,7 +3,7 @@
 // In: image (width x height, packed), edges (x, y [px], direction [rad]). Out: the records of paper_sides.cl, height x
 // (width + 1); kPaperPatchFloats per edge, see layouts.cl.
 // Needs direction.cl and paper_sides.cl.
-// Reference: host/paper/side_patches.cpp.
+// Reference: host/workbench/paper/side_patches.cpp.
 
 // One work-item = one pixel: its word, in its own record and in that of the pixel above.
 kernel void paper_picture(global const uchar* bytes, const int width, const int height, global uint* records) {

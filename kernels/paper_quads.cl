@@ -5,7 +5,7 @@
 // paper_quads() with the scan of the counts. One work-item = one row, a previous stereo edge. Out per quad, in blocks
 // of `capacity`: centres x, y [px] and direction [rad] of the left and the right cluster, mean NCC of the shared edge;
 // the previous edge, the current one, and how many other quads the row has.
-// Reference: close_loop() and quads_of() in host/paper/cascades.cpp.
+// Reference: close_loop() and quads_of() in host/workbench/paper/cascades.cpp.
 
 // The clusters of a row in one image; cluster k is element first + k.
 typedef struct {

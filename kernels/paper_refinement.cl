@@ -5,7 +5,7 @@
 // Gauss-Newton with Huber weights on the differences of mean-free patches. Sums are in single precision: rounding moves
 // a result by less than the tolerance of the steps.
 // One work-item = one row.
-// Reference: host/paper/side_patches.cpp.
+// Reference: host/workbench/paper/side_patches.cpp.
 
 // What the patches of a candidate have to look like: rows of the sides that take part, as lanes of the moving patch.
 typedef struct {

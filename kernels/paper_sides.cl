@@ -6,7 +6,7 @@
 // bits have two of them. Rows of samples are float16 as in layouts.cl: dark side in the low, bright side in the high
 // half; lanes 7 and 15 repeat a sample. Structures are returned through pointers: oclgrind cannot run always-inlined
 // functions that return them in a loop.
-// Reference: host/paper/side_patches.cpp.
+// Reference: host/workbench/paper/side_patches.cpp.
 
 #define BOTH_SIDES(dark, bright) (float16)((float8)(dark), (float8)(bright))
 #define HALVES_SWAPPED(v) (v).s89abcdef01234567

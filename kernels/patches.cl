@@ -2,13 +2,13 @@
 // 2).
 //
 // In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]), which of them are wanted (not 0).
-// Out: kEdgePatchBytes per edge, laid out as in host/reference/edge_descriptions.hpp; those of the other edges are
-// left as they were. Two forms with the same arithmetic in the same order:
+// Out: kEdgePatchBytes per edge, laid out as in host/workbench/reference/edge_descriptions.hpp; those of the other
+// edges are left as they were. Two forms with the same arithmetic in the same order:
 //   without GROUP: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   with GROUP: kPatchItems work-items per edge, eight per side, one per lane; groups of GROUP work-items, local memory
 //   EXCHANGE_FLOATS floats.
 // Needs direction.cl and photometric.cl, with GROUP photometric_lanes.cl too.
-// Reference: host/reference/edge_descriptions.cpp.
+// Reference: host/workbench/reference/edge_descriptions.cpp.
 
 // Adding and subtracting it rounds to the nearest integer, halves to even, because floats of about 1.5 * 2^23 have no
 // fraction bits.

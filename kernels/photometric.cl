@@ -4,7 +4,7 @@
 // A patch is kPatchRows float8 rows: row i lies i - 2 steps along the tangent, lane j is j - 3 px across it to the
 // bright side.
 // The eighth lane repeats a sample; it is finite but unused, and sums exclude it.
-// Reference: host/reference/edge_descriptions.cpp.
+// Reference: host/workbench/reference/edge_descriptions.cpp.
 
 #define PATCH_REACH 8  // px, more than half the diagonal of a patch
 

@@ -4,7 +4,7 @@
 // Needs indexed_points.cl. In: packed edges of both sides. Out per side: `cells`, the first edge of every cell and the
 // end of the last one, then the number of every edge in the order of the index; `points`, positions and directions in
 // that order. One work-item = one side; its phases are a counting sort. point_index_groups.cl is the same for GPUs.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 kernel void point_index(const PointIndexArguments args, global const float* left_edges, global const float* right_edges,
                         global float* left_points, global int* left_cells, global float* right_points,

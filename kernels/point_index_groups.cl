@@ -4,7 +4,7 @@
 // Needs indexed_points.cl. In and out as in point_index.cl, and the same bytes: edges enter a cell in any order, and
 // then every cell is sorted. Cells and edges of both sides are numbered through, those of the left side first. One
 // work-item = one edge or, in point_index_sort, one cell.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 // An edge by its number among those of both sides.
 typedef struct {

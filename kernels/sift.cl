@@ -11,11 +11,11 @@
 // sift_gradient    In: that plane. Out: magnitude [grey levels per 2 px] and angle [bins of 45 degrees, -4 .. 4] of the
 //                  central difference, (height + 2 kSiftPadding) rows.
 // sift_describe    In: both maps, edges (x, y [px], direction [rad]). Out: 256 bytes per edge, laid out as in
-//                  host/reference/edge_descriptions.hpp. Two forms with the same arithmetic in the same order:
+//                  host/workbench/reference/edge_descriptions.hpp. Two forms with the same arithmetic in one order:
 //                  without GROUP: one work-item = one edge; the 8 angle bins of a cell are the lanes of a float8;
 //                  with GROUP: kSiftItems work-items per edge, each a cell of one side; groups of GROUP work-items,
 //                  local memory 28 * 121 bytes + 1 KiB per edge.
-// Needs direction.cl before it. Reference: host/reference/edge_descriptions.cpp.
+// Needs direction.cl before it. Reference: host/workbench/reference/edge_descriptions.cpp.
 
 #define RADIUS 5
 #define WINDOW (2 * RADIUS + 1)

@@ -2,7 +2,7 @@
 // file before the filters that use it.
 //
 // The layouts are those of patches.cl and sift.cl.
-// Reference, bit by bit: patch_ncc() and sift_distance2() in host/reference/edge_descriptions.cpp.
+// Reference, bit by bit: patch_ncc() and sift_distance2() in host/workbench/reference/edge_descriptions.cpp.
 
 // The four products of side patches: dark-dark, bright-bright, dark-bright, bright-dark.
 static inline float4 patch_scores(global const char* a, global const char* b) {

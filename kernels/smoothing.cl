@@ -2,7 +2,7 @@
 // variance of 4 px^2. Border replicated, rounded half up.
 //
 // All arithmetic is exact: a row of weights sums to 2^16. One work-item = one pixel.
-// Reference: host/reference/images.cpp.
+// Reference: host/workbench/reference/images.cpp.
 
 #define ORDER 16
 constant uint kBinomial[ORDER + 1] = {1,     16,   120,  560,  1820, 4368, 8008, 11440, 12870,

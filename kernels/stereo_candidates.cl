@@ -7,7 +7,7 @@
 // (1, else 0).
 // One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after
 // an exclusive scan) fill. With HALF_TURN directions are compared modulo half a turn.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // A position differs from that of its pixel by at most this along both axes [px] (kEdgeRowReach in
 // include/quadedge/edges.hpp).

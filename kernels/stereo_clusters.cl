@@ -2,7 +2,7 @@
 //
 // Needs direction.cl. Cluster k of left edge i is element first[i] + k of each block of `clusters` and
 // of cluster_anchor.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // Criterion for the representative of a cluster: alive candidates come before represented ones.
 static inline float rank_in_cluster(global const uchar* state, global const float* similarity, const int c) {

@@ -2,7 +2,7 @@
 //
 // Needs direction.cl and epipolar.cl. In: the cluster that every left edge has chosen (-1: none) and its score. One
 // work-item = one left edge. Maxima and minima of integers do not depend on the order of the work-items.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // 1: the highest score that any left edge offers to a right edge (positive floats order like their bits).
 kernel void stereo_claim(const StereoMutualArguments args, global const int* chosen, global const float* score,

@@ -6,7 +6,7 @@
 // Out per candidate: its position `s` on the left edge's epipolar line (px from the point at infinity), the similarity
 // of both positions, and state = rejected_order where the refinement diverged. One work-item = one left edge;
 // stereo_refinement_lanes.cl has eight per edge.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // The higher NCC of the two side patches of a left edge and those cut at two positions of the right image.
 static inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,

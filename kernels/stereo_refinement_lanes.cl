@@ -5,7 +5,7 @@
 // lanes go through local memory.
 // Groups of GROUP work-items refine one candidate of each of their edges at a time; the first lane of an edge keeps its
 // row of candidates. Local memory: EXCHANGE_FLOATS + 2 kPatchRows GROUP floats.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // LONG: a row from shift to similarity; the left edge's patches stay in local memory.
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement(

@@ -4,7 +4,7 @@
 // Needs direction.cl and epipolar.cl. One work-item = one left edge; its candidates are the clusters of
 // stereo_clusters.cl that reach similarity_min, the others have prior 0. Beliefs of a round are read and those of the
 // next one written, so the order of the work-items decides nothing. `slopes`: two blocks of `capacity` floats.
-// Reference: host/reference/stereo_matching.cpp.
+// Reference: host/workbench/reference/stereo_matching.cpp.
 
 // How much a candidate's position on the epipolar line changes per px along the left edge, as the right direction
 // tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right

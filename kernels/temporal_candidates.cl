@@ -6,7 +6,7 @@
 // Out: candidate lists in compressed rows, targets are current stereo edges in the order of the point index.
 // One work-item = one row; with LANES (16) it tests as many points of the index at once. Two launches: count, then
 // (after an exclusive scan) fill. With HALF_TURN directions are compared modulo half a turn.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 // Visits the points [begin, end) of the index, which holds `total`, and writes at most `room` of those that pass to
 // target[].

@@ -8,7 +8,7 @@
 // number of each stereo edge's left patch; right patches are in the order of the stereo edges.
 // Out per row, which belongs to base edge row * row_step: kQuadRowInts ints (layouts.cl).
 // A work-item tests LANES points of the index at once, and asks for memory ahead: for CPUs.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 // Maximum number of candidates per row and side; rows with more are flagged and have no result.
 #define MOST 160

@@ -4,7 +4,7 @@
 // Needs similarity_lanes.cl, edge_groups.cl and indexed_points.cl. In and out as in
 // temporal_match.cl, and the same bits: what work-items add up are whole numbers.
 // GROUP is at most 32, so that one word holds a bit per work-item.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 // Maximum number of candidates per row and side; rows with more are flagged and have no result.
 #define MOST 160

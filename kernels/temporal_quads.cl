@@ -2,7 +2,7 @@
 // of what remains makes the quad.
 //
 // Needs edge_groups.cl. Row r belongs to stereo edge r * row_step of the base.
-// Reference: host/reference/temporal_matching.cpp.
+// Reference: host/workbench/reference/temporal_matching.cpp.
 
 // One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score`
 // becomes the mean of both NCC.

@@ -4,7 +4,7 @@
 // table with the position in it of every pinhole pixel.
 // Out: pinhole image (count pixels, packed). One work-item = one pixel, with PIXELS (16) as many in one vector.
 // Bilinear, border replicated, rounded half up.
-// Reference: host/geometry/undistortion.cpp.
+// Reference: host/tracker/geometry/undistortion.cpp.
 
 #if MAX_VALUE > 255
 #define OPEN_CORNERS(U, AT, corners, at)                                    \

@@ -2,9 +2,9 @@
 // anywhere.
 //
 // In: the image of wide_shrink, stereo edges packed as stereo_collect writes them (the left blocks are used). Row r
-// belongs to edge r * step. Out: 128 bytes per row, laid out as in host/reference/edge_descriptions.hpp.
+// belongs to edge r * step. Out: 128 bytes per row, laid out as in host/workbench/reference/edge_descriptions.hpp.
 // One work-item = one row.
-// Needs direction.cl and wide_samples.cl before it. Reference: host/reference/edge_descriptions.cpp.
+// Needs direction.cl and wide_samples.cl before it. Reference: host/workbench/reference/edge_descriptions.cpp.
 
 kernel IN_VECTORS void wide_describe(global const float* small, const int small_width, const int small_height,
                                      global const float* edges, const int stride, const int rows, const int step,

@@ -2,7 +2,7 @@
 // GPUs; samples and bins are kept in local memory.
 //
 // Needs direction.cl and wide_samples.cl before it. In and out as there, and the same bits: every sum is taken in
-// the same order. Groups of GROUP work-items. Reference: host/reference/edge_descriptions.cpp.
+// the same order. Groups of GROUP work-items. Reference: host/workbench/reference/edge_descriptions.cpp.
 
 #define CELLS (kWideCells * kWideCells)
 #define ROWS_PER_GROUP (GROUP / CELLS)

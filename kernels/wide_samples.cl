@@ -2,7 +2,7 @@
 //
 // wide_shrink    In: image (width x height, packed). Out: means of blocks of kWideShrink x kWideShrink pixels,
 // small_width x small_height. One work-item = one block.
-// Reference: host/reference/edge_descriptions.cpp.
+// Reference: host/workbench/reference/edge_descriptions.cpp.
 
 #define HALF 7  // samples on either side of the middle one
 #define SIDE (2 * HALF + 1)

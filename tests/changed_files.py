@@ -27,5 +27,5 @@ def included_by(source: Path, repository: Path) -> set[Path]:
             continue
         found.add(file)
         names = re.findall(r'^#include "(.*)"', file.read_text(encoding="utf-8"), re.MULTILINE)
-        open_files += [repository / folder / name for folder in ("host", "include") for name in names]
+        open_files += [place / name for place in (*repository.glob("host/*"), repository / "include") for name in names]
     return found

@@ -3,7 +3,7 @@
 
     lint_locale.py REPOSITORY
 
-Numbers with a point are formatted by printed() (host/common/printed.hpp) or std::to_chars, and read by std::from_chars.
+Numbers with a point are formatted by printed() (common/printed.hpp) or std::to_chars, and read by std::from_chars.
 The commands run in the locale "C" and may print with printf.
 """
 
@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-EXEMPT = ("host/common/printed.cpp", "host/cli/")
+EXEMPT = ("host/tracker/common/printed.cpp", "host/workbench/cli/")
 PRINTF = re.compile(r"\b(v?s?n?printf|[fs]?scanf)\((?P<call>[^;]*);", re.DOTALL)
 FLOATING = re.compile(r"%[-+ #0]*(\d+|\*)?(\.(\d+|\*))?[lL]?[aefgAEFG]")
 READERS = re.compile(r"\b(atof|strto(d|f|ld)|std::sto(d|f|ld))\(")

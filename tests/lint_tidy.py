@@ -4,10 +4,10 @@
     lint_tidy.py REPOSITORY BUILD [--all] [--fix] [--jobs N] [FOLDER...]
 
 BUILD holds compile_commands.json, best of a build with QUADEDGE_UNITY: most of the time goes into included files.
-FOLDER is, for example, host/motion; without one, it is host/. A header that changed is checked with a source that
-includes it. --all, a change of .clang-tidy and a history without the release check every source. clang-tidy is the one
-next to the running Python (tests/requirements.txt): newer than Debian's, it skips system headers and takes a quarter of
-the time.
+FOLDER is, for example, host/tracker/motion; without one, it is host/. A header that changed is checked with a source
+that includes it. --all, a change of .clang-tidy and a history without the release check every source. clang-tidy is the
+one next to the running Python (tests/requirements.txt): newer than Debian's, it skips system headers and takes a
+quarter of the time.
 """
 
 import argparse

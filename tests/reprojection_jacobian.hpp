@@ -1,6 +1,6 @@
 #pragma once
 /// \file reprojection_jacobian.hpp  The full Jacobian of a reprojection residual, with which tests build the normal
-/// equations that host/motion/ computes lane by lane.
+/// equations that host/tracker/motion/ computes lane by lane.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

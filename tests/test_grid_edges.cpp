@@ -1,4 +1,4 @@
-/// \file test_grid_edges.cpp  The paper's edges on devices, against host/paper/grid_edges.cpp.
+/// \file test_grid_edges.cpp  The paper's edges on devices, against host/workbench/paper/grid_edges.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 /// \file test_paper_filters.cpp  Candidates of the paper's method and the filters on them on devices, against
-/// host/paper/cascades.cpp.
+/// host/workbench/paper/cascades.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

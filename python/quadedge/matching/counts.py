@@ -11,7 +11,7 @@ LINE_TOLERANCE = 0.5
 STEREO_DIRECTION, TEMPORAL_DIRECTION = 5.0, 10.0
 """Largest difference of the directions of counterparts [deg], modulo 180."""
 MIN_EPIPOLAR_ANGLE = 4.0
-"""Edges at a smaller angle to their epipolar line are not matched [deg]; host/common/matching_constants.hpp."""
+"""Edges at a smaller angle to their epipolar line are not matched [deg]; host/tracker/common/matching_constants.hpp."""
 
 
 @dataclass

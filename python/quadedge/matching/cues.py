@@ -10,9 +10,9 @@ from .surfaces import TruePositions
 DRAWN_OTHERS = 40
 """Of the other pairs before the first filter, per row."""
 LENGTH, ANGLE, TANGENT, MIN_ANGLE, MIN_DETERMINANT = 0.13, 0.12, 0.32, 14.0, 0.1
-"""Thresholds of the paper's Equation 9; host/motion/pose_constants.hpp."""
+"""Thresholds of the paper's Equation 9; host/tracker/motion/pose_constants.hpp."""
 SIFT_NEARLY_BEST, SUPPORT_WEIGHT, TEMPORAL_ORIENTATION = 0.4, 0.4, 10.0
-"""Constants of the cascades; host/common/matching_constants.hpp."""
+"""Constants of the cascades; host/tracker/common/matching_constants.hpp."""
 _SLACK = 1e-3
 """Bins: in single precision, an NCC of one may slightly exceed one."""
 

@@ -54,7 +54,7 @@ class StereoRefinement : private Stage {
                    const opencl::VariantChoice& variants, int max_value = kMaxValue8);
 
   /// Living candidates get a position and a similarity; those that diverge are rejected. Both images prepared for
-  /// sampling; `left_patches`: the side patches of the left edges, see host/reference/edge_descriptions.hpp.
+  /// sampling; `left_patches`: the side patches of the left edges, see reference/edge_descriptions.hpp.
   void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
            const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches, const EpipolarGeometry& geometry,
            DeviceCandidates& candidates, DeviceRefined& refined);
@@ -111,7 +111,7 @@ class CoarseDisparity : private Stage {
   /// Matches the images of `search`, which are rectified.
   void run(const DeviceImage& left, const DeviceImage& right, const CoarseDisparityArguments& search);
 
-  /// height x width of the search, see host/reference/coarse_disparity.hpp.
+  /// height x width of the search, see reference/coarse_disparity.hpp.
   const opencl::Buffer<cl_float>& positions() const { return positions_; }
   /// The last search.
   const CoarseDisparityArguments& search() const { return search_; }

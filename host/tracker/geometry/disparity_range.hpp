@@ -13,7 +13,7 @@
 namespace quadedge {
 
 /// Whether the configuration states a range: stereo.max_disparity or stereo.min_depth. Otherwise the range follows the
-/// images, see host/edges/range_follower.hpp.
+/// images, see host/tracker/edges/range_follower.hpp.
 bool has_disparity_range(const StereoConfig& config);
 
 /// The configuration with a disparity range: without one, stereo.max_disparity becomes rig.disparity_range().

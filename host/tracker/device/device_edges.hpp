@@ -117,7 +117,7 @@ struct DeviceStereoEdges {
   opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined position
   DeviceImage left_image, right_image;    ///< undistorted, for SIFT descriptors when a search asks for them
   opencl::Buffer<cl_uchar> left_sift,
-      right_sift;  ///< of every stereo edge, where has_sift; see host/reference/edge_descriptions.hpp
+      right_sift;  ///< of every stereo edge, where has_sift; see reference/edge_descriptions.hpp
   bool has_sift = false;
   int stride = 0;
   cl_int count = 0;

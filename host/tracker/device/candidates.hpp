@@ -68,9 +68,9 @@ cl::Program candidates_program(opencl::Context& context, const opencl::Variant& 
 
 /// Descriptions of a set of edges.
 struct DescribedEdges {
-  const opencl::Buffer<cl_char>& patches;  ///< see host/reference/edge_descriptions.hpp
+  const opencl::Buffer<cl_char>& patches;  ///< see reference/edge_descriptions.hpp
   const opencl::Buffer<cl_int>& patch_of;  ///< number of the patches of each edge
-  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/edge_descriptions.hpp
+  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see reference/edge_descriptions.hpp
 };
 
 /// Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists.
@@ -96,7 +96,7 @@ class CandidateFilters : private Stage {
 struct PaperDescribedEdges {
   const opencl::Buffer<cl_float>& patches;  ///< kPaperPatchFloats of kernels/layouts.cl each
   const opencl::Buffer<cl_int>& number_of;  ///< of each edge: the number of its patches and of its descriptor
-  const opencl::Buffer<cl_uchar>& sift;     ///< in the order of the patches, see host/reference/edge_descriptions.hpp
+  const opencl::Buffer<cl_uchar>& sift;     ///< in the order of the patches, see reference/edge_descriptions.hpp
 };
 
 /// The same filters with the paper's patches.

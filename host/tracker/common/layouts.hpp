@@ -4,7 +4,7 @@
 
 namespace quadedge {
 
-#include "../../kernels/layouts.cl"  // shared source
+#include "../../../kernels/layouts.cl"  // shared source
 
 #undef FLOAT_CONSTANT
 
