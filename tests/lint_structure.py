@@ -23,10 +23,10 @@ SIZED = {"host", "include", "kernels", "python", "bench", "ros2", "scripts", "te
 MOST_LINES = {
     "bench": 550,
     "host/tracker/common": 1060,
-    "host/tracker/device": 4735,
-    "host/tracker/edges": 2920,
+    "host/tracker/device": 4700,
+    "host/tracker/edges": 2915,
     "host/tracker/geometry": 2245,
-    "host/tracker/motion": 6684,
+    "host/tracker/motion": 6683,
     "host/tracker/places": 2305,
     "host/tracker/rig": 4375,
     "host/workbench/benchmark": 1090,
