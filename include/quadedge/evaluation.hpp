@@ -24,11 +24,13 @@ struct PoseErrors {
 /// Relative errors over sub-paths of one length, or of all lengths, as KITTI's odometry benchmark defines t_rel and
 /// r_rel: a sub-path starts at every tenth matched pose and ends at the first one that is farther away along the true
 /// path; the errors of its end, seen from its start, are divided by the length. No sub-path spans two segments.
+/// sd: the standard deviation over the sub-paths of one length; NaN for all lengths.
 struct SubPathErrors {
   double length_m = std::numeric_limits<double>::quiet_NaN();             ///< NaN: of all lengths
   int count = 0;                                                          ///< number of sub-paths
   double translation_percent = std::numeric_limits<double>::quiet_NaN();  ///< mean t_rel; NaN without sub-paths
   double rotation_deg_per_m = std::numeric_limits<double>::quiet_NaN();   ///< mean r_rel; NaN without sub-paths
+  double translation_sd_percent = translation_percent, rotation_sd_deg_per_m = rotation_deg_per_m;
 };
 
 /// Lengths of the sub-paths of KITTI's odometry benchmark [m].
@@ -38,9 +40,8 @@ inline const std::vector<double> kKittiLengths = {100, 200, 300, 400, 500, 600, 
 struct TrajectoryEvaluation {
   PoseErrors origin_aligned;  ///< first matched poses made identical (the paper's choice; `evo --align_origin`)
   PoseErrors se3_aligned;     ///< Umeyama without scale (`evo --align`)
-  /// Reason why the positions do not determine the rotation of the SE(3) alignment, in which case its ape_rotation_deg
-  /// is NaN; empty if they do. The positions of a straight or stationary path do not distinguish a rotation from
-  /// errors.
+  /// Why the positions do not determine the rotation of the SE(3) alignment, whose ape_rotation_deg is then NaN; empty
+  /// if they do. Those of a straight or stationary path do not distinguish a rotation from errors.
   std::string se3_open_rotation;
   int matched = 0;    ///< number of poses compared
   int rpe_steps = 0;  ///< number of steps that RPE covers
@@ -60,8 +61,7 @@ struct TrajectoryEvaluation {
   };
   std::vector<PerPose> per_pose;
   int segment = 0;  ///< number of the first pose's segment
-  /// If poses of several segments match: every segment by itself, with its own alignments. Errors of a single pose are
-  /// NaN.
+  /// Of several segments, every one by itself, with its own alignments; errors of a single pose are NaN.
   std::vector<TrajectoryEvaluation> segments;
 };
 

@@ -21,6 +21,7 @@ namespace {
 using evaluation::angle_deg;
 using evaluation::MatchedPoses;
 using evaluation::mean_of;
+using evaluation::statistics;
 using evaluation::sub_path_errors;
 using Pose = Eigen::Isometry3d;
 
@@ -45,26 +46,6 @@ std::vector<MatchedPoses> match_by_stamp(const Trajectory& estimate, const Traje
     ++next;
   }
   return matches;
-}
-
-/// Of all errors that have a value.
-ErrorStatistics statistics(std::vector<double> errors) {
-  errors.erase(std::remove_if(errors.begin(), errors.end(), [](double error) { return std::isnan(error); }),
-               errors.end());
-  if (errors.empty()) return {kNan, kNan, kNan, kNan};
-  ErrorStatistics result;
-  const double count = static_cast<double>(errors.size());
-  double sum = 0, squares = 0, deviations = 0;
-  for (const double error : errors) {
-    sum += error;
-    squares += error * error;
-    result.max = std::max(result.max, error);
-  }
-  result.mean = sum / count;
-  for (const double error : errors) deviations += (error - result.mean) * (error - result.mean);
-  result.std = std::sqrt(deviations / count);
-  result.rmse = std::sqrt(squares / count);
-  return result;
 }
 
 /// The four errors of every matched pose after the estimate is transformed by `world_from_estimate`; RPE is NaN for the

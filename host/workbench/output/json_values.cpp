@@ -45,7 +45,9 @@ void add_configuration(Json& json, const Config& config) {
 static Json to_json(const SubPathErrors& errors) {
   return {{"sub_paths", errors.count},
           {"t_rel_percent", to_json(errors.translation_percent)},
-          {"r_rel_deg_per_m", to_json(errors.rotation_deg_per_m)}};
+          {"t_rel_sd_percent", to_json(errors.translation_sd_percent)},
+          {"r_rel_deg_per_m", to_json(errors.rotation_deg_per_m)},
+          {"r_rel_sd_deg_per_m", to_json(errors.rotation_sd_deg_per_m)}};
 }
 
 Json to_json(const TrajectoryEvaluation& evaluation) {

@@ -22,6 +22,25 @@ std::vector<double> distances(const std::vector<MatchedPoses>& poses) {
 
 }  // namespace
 
+ErrorStatistics statistics(std::vector<double> errors) {
+  errors.erase(std::remove_if(errors.begin(), errors.end(), [](double error) { return std::isnan(error); }),
+               errors.end());
+  if (errors.empty()) return {kNan, kNan, kNan, kNan};
+  ErrorStatistics result;
+  const double count = static_cast<double>(errors.size());
+  double sum = 0, squares = 0, deviations = 0;
+  for (const double error : errors) {
+    sum += error;
+    squares += error * error;
+    result.max = std::max(result.max, error);
+  }
+  result.mean = sum / count;
+  for (const double error : errors) deviations += (error - result.mean) * (error - result.mean);
+  result.std = std::sqrt(deviations / count);
+  result.rmse = std::sqrt(squares / count);
+  return result;
+}
+
 double angle_deg(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
   return 2 * std::atan2(q.vec().norm(), std::abs(q.w())) * kDegreesPerRadian;
@@ -31,7 +50,7 @@ std::vector<SubPathErrors> sub_path_errors(const std::vector<MatchedPoses>& pose
   const std::vector<double> distance = distances(poses);
   std::vector<SubPathErrors> errors;
   for (const double length : lengths) {
-    SubPathErrors sum{length, 0, 0, 0};
+    std::vector<double> translation, rotation;
     for (std::size_t first = 0; first < poses.size(); first += kStartStep) {
       // The first pose beyond the length, which the errors are nevertheless divided by.
       const auto end = std::upper_bound(distance.begin() + static_cast<std::ptrdiff_t>(first), distance.end(),
@@ -41,19 +60,18 @@ std::vector<SubPathErrors> sub_path_errors(const std::vector<MatchedPoses>& pose
       if (from.segment != to.segment) continue;
       const Eigen::Isometry3d off =
           (from.estimate.inverse() * to.estimate).inverse() * (from.truth.inverse() * to.truth);
-      ++sum.count;
-      sum.translation_percent += 100 * off.translation().norm() / length;
-      sum.rotation_deg_per_m += angle_deg(off.linear()) / length;
+      translation.push_back(100 * off.translation().norm() / length);
+      rotation.push_back(angle_deg(off.linear()) / length);
     }
-    sum.translation_percent = sum.count > 0 ? sum.translation_percent / sum.count : kNan;
-    sum.rotation_deg_per_m = sum.count > 0 ? sum.rotation_deg_per_m / sum.count : kNan;
-    errors.push_back(sum);
+    const int count = static_cast<int>(translation.size());
+    const ErrorStatistics t = statistics(std::move(translation)), r = statistics(std::move(rotation));
+    errors.push_back({length, count, t.mean, r.mean, t.std, r.std});
   }
   return errors;
 }
 
 SubPathErrors mean_of(const std::vector<SubPathErrors>& lengths) {
-  SubPathErrors mean{kNan, 0, 0, 0};
+  SubPathErrors mean{kNan, 0, 0, 0, kNan, kNan};
   for (const SubPathErrors& errors : lengths) {
     if (errors.count == 0) continue;
     mean.count += errors.count;

@@ -15,6 +15,9 @@ struct MatchedPoses {
   int segment;
 };
 
+/// Of all errors that have a value; NaN if none has.
+ErrorStatistics statistics(std::vector<double> errors);
+
 /// One entry per length [m], with `count` 0 and errors NaN where the path is too short.
 std::vector<SubPathErrors> sub_path_errors(const std::vector<MatchedPoses>& poses, const std::vector<double>& lengths);
 
