@@ -131,9 +131,7 @@ class BenchCommand : public Command {
     options.choice("--scene", scene_.scene, synthetic_scenes(), "built-in scene");
     declare_view(options, scene_, size_);
     options.number("--scene-seed", scene_.seed, "seed of the built-in sequence");
-    options.number("--edges", edges_,
-                   "choose edges.threshold for this number of edges per image; 0: as configured; -1: 25000 for the "
-                   "built-in sequence, as configured for a recorded one");
+    options.number("--edges", edges_, "choose edges.threshold for this number of edges per image; 0: as configured");
     options.number("--frames", frames_, "number of measured frames");
     options.number("--warm-up", warm_up_, "number of frames between the first and the measured ones");
     options.flag(
@@ -171,7 +169,7 @@ class BenchCommand : public Command {
   void check_options() const {
     if (frames_ < 1) throw UsageError("--frames " + std::to_string(frames_) + ": expected 1 or more");
     if (warm_up_ < 0) throw UsageError("--warm-up " + std::to_string(warm_up_) + ": expected 0 or more");
-    if (edges_ < -1) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more, or -1");
+    if (edges_ < 0) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more");
     if (!(noise_ >= 0)) throw UsageError("--noise: expected 0 percent or more");
     const SyntheticOptions usual;
     if (source_.is_given() &&
@@ -231,7 +229,7 @@ class BenchCommand : public Command {
     }
     run.input.frames = static_cast<int>(frames.size());
     check_length(run.input);
-    record.edges_wanted = edges_ >= 0 ? edges_ : source_.is_given() ? 0 : kBenchEdges;
+    record.edges_wanted = edges_;
     if (record.edges_wanted > 0) {
       Device device = method_.open_device();
       run.config.edges.threshold = bench::threshold_for_edges(frames.front(), record.edges_wanted, device, run.config);
@@ -253,7 +251,7 @@ class BenchCommand : public Command {
   SyntheticOptions scene_;
   SourceOptions source_;
   std::string path_, size_, json_, trace_, compare_;
-  int edges_ = -1, frames_ = 30, warm_up_ = 3;
+  int edges_ = 0, frames_ = 30, warm_up_ = 3;
   double noise_ = 10;
   bool baseline_ = false, force_ = false, quiet_ = false;
   MethodOptions method_;
