@@ -1,6 +1,6 @@
 """Other systems on rectified pairs, each in a process of its own: what scripts/recordings.py compares QuadEdge with.
 
-    evidence_peers.py SYSTEM PAIRS OUT [OPTION...]      SYSTEM: orb_slam3
+    evidence_peers.py SYSTEM PAIRS OUT FEATURES      SYSTEM: orb_slam3
 
 PAIRS is a folder with image_0, image_1, calib.txt and times.txt as KITTI has them. OUT receives one row per pose, in
 TUM's format, in the coordinates of the rectified left camera; the last line printed is a JSON object with the version
@@ -16,38 +16,14 @@ from pathlib import Path
 import cv2
 import numpy
 
-ORB_SETTINGS = """%YAML:1.0
-Camera.type: "PinHole"
-Camera.fx: {f}
-Camera.fy: {f}
-Camera.cx: {cx}
-Camera.cy: {cy}
-Camera.k1: 0.0
-Camera.k2: 0.0
-Camera.p1: 0.0
-Camera.p2: 0.0
-Camera.width: {width}
-Camera.height: {height}
-Camera.fps: {fps}
-Camera.bf: {bf}
-Camera.RGB: 1
-ThDepth: 35.0
-ORBextractor.nFeatures: 2000
-ORBextractor.scaleFactor: 1.2
-ORBextractor.nLevels: 8
-ORBextractor.iniThFAST: 20
-ORBextractor.minThFAST: 7
-loopClosing: 0
-Viewer.KeyFrameSize: 0.6
-Viewer.KeyFrameLineWidth: 2.0
-Viewer.GraphLineWidth: 1.0
-Viewer.PointSize: 2.0
-Viewer.CameraSize: 0.7
-Viewer.CameraLineWidth: 3.0
-Viewer.ViewpointX: 0.0
-Viewer.ViewpointY: -100.0
-Viewer.ViewpointZ: -0.1
-Viewer.ViewpointF: 2000.0
+SLOWER = 10  # than the camera
+
+# What is the same for all recordings, name and value; the program ends without what it does not need.
+ORB_SETTINGS = """Camera.type: "PinHole"|Camera.k1: 0.0|Camera.k2: 0.0|Camera.p1: 0.0|Camera.p2: 0.0|Camera.RGB: 1
+ThDepth: 35.0|ORBextractor.scaleFactor: 1.2|ORBextractor.nLevels: 8|ORBextractor.iniThFAST: 20|ORBextractor.minThFAST: 7
+loopClosing: 0|Viewer.KeyFrameSize: 0.6|Viewer.KeyFrameLineWidth: 2.0|Viewer.GraphLineWidth: 1.0|Viewer.PointSize: 2.0
+Viewer.CameraSize: 0.7|Viewer.CameraLineWidth: 3.0|Viewer.ViewpointX: 0.0|Viewer.ViewpointY: -100.0
+Viewer.ViewpointZ: -0.1|Viewer.ViewpointF: 2000.0
 """
 
 
@@ -104,15 +80,18 @@ def train_vocabulary(pairs, file, branching=10, levels=3):
     file.write_text(f"{branching} {levels} 0 0\n" + "\n".join(lines) + "\n", encoding="ascii")
 
 
-def orb_slam3(pairs, folder):
-    """ORB-SLAM3 without loop closing, its camera poses after its local mapping has ended."""
+def orb_slam3(pairs, folder, features):
+    """ORB-SLAM3 without loop closing, its camera poses after its local mapping has ended. It gets frames at a tenth of
+    the camera's rate, so that its mapping keeps up on two cores."""
     import pyorbslam3
 
     width, height = pairs.size()
     fps = (len(pairs.times) - 1) / (pairs.times[-1] - pairs.times[0])
     settings, vocabulary = folder / "orb_slam3.yaml", folder.parent / "orb_vocabulary.txt"  # trained once
-    settings.write_text(ORB_SETTINGS.format(f=pairs.f, cx=pairs.cx, cy=pairs.cy, bf=pairs.f * pairs.baseline,
-                                            width=width, height=height, fps=fps))
+    camera = {"fx": pairs.f, "fy": pairs.f, "cx": pairs.cx, "cy": pairs.cy, "bf": pairs.f * pairs.baseline,
+              "width": width, "height": height, "fps": fps}
+    settings.write_text("%YAML:1.0\n" + "".join(f"Camera.{name}: {value}\n" for name, value in camera.items())
+                        + f"ORBextractor.nFeatures: {features}\n" + ORB_SETTINGS.replace("|", "\n"))
     if not vocabulary.exists():
         train_vocabulary(pairs, vocabulary)
     slam = pyorbslam3.Slam(vocabulary, settings, pyorbslam3.Sensor.STEREO)
@@ -121,7 +100,7 @@ def orb_slam3(pairs, folder):
         start = time.monotonic()
         slam.track_stereo(left, right, stamp)
         seconds.append(time.monotonic() - start)
-        time.sleep(max(0.0, 1 / fps - seconds[-1]))  # its mapping works beside, as it would with a camera
+        time.sleep(max(0.0, SLOWER / fps - seconds[-1]))
     slam.shutdown()
     file = folder / "orb_slam3.txt"
     slam.save_trajectory_tum(str(file))
@@ -133,10 +112,10 @@ SYSTEMS = {"orb_slam3": (orb_slam3, "pyorbslam3")}
 
 
 def main():
-    system, folder, out = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+    system, folder, out, features = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]), int(sys.argv[4])
     run, package = SYSTEMS[system]
     out.parent.mkdir(parents=True, exist_ok=True)
-    poses, seconds = run(Pairs(folder), out.parent)
+    poses, seconds = run(Pairs(folder), out.parent, features)
     out.write_text("".join(f"{stamp:.9f} {' '.join(values)}\n" for stamp, values in poses), encoding="ascii")
     print(json.dumps({"version": f"{package} {metadata.version(package)}", "seconds": seconds}))
 

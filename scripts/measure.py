@@ -29,7 +29,6 @@ from pathlib import Path
 import result_tables
 from harness import REPOSITORY, Problem, Programs
 from measurements import PARTS, RECORDED, SCENES, SYSTEMS
-from recordings import QUADEDGE
 from stamped import commit, stamped, write
 
 
@@ -41,7 +40,6 @@ def parse():
     parser.add_argument("--recordings", type=Path, metavar="DIR", help="folder with the whole recordings")
     parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *SCENES), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
-    parser.add_argument("--only-system", choices=QUADEDGE, metavar="SYSTEM", help="of the evidence; others stay")
     parser.add_argument("--viso2", type=Path, metavar="FILE")
     parser.add_argument("--peers", type=Path, metavar="PYTHON")
     parser.add_argument("--seeds", type=int, default=5, metavar="N", help="runs of QuadEdge per sequence")
@@ -58,8 +56,6 @@ def parse():
         options.sequences = [*(RECORDED if options.data else ()), *SCENES]
     elif not options.data and any(name in RECORDED for name in options.sequences):
         parser.error("recorded sequences need --data or QUADEDGE_DATA")
-    if options.only_system and options.only != ["evidence"]:
-        parser.error("--only-system needs --only evidence")
     options.work = options.work.resolve()
     return options
 
@@ -83,9 +79,7 @@ def main():
             if part == "evidence" and not options.recordings:
                 continue
             file = options.out / f"{part}.json"
-            before = json.loads(file.read_text(encoding="utf-8")) if options.only_system else {}
-            rows = PARTS[part](programs)
-            write(stamped({"seeds": options.seeds}, measured) | before | {"rows": rows}, file)
+            write(stamped({"seeds": options.seeds, "rows": PARTS[part](programs)}, measured), file)
     except Problem as problem:
         print(f"measure: {problem}", file=sys.stderr)
         return 1

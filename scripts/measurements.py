@@ -168,34 +168,6 @@ def measure_speed(programs):
     return rows
 
 
-def drift_of(scene, seed, programs):
-    """End error and RMS error of the positions, origin-aligned [mm], parts of the end error [mm], path length [m]."""
-    folder = programs.options.work / "drift" / f"{scene}_{seed}"
-    programs.track(folder, ["demo", "--scene", scene, "--scene-seed", seed, "--frames", programs.options.frames or 480,
-                            "--size", "480x249"])
-    found = positions(folder)
-    true = {round(float(words[0]), 6): [float(word) for word in words[1:4]]
-            for words in map(str.split, open(folder / "groundtruth.txt", encoding="utf-8")) if words[0] != "#"}
-    parts = [[1e3 * (b - a) for a, b in zip(true[round(row[0], 6)], row[1:4])] for row in found]
-    lengths = [math.hypot(*part) for part in parts]
-    return {"end_mm": lengths[-1], "rms_mm": math.hypot(*lengths) / math.sqrt(len(lengths)), "end_parts_mm": parts[-1],
-            "path_m": sum(math.dist(one[1:4], other[1:4]) for one, other in zip(found, found[1:])),
-            "frames": len(found)}
-
-
-def measure_drift(programs):
-    """Long rendered sequences with three textures, and the part of the drift that all textures share."""
-    rows = []
-    for scene in (scene for scene in ("room", "cables") if scene in programs.options.sequences):
-        runs = [drift_of(scene, seed, programs) for seed in (1, 2, 3)]
-        rows.append({"scene": scene, "end_mm": statistics.mean(run["end_mm"] for run in runs),
-                     "rms_mm": statistics.mean(run["rms_mm"] for run in runs),
-                     "end_percent": statistics.mean(run["end_mm"] / run["path_m"] for run in runs) / 10,
-                     "mean_end_parts_mm": [*map(statistics.mean, zip(*(run["end_parts_mm"] for run in runs)))],
-                     "runs": runs})
-    return rows
-
-
 def tracked(title, label, method, seeds, programs):
     """Errors of Table 4 of every seed, and the row with frames tracked and the command of the last seed."""
     place, frames = TRACKED[title]
@@ -242,5 +214,5 @@ def measure_paper(programs):
     return rows
 
 
-PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed, "drift": measure_drift,
+PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed,
          "paper": measure_paper, "evidence": measure_recordings}

@@ -1,9 +1,9 @@
 """Errors of QuadEdge and of other systems on whole recordings (scripts/measure.py --only evidence).
 
 Peers run on the same machine in the same call, on pairs that OpenCV has rectified (alpha 0); their poses are turned
-back to the recorded left camera. QuadEdge gets the recording as it is. A peer that is not given is left out, one that
-fails is named with the reason. A recording that is missing, and with --only-system all other rows, keep what
-evidence.json has, with its commit.
+back to the recorded left camera. QuadEdge gets the recording as it is. With "learned rig", each half of a recording is
+tracked with the calibration that `quadedge calibrate` learned from the other half. A peer that is not given is left
+out, one that fails is named with the reason. A recording that is missing keeps what evidence.json has.
 """
 
 import json
@@ -11,44 +11,49 @@ import math
 import os
 import re
 import statistics
-import subprocess
 import sys
 
 from harness import REPOSITORY, Problem, positions, report
 from stamped import commit
 
-# Name, official name, lengths of sub-paths [m], where it comes from. The truth of Karlsruhe has no orientation that
-# could be used, so only its length is compared, with that of the inertial system's positions at the frames [m] in
-# path_length.txt.
+# Name, official name, lengths of sub-paths [m], source, features of ORB-SLAM3's own settings. The truth of Karlsruhe
+# has no orientation that could be used, so only its length is compared, with that of the inertial system's positions at
+# the frames [m] in path_length.txt.
 RECORDINGS = {
     "street": ("KITTI street", "KITTI raw, 2011_09_26, 14:05, unrectified cameras 0 and 1", (10, 20, 50, 100, 200),
-               "https://www.cvlibs.net/datasets/kitti/raw_data.php"),
+               "https://www.cvlibs.net/datasets/kitti/raw_data.php", 2000),
     "karlsruhe": ("Karlsruhe", "Karlsruhe sequences, 2010_03_09_drive_0019", (),
-                  "https://www.cvlibs.net/datasets/karlsruhe_sequences/"),
+                  "https://www.cvlibs.net/datasets/karlsruhe_sequences/", 2000),
     "mh_01": ("EuRoC MH_01", "EuRoC MAV, MH_01_easy", (0.5, 1, 2, 5),
-              "https://projects.asl.ethz.ch/datasets/euroc-mav/"),
+              "https://projects.asl.ethz.ch/datasets/euroc-mav/", 1200),
 }
+HALVES = {"street": 200}  # first frame of the second half, where a rig learned from one half is taken for the other
 # The order of the rows; with their arguments, those of QuadEdge. Times with --calibrate would be those of two programs.
-QUADEDGE = {"QuadEdge": [], "QuadEdge, --calibrate": ["--calibrate"], "QuadEdge, fast": ["--preset", "fast"]}
+QUADEDGE = {"QuadEdge": [], "QuadEdge, learned rig": ["--calibration", "RIG"],
+            "QuadEdge, --calibrate": ["--calibrate"], "QuadEdge, --loops": ["--loops"],
+            "QuadEdge, fast": ["--preset", "fast"]}
 PEERS = {"viso2": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
-         "orb_slam3": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES",
-         "OpenCV SIFT + PnP": "opencv_baseline RECORDING -o OUT"}
+         "orb_slam3": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES FEATURES",
+         "orb_slam3, learned rig": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES FEATURES"}
+ONE_RUN = ("viso2", "QuadEdge, --calibrate", "QuadEdge, --loops")  # of others one per seed
 SYSTEMS = (*QUADEDGE, *PEERS)
-PEER_SECONDS = 600  # a peer that takes longer for a recording is left out
 
 
 class Recording:
-    """A folder with a recording, and its rectified pairs, which are made in `work` at first use."""
+    """A folder with a recording, or frames of it, and its rectified pairs, which are made in `work` at first use.
+    `rig`: another calibration, in OpenCV's form."""
 
-    def __init__(self, name, folder, work):
-        self.name, self.folder, self.pairs = name, folder, work / "rectified"
+    def __init__(self, name, folder, work, frames=slice(None), rig=None):
+        self.name, self.folder, self.work, self.frames, self.rig = name, folder, work, frames, rig
+        self.pairs = work / "rectified"
         self.rotation = None  # rectified_from_left, if the images had to be rectified
         truth, length = folder / "truth.txt", folder / "path_length.txt"
         self.truth = truth if truth.exists() else None
         self.true_length = float(length.read_text(encoding="ascii")) if length.exists() else None
         left = sorted((folder / "mav0/cam0/data").glob("*.png"))
-        self.stamps = [int(file.stem) for file in left] if left else [
+        stamps = [int(file.stem) for file in left] if left else [
             round(float(line) * 1e9) for line in (folder / "times.txt").read_text().split()]
+        self.stamps = stamps[frames]
 
     def rectify(self):
         """Writes KITTI's layout to `pairs`."""
@@ -66,6 +71,10 @@ class Recording:
         lenses = [(numpy.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), numpy.array(sensor["distortion_coefficients"]))
                   for sensor in sensors for fx, fy, cx, cy in [sensor["intrinsics"]]]
         size = tuple(sensors[0]["resolution"])
+        if self.rig:
+            file = cv2.FileStorage(str(self.rig), cv2.FILE_STORAGE_READ)
+            M1, D1, M2, D2, R, T = (file.getNode(name).mat() for name in ("M1", "D1", "M2", "D2", "R", "T"))
+            lenses, right_from_left = [(M1, D1), (M2, D2)], numpy.block([[R, T.reshape(3, 1)], [0, 0, 0, 1]])
         turn_0, turn_1, made_0, made_1, *_ = cv2.stereoRectify(
             *lenses[0], *lenses[1], size, right_from_left[:3, :3], right_from_left[:3, 3:], alpha=0)
         self.rotation = turn_0
@@ -75,7 +84,7 @@ class Recording:
                 continue
             out.mkdir(parents=True)
             maps = cv2.initUndistortRectifyMap(matrix, lens, turn, made, size, cv2.CV_32FC1)
-            for image in sorted((self.folder / f"mav0/cam{camera}/data").glob("*.png")):
+            for image in sorted((self.folder / f"mav0/cam{camera}/data").glob("*.png"))[self.frames]:
                 pixels = cv2.imread(str(image), cv2.IMREAD_GRAYSCALE)
                 cv2.imwrite(str(out / image.name), cv2.remap(pixels, *maps, cv2.INTER_LINEAR))
         rows = [" ".join(repr(float(value)) for value in made.ravel()) for made in (made_0, made_1)]
@@ -98,24 +107,32 @@ class Recording:
         return "".join(lines)
 
 
-def camera_of(calibration):
-    """Focal length, principal point and baseline of KITTI's calib.txt."""
-    rows = {name: [float(value) for value in values.split()] for name, values in
-            (line.split(":", 1) for line in calibration.read_text(encoding="utf-8").splitlines() if ":" in line)}
-    return rows["P0"][0], rows["P0"][2], rows["P0"][6], -rows["P1"][3] / rows["P1"][0]
+def halves(programs, recording):
+    """Both halves of a recording, each with the calibration learned from the other: that in OpenCV's form in `rig`, and
+    with the suffix .yaml in the program's own."""
+    middle, work = HALVES[recording.name], recording.work
+    for name, frames, other in (("first", slice(0, middle), f"{middle}:"),
+                                ("second", slice(middle, None), f"0:{middle}")):
+        rig = work / f"rig_{name}.yml"
+        if not rig.exists():
+            work.mkdir(parents=True, exist_ok=True)
+            programs.call([programs.options.quadedge, "calibrate", recording.folder, "--frames", other, "--opencv", rig,
+                           "-o", rig.with_suffix(".yaml"), "--quiet", "--force"])
+        yield Recording(recording.name, recording.folder, work / name, frames, rig)
 
 
 def run_peer(programs, recording, folder, system):
     """Runs a peer on the rectified pairs; the trajectory is that of the recorded camera. Returns its version, and the
     times per frame [ms] and the processor time [s] of its run."""
     import numpy
+    from evidence_peers import Pairs
 
     recording.rectify()
     folder.mkdir(parents=True, exist_ok=True)
-    rectified = folder / "rectified.txt"
+    rectified, camera = folder / "rectified.txt", Pairs(recording.pairs)
     if system == "viso2":
         printed, used = programs.call([programs.options.viso2, recording.pairs / "image_0", recording.pairs / "image_1",
-                                       *camera_of(recording.pairs / "calib.txt"), rectified])
+                                       camera.f, camera.cx, camera.cy, camera.baseline, rectified])
         times = {name: float(value) for name, value in re.findall(r"(median|p99) ([\d.]+) ms", printed)}
         matrices = [numpy.vstack([numpy.array(line.split(), float).reshape(3, 4), [0, 0, 0, 1]])
                     for line in rectified.read_text().splitlines()]
@@ -125,8 +142,9 @@ def run_peer(programs, recording, folder, system):
 
         # ORB-SLAM3 reads memory that it has not written; glibc then hands out zeros.
         printed, used = programs.call(
-            [programs.options.peers, REPOSITORY / "scripts/evidence_peers.py", system, recording.pairs, rectified],
-            env={**os.environ, "MALLOC_PERTURB_": "255"}, timeout=PEER_SECONDS)
+            [programs.options.peers, REPOSITORY / "scripts/evidence_peers.py", system.split(",")[0], recording.pairs,
+             rectified, RECORDINGS[recording.name][4]],
+            env={**os.environ, "MALLOC_PERTURB_": "255"})
         about = json.loads(printed.strip().splitlines()[-1])
         version, each = about["version"], [1000 * seconds for seconds in about["seconds"]]
         times = {"first": each[0], "median": statistics.median(each[2:]), "p99": numpy.percentile(each[2:], 99)}
@@ -139,67 +157,99 @@ def run_peer(programs, recording, folder, system):
     return version, {"latency_ms": times, "processor_s": used}
 
 
-def judged(programs, recording, folder):
-    """What `quadedge evaluate trajectory` says of a run, and the length of its path [m]."""
-    points = [row[1:] for row in positions(folder)]
-    found = {"poses": len(points), "length_m": sum(map(math.dist, points, points[1:]))}
-    if recording.truth is not None:
-        lengths = ",".join(map(str, RECORDINGS[recording.name][2]))
-        said, _ = programs.evaluate(folder, recording.truth, "--lengths", lengths)
-        found["errors"] = {"accuracy": {name: said["accuracy"][name] for name in ("ate_rmse_m", "rpe_interval",
-                                                                                   "sub_paths")}}
+def over_sub_paths(programs, recording, file, rows):
+    """Errors over sub-paths of a trajectory, of which `rows` are written to `file`."""
+    file.write_text("".join(rows), encoding="ascii")
+    programs.call([programs.options.quadedge, "evaluate", "trajectory", file, recording.truth, "--force", "--lengths",
+                   ",".join(map(str, RECORDINGS[recording.name][2])), "--json", file.with_suffix(".json")])
+    return json.loads(file.with_suffix(".json").read_text(encoding="utf-8"))["accuracy"]
+
+
+def pooled(each):
+    """Errors over the sub-paths of several trajectories: means and standard deviations over all of them."""
+    entries = [entry for accuracy in each for entry in accuracy["sub_paths"]["by_length"]]
+    for length in sorted({entry["length_m"] for entry in entries}):
+        of = [entry for entry in entries if entry["length_m"] == length]
+        count, found = sum(entry["sub_paths"] for entry in of), {}
+        for mean, sd in (("t_rel_percent", "t_rel_sd_percent"), ("r_rel_deg_per_m", "r_rel_sd_deg_per_m")):
+            found[mean] = sum(entry["sub_paths"] * entry[mean] for entry in of) / count
+            square = sum(entry["sub_paths"] * (entry[sd] ** 2 + entry[mean] ** 2) for entry in of) / count
+            found[sd] = math.sqrt(max(0, square - found[mean] ** 2))
+        yield {"length_m": length, "sub_paths": count, **found}
+
+
+def judged(programs, recording, folders):
+    """Poses and length of a run, and its errors: over the whole recording, if it is one trajectory, and in halves."""
+    file = "trajectory_map.txt" if (folders[0] / "trajectory_map.txt").exists() else "trajectory.txt"  # with --loops
+    rows = [[row for row in open(folder / file, encoding="ascii") if not row.startswith("#")] for folder in folders]
+    paths = [[row[1:] for row in positions(folder)] for folder in folders]
+    found = {"poses": sum(map(len, rows)), "length_m": sum(math.dist(*ends) for path in paths
+                                                           for ends in zip(path, path[1:]))}
+    if recording.truth is None:
+        return found
+    if len(folders) == 1:
+        accuracy = over_sub_paths(programs, recording, folders[0] / "whole.txt", rows[0])
+        found |= {"ate_rmse_m": accuracy["ate_rmse_m"], "sub_paths": accuracy["sub_paths"]["by_length"]}
+    if recording.name in HALVES and len(recording.stamps) > HALVES[recording.name]:
+        middle = recording.stamps[HALVES[recording.name]] * 1e-9 - 1e-6
+        parts = rows if len(rows) == 2 else [[row for row in rows[0] if (float(row.split()[0]) < middle) == first]
+                                             for first in (True, False)]
+        found["in_halves"] = [*pooled([over_sub_paths(programs, recording, folders[0] / f"{name}.txt", part)
+                                       for name, part in zip(("first", "second"), parts)])]
     return found
 
 
 def runs_of(programs, recording, system):
     """The version of a system, the command of its first run and the runs of all seeds."""
     options, runs, version = programs.options, [], None
-    single = system in ("viso2", "OpenCV SIFT + PnP")
     command = PEERS.get(system) or " ".join(["quadedge run", recording.name, "-o OUT --seed 1", *QUADEDGE[system]])
-    for seed in range(1, 2 if single else options.seeds + 1):
-        folder = options.work / "evidence" / recording.name / f"{system.replace(', ', '_').replace(' ', '_')}_{seed}"
+    parts = [*halves(programs, recording)] if "learned" in system else [recording]
+    for seed in range(1, 2 if system in ONE_RUN else options.seeds + 1):
+        folders = [part.work / f"{system.replace(', ', '_').replace(' ', '_')}_{seed}" for part in parts]
         more = {}
-        if system in QUADEDGE:
-            _, used = programs.track(folder, ["run", recording.folder], QUADEDGE[system], seed)
-            found = report(folder)
-            if "--calibrate" not in QUADEDGE[system] and used is not None:
-                more = {"latency_ms": found["latency_ms"], "processor_s": used}
-            more |= {"consistency": found.get("accuracy", {}).get("consistency"), "warnings": found["warnings"]}
-        elif system.startswith("OpenCV"):
-            more = {"processor_s": programs.run(folder, [options.baseline, recording.folder])}
-        else:
-            version, more = run_peer(programs, recording, folder, system)
-        runs.append({**judged(programs, recording, folder), "seed": seed, **more})
+        for part, folder in zip(parts, folders):
+            if system in QUADEDGE:
+                frames = ["--frames", f"{part.frames.start}:{part.frames.stop or ''}"] if part.rig else []
+                given = [part.rig.with_suffix(".yaml") if word == "RIG" else word for word in QUADEDGE[system]]
+                _, used = programs.track(folder, ["run", part.folder, *frames], given, seed)
+                found = report(folder)
+                if system in ("QuadEdge", "QuadEdge, fast") and used is not None:
+                    more = {"latency_ms": found["latency_ms"], "processor_s": used}
+                more |= {"consistency": found.get("accuracy", {}).get("consistency"), "warnings": found["warnings"],
+                         "flagged": found["frames_ambiguous"]}
+            else:
+                file = folder / "peer.json"
+                if not (options.keep and file.exists()):
+                    version, more = run_peer(programs, part, folder, system)
+                    file.write_text(json.dumps([version, more]), encoding="utf-8")
+                version, more = json.loads(file.read_text(encoding="utf-8"))
+        runs.append({**judged(programs, recording, folders), "seed": seed, **more})
     return version, command, runs
 
 
 def measure_recordings(programs):
     """One row per recording and system, with the runs of all seeds and the commit of each."""
     options, measured = programs.options, commit()
-    is_given = dict.fromkeys(QUADEDGE, True) | {
-        "viso2": options.viso2, "orb_slam3": options.peers,
-        "OpenCV SIFT + PnP": options.baseline.exists()}
-    systems = [system for system in SYSTEMS if is_given[system] and options.only_system in (None, system)]
+    missing = ("viso2",) * (not options.viso2) + ("orb_slam3", "orb_slam3, learned rig") * (not options.peers)
+    systems = [system for system in SYSTEMS if system not in missing]
     file = options.out / "evidence.json"
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"] if file.exists() else []
-    for name, (_, official, _, source) in RECORDINGS.items():
+    for name, (_, official, _, source, _) in RECORDINGS.items():
         if not (options.recordings / name).is_dir():
             continue
         recording = Recording(name, options.recordings / name, options.work / "evidence" / name)
-        if not options.only_system:
-            rows = [row for row in rows if row["recording"] != name]
+        rows = [row for row in rows if row["recording"] != name]
         for system in systems:
+            if "learned" in system and len(recording.stamps) <= HALVES.get(name, math.inf):
+                continue
             version, command, runs, left_out = None, None, [], None
             try:
                 version, command, runs = runs_of(programs, recording, system)
-            except subprocess.TimeoutExpired:
-                left_out = f"not finished after {PEER_SECONDS // 60} minutes"
             except (Problem, OSError, ImportError, TypeError, ValueError) as error:
                 if system in QUADEDGE:
                     raise
                 left_out = f"failed: {error}"
             print(f"{name}, {system}: {left_out or len(runs)}", file=sys.stderr)
-            rows = [row for row in rows if (row["recording"], row["system"]) != (name, system)]
             rows.append({"commit": measured, "recording": name, "official": official, "source": source,
                          "system": system, "version": version, "command": command, "frames": len(recording.stamps),
                          "first_stamp_ns": recording.stamps[0], "last_stamp_ns": recording.stamps[-1], "runs": runs,

@@ -11,10 +11,13 @@ from measurements import EXTENSIONS
 PRESETS = ("fast", "default", "dense")
 SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense", "opencv": "OpenCV SIFT + PnP",
            "viso2": "libviso2", "orb_slam3": "ORB-SLAM3", "QuadEdge": "QuadEdge, calibration as given",
-           "QuadEdge, --calibrate": "QuadEdge, `--calibrate` (in sample)"}
+           "QuadEdge, learned rig": "QuadEdge, learned from the other half",
+           "QuadEdge, --calibrate": "QuadEdge, `--calibrate` (in sample)", "QuadEdge, --loops": "QuadEdge, `--loops`",
+           "orb_slam3, learned rig": "ORB-SLAM3, with the same"}
 STEPS = "keyframes"  # evaluated step by step only, because frames are lost
 WHOLE = {"street": "KITTI street, 300 m", "karlsruhe": "Karlsruhe, 226 m", "mh_01": "EuRoC MH_01, 30 s"}
-HEADLINE = {"street": 100, "mh_01": 1}  # length of sub-paths on the first page [m]
+# On the first page: recording, length of sub-paths [m], these, whether the rig is learned
+HEADLINE = (("street", 100, "sub_paths", False), ("street", 100, "in_halves", True), ("mh_01", 1, "sub_paths", False))
 SHORTEST = {"street": 50, "mh_01": 1}  # sub-paths [m] below which errors are mostly the ground truth's
 MATCHED = ("terrace_2s", "rendered room")  # pairs on the page of the paper's method; the JSON has more
 METHODS = {"paper": "`--preset paper`", "fitted": "with least squares", "default": "default"}
@@ -169,16 +172,6 @@ def presets(results):
                               f"Errors: commit {origin(results['accuracy'])}.\n")
 
 
-def drift(results):
-    """End errors of long rendered sequences."""
-    return listed([{"scene": row["scene"], "end error of each texture": " ".join(
-                        number(run["end_mm"], 2) for run in row["runs"]) + " mm",
-                    "mean, of the path length": f"{row['end_percent']:.3f} %",
-                    "mean vector": "(" + ", ".join(f"{part:+.1f}" for part in row["mean_end_parts_mm"]) + ") mm",
-                    "rms along the path": f"{number(row['rms_mm'], 2)} mm"} for row in results["drift"]["rows"]],
-                  stamp(results["drift"]))
-
-
 def matching(results):
     def rates(row):
         return {f"{pool}: {name}": percent(row[pool][name]) for pool in ("paired", "all")
@@ -205,12 +198,20 @@ def ros2(results):
                  f"{end:.0f} MB. {part['cores']} cores, {part['note']}. {stamp(part)}")
 
 
-def sub_paths(row, length):
-    """t_rel [%] and r_rel [deg/100 m] of every run over sub-paths of one length, and the number of these."""
-    found = [(entry["t_rel_percent"], 100 * entry["r_rel_deg_per_m"], entry["sub_paths"]) for run in row["runs"]
-             for entry in run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", [])
-             if entry["length_m"] == length]
-    return list(zip(*found)) or [None, None, (0,)]
+def sub_paths(row, length, where="sub_paths"):
+    """Over the sub-paths of one length [m], of the whole recording or "in_halves": t_rel [%] and r_rel [deg/100 m] of
+    every run, their mean standard deviations over the sub-paths, and the number of these; None without any."""
+    found = [entry for run in row["runs"] for entry in run.get(where) or () if entry["length_m"] == length]
+    if not found:
+        return None
+    of = {name: [entry[name] for entry in found] for name in found[0]}
+    return {"t_rel": of["t_rel_percent"], "r_rel": [100 * value for value in of["r_rel_deg_per_m"]],
+            "t_rel_sd": statistics.mean(of["t_rel_sd_percent"]),
+            "r_rel_sd": 100 * statistics.mean(of["r_rel_sd_deg_per_m"]), "count": found[0]["sub_paths"]}
+
+
+def with_deviation(errors, name):
+    return f"{spread(errors[name])} ± {number(errors[f'{name}_sd'], 2)}"
 
 
 def poses(row):
@@ -219,44 +220,49 @@ def poses(row):
 
 def headline(results):
     """Errors of QuadEdge and of the peer with the smallest t_rel, and a sentence that says who is ahead."""
-    part, rows, smaller = results["evidence"], [], {}
-    for name, length in HEADLINE.items():
-        of = {row["system"]: (row, sub_paths(row, length)) for row in part["rows"] if row["recording"] == name
-              and row["runs"] and row["system"] != "QuadEdge, fast"}
-        best = min((system for system in of if "QuadEdge" not in system),
-                   key=lambda system: statistics.median(of[system][1][0]))
-        for system in [system for system in of if "QuadEdge" in system] + [best]:
-            row, (t_rel, r_rel, counts) = of[system]
-            rows.append({"recording, sub-paths": f"{WHOLE[name]}: {counts[0]} of {length} m",
-                         "system": SYSTEMS.get(system, system), "t_rel [%]": spread(t_rel),
-                         "r_rel [deg/100 m]": spread(r_rel), "commit": row["commit"]})
-        for index, error in enumerate(("t_rel", "r_rel")):
-            ahead = min(("QuadEdge", best), key=lambda system: statistics.median(of[system][1][index]))
-            smaller.setdefault((SYSTEMS[ahead].split(",")[0], error), []).append(WHOLE[name].split(",")[0])
-    ahead = "; ".join(f"{system} is ahead in {error} on {' and '.join(names)}"
-                      for (system, error), names in smaller.items())
-    return listed(rows, f"With the calibration as given, {ahead}. Medians of {part['seeds']} runs, and their range, "
-                        f"{part['date']}. Rows of different commits show different code.\n")
+    part, rows, ahead = results["evidence"], [], {}
+    for name, length, where, learned in HEADLINE:
+        of = {row["system"]: errors for row in part["rows"] if row["recording"] == name
+              and ("learned" in row["system"]) == learned and (errors := sub_paths(row, length, where))}
+        ours = "QuadEdge, learned rig" if learned else "QuadEdge"
+        peer = min((system for system in of if "QuadEdge" not in system), default=None,
+                   key=lambda system: statistics.median(of[system]["t_rel"]))
+        title = WHOLE[name].split(",")[0] + (", in halves" if where == "in_halves" else "")
+        for system in [system for system in (ours, peer) if system in of]:
+            rows.append({"recording, sub-paths": f"{title}: {of[system]['count']} of {length} m",
+                         "system": SYSTEMS[system], "t_rel [%]": with_deviation(of[system], "t_rel"),
+                         "r_rel [deg/100 m]": with_deviation(of[system], "r_rel")})
+        for error in ("t_rel", "r_rel") if ours in of and peer in of else ():
+            first = min((ours, peer), key=lambda system: statistics.median(of[system][error]))
+            ahead.setdefault((SYSTEMS[first].split(",")[0], error), []).append(title)
+    said = "; ".join(f"{system} has the smaller {error} on {' and '.join(titles)}"
+                     for (system, error), titles in ahead.items())
+    return listed(rows, f"{said}. ±: standard deviation over the sub-paths, which overlap; in parentheses the range "
+                        f"of {part['seeds']} runs, if they differ. Commit {origin(part)}.\n")
 
 
-def whole_row(row, lengths):
+def whole_row(row, lengths, where="sub_paths"):
     """The cells of a recording and system."""
-    runs, cells = row["runs"], {"system": SYSTEMS.get(row["system"], row["system"]), "frames with a pose": poses(row)}
+    runs, cells = row["runs"], {"system": SYSTEMS.get(row["system"], row["system"])}
+    if where == "sub_paths":
+        cells |= {"frames with a pose": poses(row), "flagged": spread([run.get("flagged") for run in runs])}
     for length in lengths:
-        *errors, counts = sub_paths(row, length)
-        cells[f"t_rel; r_rel, {counts[0]} of {length:g} m"] = "; ".join(spread(values) for values in errors)
+        errors = sub_paths(row, length, where)
+        cells[f"t_rel; r_rel, {errors['count']} of {length:g} m"] = "; ".join(
+            with_deviation(errors, name) for name in ("t_rel", "r_rel"))
+    if where == "in_halves":
+        return cells
     if row["true_length_m"]:
         longer = [100 * (run["length_m"] / row["true_length_m"] - 1) for run in runs]
         kinds = [warning["kind"].replace("_", " ") for warning in runs[0].get("warnings", [])]
         cells |= {"path too long by [%]": spread(longer, 2), "warnings": ", ".join(kinds) or "-"}
     else:
-        errors = [run["errors"]["accuracy"]["ate_rmse_m"] for run in runs if "errors" in run]
-        cells["ATE [m]"] = spread(errors or None)
+        cells["ATE [m]"] = spread([run["ate_rmse_m"] for run in runs])
     times = [[run["latency_ms"][name] for run in runs if name in (run.get("latency_ms") or {})]
              for name in ("median", "p99", "max")]
     cells["frame: median; p99; longest [ms]"] = "; ".join(spread(found, 2) for found in times if found) or "-"
     used = [1000 * run["processor_s"] / row["frames"] for run in runs if "processor_s" in run]
-    return cells | {"processor [ms]": spread(used or None, 2), "commit": row["commit"]}
+    return cells | {"processor [ms]": spread(used or None, 2)}
 
 
 def evidence(results):
@@ -264,19 +270,24 @@ def evidence(results):
     text = []
     for name, title in WHOLE.items():
         all_rows = [row for row in results["evidence"]["rows"] if row["recording"] == name]
-        rows = [row for row in all_rows if row["runs"]]
-        if not rows:
+        whole = [row for row in all_rows if row["runs"] and "learned" not in row["system"]]
+        if not whole:
             continue
-        lengths = sorted({entry["length_m"] for row in rows for run in row["runs"] for entry in
-                          run.get("errors", {}).get("accuracy", {}).get("sub_paths", {}).get("by_length", [])
-                          if entry["length_m"] >= SHORTEST.get(name, 0)})
-        first = rows[0]
+        first = whole[0]
         true = f" Length by its inertial system: {first['true_length_m']:.1f} m." if first["true_length_m"] else ""
         text.append(f"### {title}\n\n{first['official']}: {counted(first['frames'], 'pair')}, stamps "
-                    f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>.{true}\n\n"
-                    + listed([whole_row(row, lengths) for row in rows]))
+                    f"{first['first_stamp_ns']} to {first['last_stamp_ns']} ns, from <{first['source']}>.{true}\n")
+        for where in ("sub_paths", "in_halves"):
+            rows = [row for row in all_rows if row["runs"] and (where == "sub_paths" or row["runs"][0].get(where))
+                    and (where == "in_halves" or row in whole)]
+            lengths = sorted({entry["length_m"] for row in rows for run in row["runs"] for entry in run.get(where, [])
+                              if entry["length_m"] >= SHORTEST.get(name, 0)})
+            if rows:
+                title = "Sub-paths within one half:\n\n" if where == "in_halves" else ""
+                text.append(title + listed([whole_row(row, lengths, where) for row in rows]))
         text += [f"{SYSTEMS[row['system']]}: {row['left_out']}.\n" for row in all_rows if not row["runs"]]
-    return "\n".join(text)
+    return "\n".join(text) + (f"\nMedians of {results['evidence']['seeds']} runs; one of libviso2, `--calibrate` and "
+                              f"`--loops`. {stamp(results['evidence'])}")
 
 
 def evidence_nees(results):
@@ -343,7 +354,7 @@ def paper_extensions(results):
 
 # Table -> part that it is made from, function
 TABLES = {"compared": ("accuracy", compared), "steps": ("accuracy", steps), "nees": ("accuracy", normalised_errors),
-          "presets": ("accuracy", presets), "drift": ("drift", drift), "matching": ("matching", matching),
+          "presets": ("accuracy", presets), "matching": ("matching", matching),
           "ros2": ("ros2", ros2), "whole": ("evidence", headline), "evidence": ("evidence", evidence),
           "evidence-nees": ("evidence", evidence_nees), "paper-stereo": ("paper", paper_filters("stereo")),
           "paper-temporal": ("paper", paper_filters("temporal_left")),
