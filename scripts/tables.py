@@ -220,7 +220,7 @@ def poses(row):
 
 def headline(results):
     """Errors of QuadEdge and of the peer with the smallest t_rel, and a sentence that says who is ahead."""
-    part, rows, ahead = results["evidence"], [], {}
+    part, rows, ahead = results["evidence"], [], []
     for name, length, where, learned in HEADLINE:
         of = {row["system"]: errors for row in part["rows"] if row["recording"] == name
               and ("learned" in row["system"]) == learned and (errors := sub_paths(row, length, where))}
@@ -233,12 +233,11 @@ def headline(results):
                          "system": SYSTEMS[system], "t_rel [%]": with_deviation(of[system], "t_rel"),
                          "r_rel [deg/100 m]": with_deviation(of[system], "r_rel")})
         for error in ("t_rel", "r_rel") if ours in of and peer in of else ():
-            first = min((ours, peer), key=lambda system: statistics.median(of[system][error]))
-            ahead.setdefault((SYSTEMS[first].split(",")[0], error), []).append(title)
-    said = "; ".join(f"{system} has the smaller {error} on {' and '.join(titles)}"
-                     for (system, error), titles in ahead.items())
-    return listed(rows, f"{said}. ±: standard deviation over the sub-paths, which overlap; in parentheses the range "
-                        f"of {part['seeds']} runs, if they differ. Commit {origin(part)}.\n")
+            if statistics.median(of[peer][error]) < statistics.median(of[ours][error]):
+                ahead.append(f"{error} on {title}, where {SYSTEMS[peer].split(',')[0]} is ahead")
+    said = "QuadEdge's errors are the smaller ones" + ", except " * bool(ahead) + "; ".join(ahead)
+    return listed(rows, f"{said}. ±: deviation over the sub-paths, which overlap; in parentheses the range of "
+                        f"{part['seeds']} runs. Commit {origin(part)}.\n")
 
 
 def whole_row(row, lengths, where="sub_paths"):
