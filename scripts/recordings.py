@@ -33,9 +33,10 @@ QUADEDGE = {"QuadEdge": [], "QuadEdge, learned rig": ["--calibration", "RIG"],
             "QuadEdge, --calibrate": ["--calibrate"], "QuadEdge, --loops": ["--loops"],
             "QuadEdge, fast": ["--preset", "fast"]}
 PEERS = {"viso2": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
+         "viso2, learned rig": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
          "orb_slam3": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES FEATURES",
          "orb_slam3, learned rig": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES FEATURES"}
-ONE_RUN = ("viso2", "QuadEdge, --calibrate", "QuadEdge, --loops")  # of others one per seed
+ONE_RUN = ("viso2", "viso2, learned rig", "QuadEdge, --calibrate", "QuadEdge, --loops")  # of others one per seed
 SYSTEMS = (*QUADEDGE, *PEERS)
 
 
@@ -130,7 +131,7 @@ def run_peer(programs, recording, folder, system):
     recording.rectify()
     folder.mkdir(parents=True, exist_ok=True)
     rectified, camera = folder / "rectified.txt", Pairs(recording.pairs)
-    if system == "viso2":
+    if system.startswith("viso2"):
         printed, used = programs.call([programs.options.viso2, recording.pairs / "image_0", recording.pairs / "image_1",
                                        camera.f, camera.cx, camera.cy, camera.baseline, rectified])
         times = {name: float(value) for name, value in re.findall(r"(median|p99) ([\d.]+) ms", printed)}
@@ -223,15 +224,15 @@ def runs_of(programs, recording, system):
                     version, more = run_peer(programs, part, folder, system)
                     file.write_text(json.dumps([version, more]), encoding="utf-8")
                 version, more = json.loads(file.read_text(encoding="utf-8"))
-        runs.append({**judged(programs, recording, folders), "seed": seed, **more})
+        runs.append({**judged(programs, recording, folders), "seed": seed, **(more if len(parts) == 1 else {})})
     return version, command, runs
 
 
 def measure_recordings(programs):
     """One row per recording and system, with the runs of all seeds and the commit of each."""
     options, measured = programs.options, commit()
-    missing = ("viso2",) * (not options.viso2) + ("orb_slam3", "orb_slam3, learned rig") * (not options.peers)
-    systems = [system for system in SYSTEMS if system not in missing]
+    given = {"viso2": options.viso2, "orb_slam3": options.peers}
+    systems = [system for system in SYSTEMS if given.get(system.split(",")[0], True)]
     file = options.out / "evidence.json"
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"] if file.exists() else []
     for name, (_, official, _, source, _) in RECORDINGS.items():

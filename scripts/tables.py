@@ -13,7 +13,7 @@ SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, 
            "viso2": "libviso2", "orb_slam3": "ORB-SLAM3", "QuadEdge": "QuadEdge, calibration as given",
            "QuadEdge, learned rig": "QuadEdge, learned from the other half",
            "QuadEdge, --calibrate": "QuadEdge, `--calibrate` (in sample)", "QuadEdge, --loops": "QuadEdge, `--loops`",
-           "orb_slam3, learned rig": "ORB-SLAM3, with the same"}
+           "orb_slam3, learned rig": "ORB-SLAM3, with the same", "viso2, learned rig": "libviso2, with the same"}
 STEPS = "keyframes"  # evaluated step by step only, because frames are lost
 WHOLE = {"street": "KITTI street, 300 m", "karlsruhe": "Karlsruhe, 226 m", "mh_01": "EuRoC MH_01, 30 s"}
 # On the first page: recording, length of sub-paths [m], these, whether the rig is learned

@@ -1,42 +1,34 @@
 #!/usr/bin/env python3
-"""The record of a release: each figure of doc/results beside that of an earlier commit; rises over 5 % last.
-
-    changed_figures.py COMMIT [PART...]      PART: evidence, accuracy, speed ...; without one, all
-"""
+"""changed_figures.py COMMIT [PART...]: each figure of doc/results beside that of COMMIT, rises over 5 % marked."""
 
 import json
 import subprocess
 import sys
 from pathlib import Path
 
-REPOSITORY = Path(__file__).resolve().parent.parent
-NAMES = ("recording", "title", "scene", "system", "preset", "method", "kind", "extension", "length_m", "frames")
+RESULTS = Path(__file__).resolve().parent.parent / "doc/results"
+NAMES = ("recording title scene sequence system preset method kind extension length_m frames value threshold height "
+         "rate_hz").split()  # of what an entry of a list is about
 
 
-def figures(value, place=""):
-    """Numbers by their place; an entry of a list is named by what it is about, or by its index."""
+def figures(value, place):
+    """Numbers by their place, in a list by names or index."""
+    if isinstance(value, list):
+        words = [[str(of[name]) for name in NAMES if isinstance(of, dict) and name in of] for of in value]
+        value = {", ".join(words[index]) or index: inside for index, inside in enumerate(value)}
     if isinstance(value, dict):
-        for key, inside in value.items():
-            if key not in ("least", "most"):  # over the seeds
-                yield from figures(inside, f"{place}/{key}")
-    elif isinstance(value, list):
-        for index, inside in enumerate(value):
-            words = [str(inside[name]) for name in NAMES if name in inside] if isinstance(inside, dict) else []
-            yield from figures(inside, f"{place}/{', '.join(words) or index}")
+        for key in value.keys() - {"least", "most"}:  # of the seeds
+            yield from figures(value[key], f"{place}/{key}")
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
         yield place, value
 
 
-commit, parts = sys.argv[1], sys.argv[2:] or sorted(file.stem for file in (REPOSITORY / "doc/results").glob("*.json"))
 rows = []
-for part in parts:
-    name = f"doc/results/{part}.json"
-    command = ["git", "-C", REPOSITORY, "show", f"{commit}:{name}"]
-    old = subprocess.run(command, capture_output=True, text=True, check=False)
-    before = dict(figures(json.loads(old.stdout))) if old.returncode == 0 else {}
-    now = dict(figures(json.loads((REPOSITORY / name).read_text(encoding="utf-8"))))
-    rows += [(value / before[of], part + of, before[of], value) for of, value in now.items()
-             if before.get(of) and value != before[of]]
 print("| figure | before | now | ratio |\n| --- | --- | --- | --- |")
+for part in sys.argv[2:] or [file.stem for file in RESULTS.glob("*.json")]:
+    old = subprocess.run(["git", "show", f"{sys.argv[1]}:./{part}.json"], cwd=RESULTS, capture_output=True, check=False)
+    before = dict(figures(json.loads(old.stdout or "{}"), part))
+    now = figures(json.loads((RESULTS / f"{part}.json").read_text()), part)
+    rows += [(new / before[of], of, before[of], new) for of, new in now if before.get(of, new) not in (0, new)]
 for ratio, of, was, value in sorted(rows):
     print(f"| {of} | {was:.4g} | {value:.4g} | {ratio:.3f}{' **rise**' if ratio > 1.05 else ''} |")

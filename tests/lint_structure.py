@@ -49,7 +49,7 @@ TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.
 MODELS = {"tracker": "Basalt 31,000, OpenVINS 28,000", "Python": "rko_lio 3,200", "words of pages": "15,000"}
 STALE_PHRASES = re.compile(
-    r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)")
+    r"without a word|said to be|so many |are no (times|stamps)|where to go on|knows no more|stands (in|once)|dge\[")
 LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
 
 

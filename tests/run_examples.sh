@@ -4,7 +4,7 @@
 set -euo pipefail
 build="$(cd "$1" && pwd)" source="$2"
 prefix="$build/prefix" work="$build/examples"
-rm -rf "$prefix" "$work"
+rm -rf "$prefix" "$work" && mkdir -p "$work/robot"
 cmake --install "$build" --prefix "$prefix" >/dev/null
 documents=share/doc/quadedge
 for file in bin/quadedge include/quadedge/odometry.hpp share/quadedge/paper.toml share/man/man1/quadedge.1 \
@@ -17,7 +17,11 @@ python3 "$(dirname "${BASH_SOURCE[0]}")/lint_links.py" "$prefix/$documents"
 ninja -C "$build" -t commands quadedge_program >"$build/program_commands"
 grep -q manual_page.sh "$build/program_commands" || { echo "quadedge_program does not write quadedge.1" >&2; exit 1; }
 cmake -S "$source" -B "$work" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
-cmake --build "$work"
+cmake --build "$work"  # then as part of another project: the targets have the same names
+printf 'cmake_minimum_required(VERSION 3.22)\nproject(r CXX)\nadd_subdirectory(%s quadedge)\nadd_executable(robot %s)
+target_link_libraries(robot quadedge::quadedge quadedge::quadedge_core)\n' "$source/.." "$source/03_own_images.cpp" \
+  >"$work/robot/CMakeLists.txt"
+cmake -S "$work/robot" -B "$work/robot/build" -G Ninja >/dev/null
 
 quadedge="$prefix/bin/quadedge"
 "$quadedge" synth "$work/room" --scene room --frames 3 --size 320x200 --quiet

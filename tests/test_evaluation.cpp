@@ -254,6 +254,9 @@ TEST_CASE("evaluation: t_rel and r_rel of a steady drift are those of KITTI's fo
   REQUIRE(near.sub_paths.size() == 1);
   CHECK(near.sub_paths[0].count == 25);  // the first pose beyond 7.5 m is the eighth: from 0 ... 240
   CHECK(near.sub_paths[0].translation_percent == Approx(100 * 0.16 / 7.5));
+  for (int i = 0; i < 125; ++i) estimate[static_cast<std::size_t>(i)].world_from_left.translation().z() = 2.5 + i;
+  const auto half = evaluate_trajectory(estimate, truth, 0, kStampToleranceNs, {2.5}).sub_paths[0];
+  CHECK(half.translation_sd_percent == Approx(2.4 * std::sqrt(12 * 13) / 25));  // 12 of 25 sub-paths are 2.4 % too long
 
   for (std::size_t i = 125; i < estimate.size(); ++i) estimate[i].segment = 1;  // no sub-path spans the break
   const auto broken = evaluate_trajectory(estimate, truth);

@@ -12,6 +12,7 @@ from pathlib import Path
 
 scripts, quadedge = Path(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, str(scripts))
+import recordings  # noqa: E402
 import result_tables  # noqa: E402
 
 
@@ -87,6 +88,9 @@ with tempfile.TemporaryDirectory() as folder:
     assert rows[0]["runs"][0]["poses"] == 4 and rows[0]["runs"][0]["ate_rmse_m"] < 0.01, rows[0]
     assert rows[4]["left_out"].startswith("failed: "), rows[4]
 
+    names = ("length_m", "sub_paths", "t_rel_percent", "t_rel_sd_percent", "r_rel_deg_per_m", "r_rel_sd_deg_per_m")
+    (both,) = recordings.pooled({"sub_paths": {"by_length": [dict(zip(names, (5, 1, of, 0, of, 0)))]}} for of in (1, 3))
+    assert (both["sub_paths"], both["t_rel_percent"], both["t_rel_sd_percent"]) == (2, 2, 1), both
     # A failing program is reported with its message; figures of a few frames do not get into the documentation.
     failed = run("measure.py", "--quadedge", quadedge, "--out", out, "--work", work, "--only", "accuracy", "--frames",
                  "3", "--sequences", "rest", "--systems", "default", "--data", Path(folder) / "absent")

@@ -23,14 +23,14 @@ struct PoseErrors {
 
 /// Relative errors over sub-paths of one length, or of all lengths, as KITTI's odometry benchmark defines t_rel and
 /// r_rel: a sub-path starts at every tenth matched pose and ends at the first one that is farther away along the true
-/// path; the errors of its end, seen from its start, are divided by the length. No sub-path spans two segments.
-/// sd: the standard deviation over the sub-paths of one length; NaN for all lengths.
+/// path, within a segment; the errors of its end, seen from its start, are divided by the length.
 struct SubPathErrors {
-  double length_m = std::numeric_limits<double>::quiet_NaN();             ///< NaN: of all lengths
-  int count = 0;                                                          ///< number of sub-paths
-  double translation_percent = std::numeric_limits<double>::quiet_NaN();  ///< mean t_rel; NaN without sub-paths
-  double rotation_deg_per_m = std::numeric_limits<double>::quiet_NaN();   ///< mean r_rel; NaN without sub-paths
-  double translation_sd_percent = translation_percent, rotation_sd_deg_per_m = rotation_deg_per_m;
+  double length_m = std::numeric_limits<double>::quiet_NaN();                ///< NaN: of all lengths
+  int count = 0;                                                             ///< number of sub-paths
+  double translation_percent = std::numeric_limits<double>::quiet_NaN();     ///< mean t_rel; NaN without sub-paths
+  double rotation_deg_per_m = std::numeric_limits<double>::quiet_NaN();      ///< mean r_rel; NaN without sub-paths
+  double translation_sd_percent = std::numeric_limits<double>::quiet_NaN();  ///< over sub-paths of one length, as next
+  double rotation_sd_deg_per_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Lengths of the sub-paths of KITTI's odometry benchmark [m].

@@ -44,7 +44,9 @@ void bind_evaluation(nb::module_& module) {
       .def_ro("length_m", &SubPathErrors::length_m, "Length [m]; NaN: all lengths.")
       .def_ro("count", &SubPathErrors::count, "Number of sub-paths.")
       .def_ro("translation_percent", &SubPathErrors::translation_percent, "Mean t_rel [%]; NaN without sub-paths.")
-      .def_ro("rotation_deg_per_m", &SubPathErrors::rotation_deg_per_m, "Mean r_rel [deg/m]; NaN without sub-paths.");
+      .def_ro("rotation_deg_per_m", &SubPathErrors::rotation_deg_per_m, "Mean r_rel [deg/m]; NaN without sub-paths.")
+      .def_ro("translation_sd_percent", &SubPathErrors::translation_sd_percent, "Standard deviation of t_rel [%].")
+      .def_ro("rotation_sd_deg_per_m", &SubPathErrors::rotation_sd_deg_per_m, "Standard deviation of r_rel [deg/m].");
   using Self = TrajectoryEvaluation;
   nb::class_<Self>(module, "TrajectoryEvaluation", "Errors of a trajectory. Arrays have one row per matched pose.")
       .def_ro("origin_aligned", &Self::origin_aligned, "Errors after aligning the first matched poses.")

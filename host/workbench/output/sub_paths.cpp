@@ -71,7 +71,7 @@ std::vector<SubPathErrors> sub_path_errors(const std::vector<MatchedPoses>& pose
 }
 
 SubPathErrors mean_of(const std::vector<SubPathErrors>& lengths) {
-  SubPathErrors mean{kNan, 0, 0, 0, kNan, kNan};
+  SubPathErrors mean{kNan, 0, 0, 0};
   for (const SubPathErrors& errors : lengths) {
     if (errors.count == 0) continue;
     mean.count += errors.count;
