@@ -10,7 +10,6 @@
 
 #include "benchmark/variant_comparison.hpp"
 #include "calibration_files.hpp"
-#include "data/float_map.hpp"
 #include "devices.hpp"
 #include "frontends.hpp"
 #include "quadedge/calibration.hpp"
@@ -161,12 +160,6 @@ const std::vector<LibraryAttack>& library_attacks() {
          read_calibration(c.folder / "left.yaml," + c.folder / "right.yaml");
        },
        "left.yaml: found no entry image_height"},
-      {"a float map with bytes too many",
-       [](C c) {
-         dataset_files::write_text(c.folder / "map.pfm", "Pf\n2 1\n-1\n" + std::string(9, 'x'));
-         data::read_float_map(c.folder / "map.pfm");
-       },
-       "map.pfm: found 19 bytes"},
       {"saved kernel variants that are a pipe",
        [](C c) {
          REQUIRE(mkfifo((c.folder / "variants.json").c_str(), 0600) == 0);

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "data/float_map.hpp"
+#include "data/text.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/dataset.hpp"
@@ -160,7 +161,11 @@ TEST_CASE("real data: ground-truth disparities are positive and within the reade
     REQUIRE_FALSE(set.disparity_truth.empty());
     std::vector<double> disparities;
     if (set.disparity_truth.find(".pfm") != std::string::npos) {
-      for (const float value : data::read_float_map(set.disparity_truth).values) {
+      std::vector<float> values(static_cast<std::size_t>(set.rig.left.width * set.rig.left.height));
+      const std::string bytes = data::read_bytes(set.disparity_truth);  // which end with little-endian floats
+      std::memcpy(values.data(), bytes.data() + bytes.size() - values.size() * sizeof(float),
+                  values.size() * sizeof(float));
+      for (const float value : values) {
         if (std::isfinite(value)) disparities.push_back(value * set.disparity_truth_scale);
       }
     } else {

@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "data/float_map.hpp"
 #include "data/sequence_writer.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
@@ -45,50 +44,13 @@ TEST_CASE("dataset: a rendered sequence is read back as it was written", "[datas
     CHECK(read_grey_image(files.right).pixels == right.image.pixels);
     std::string depth = files.right;
     depth.replace(depth.find("/rgb2/"), 6, "/depth2/").replace(depth.size() - 3, 3, "pfm");
-    const data::FloatMap map = data::read_float_map(depth);
-    CHECK(map.width == 80);
-    CHECK(map.values == right.depth);
+    const cv::Mat map = cv::imread(depth, cv::IMREAD_UNCHANGED);
+    CHECK(map.cols == 80);
+    CHECK(std::vector<float>(map.begin<float>(), map.end<float>()) == right.depth);
   }
   CHECK_THROWS_WITH(write_eth3d_slam(folder / "s", sequence), Contains("existing sequence"));
   dataset_files::write_text(folder / "file", "");
   CHECK_THROWS_AS(write_eth3d_slam(folder / "file/s", sequence), DataError);
-}
-
-TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, with unscaled values", "[dataset]") {
-  const TemporaryFolder folder;
-  const std::string file = folder / "m.pfm";
-  using namespace std::string_literals;
-  const std::string pixels = "\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40\0\0\x80\x7f"s;
-  for (const char* scale : {"-1", "-1.0", "-0.00390625"}) {
-    INFO(scale);
-    dataset_files::write_text(file, "Pf\n2 2\n"s + scale + "\n" + pixels);
-    CHECK(data::read_float_map(file).values == std::vector<float>{3, std::numeric_limits<float>::infinity(), 1, 2});
-  }
-  dataset_files::write_text(file, "Pf\n1 1\n1.0\n\x40\x40\0\0"s);
-  CHECK(data::read_float_map(file).values[0] == 3);
-}
-
-TEST_CASE("dataset: truncated, colour and invalid PFM files are refused by name", "[dataset]") {
-  const TemporaryFolder folder;
-  const std::string file = folder / "m.pfm";
-  using namespace std::string_literals;
-  const auto refused = [&](const std::string& bytes, const std::string& found, const std::string& expected) {
-    INFO(bytes);
-    dataset_files::write_text(file, bytes);
-    CHECK_THROWS_AS(data::read_float_map(file), DataError);
-    CHECK_THROWS_WITH(data::read_float_map(file), Contains("m.pfm") && Contains(found) && Contains(expected));
-  };
-  refused("Pf\n2 2\n-1\n\0\0\x80\x3f"s, "found 14 bytes", "2 x 2 floats");
-  refused("Pf\n2 2\n-1\n\0\0\x80\x3f\0\0\x80\x3f\0\0\x80\x3f"s, "found 22 bytes", "2 x 2 floats");
-  refused("PF\n1 1\n-1\n\0\0\x80\x3f\0\0\x80\x3f\0\0\x80\x3f"s, "\"PF?1 1?-\"", "\"Pf\"");
-  refused("Pf\n2", "\"Pf?2\"", "width, height and scale");
-  refused("", "an empty file", "\"Pf\"");
-  refused("Pf\n1 two\n-1\n\0\0\0\0"s, "\"two\"", "height");
-  refused("Pf\n1 1\nleft\n\0\0\0\0"s, "\"left\"", "scale");
-  refused("Pf\n-1 1\n-1\n\0\0\0\0"s, "cannot be decoded", "width");
-  refused("Pf\n99999 99999\n-1\n\0\0\0\0"s, "bytes", "99999 x 99999");
-  std::filesystem::remove(file);
-  CHECK_THROWS_WITH(data::read_float_map(file), Contains("m.pfm") && Contains("readable file"));
 }
 
 TEST_CASE("dataset: the cameras of ETH3D's SLAM benchmark are rendered and read back", "[dataset]") {

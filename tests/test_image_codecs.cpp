@@ -2,7 +2,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "data/float_map.hpp"
 #include "data/image_file.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/error.hpp"
@@ -84,14 +83,4 @@ TEST_CASE("image codecs: a damaged image is refused with the library's reason", 
   CHECK_THROWS_AS(decode_grey_image(png, "bent.png"), DataError);
   CHECK_THROWS_WITH(decode_grey_image(png, "bent.png"),
                     Contains("bent.png") && Contains("a damaged PNG (") && Contains("an intact 320 x 240 image"));
-}
-
-TEST_CASE("image codecs: a float map is written and read like OpenCV's", "[dataset]") {
-  const TemporaryFolder folder;
-  const data::FloatMap map{3, 2, {1, 2.5F, -3, 4, 0, 6}};
-  data::write_float_map(folder / "m.pfm", map);
-  const cv::Mat read = cv::imread(folder / "m.pfm", cv::IMREAD_UNCHANGED);
-  REQUIRE(read.type() == CV_32FC1);
-  CHECK(std::vector<float>(read.begin<float>(), read.end<float>()) == map.values);
-  CHECK(data::read_float_map(folder / "m.pfm").values == map.values);
 }

@@ -5,7 +5,6 @@
 #include <opencv2/core.hpp>
 
 #include "data/atomic_file.hpp"
-#include "data/float_map.hpp"
 #include "data/image_file.hpp"
 #include "data/text.hpp"
 #include "quadedge/calibration.hpp"
@@ -20,6 +19,16 @@ void write_png(const fs::path& file, const Image& image) {
   const cv::Mat pixels(image.height, image.width, image.max_value > kMaxValue8 ? CV_16U : CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
   data::write_atomically(file.string(), data::encode_png(pixels));
+}
+
+/// A PFM: little-endian, from the bottom row up.
+void write_depths(const fs::path& file, const RenderedView& view) {
+  const int width = view.image.width, height = view.image.height;
+  std::string bytes = "Pf\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1\n";
+  for (int y = height - 1; y >= 0; --y)
+    bytes.append(reinterpret_cast<const char*>(view.depth.data() + static_cast<std::ptrdiff_t>(y) * width),
+                 static_cast<std::size_t>(width) * sizeof(float));
+  data::write_atomically(file.string(), bytes);
 }
 
 std::string camera_row(const PinholeCamera& camera) {
@@ -61,8 +70,7 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
       const bool second = side != first;
       const RenderedView view = sequence.render(frame, side);
       write_png(root / (second ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
-      data::write_float_map((root / (second ? "depth2" : "depth") / (stamp + ".pfm")).string(),
-                            {view.image.width, view.image.height, view.depth});
+      write_depths(root / (second ? "depth2" : "depth") / (stamp + ".pfm"), view);
     }
     list += stamp + " rgb/" + stamp + ".png\n";
     const Eigen::Isometry3d world_from_left = sequence.world_from_left(frame);
