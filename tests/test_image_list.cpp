@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "data/file_list.hpp"
 #include "data/image_list.hpp"
+#include "data/text.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"

@@ -1,7 +1,7 @@
 /// \file calibration_export.cpp  Kalibr, OpenCV and ROS read what QuadEdge has learned or converted.
 #include "cli/calibration_export.hpp"
 
-#include "data/file_list.hpp"
+#include "data/text.hpp"
 #include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
 

@@ -1,4 +1,4 @@
-/// \file content_hash.cpp  Streams the length and the bytes of every value into XXH3.
+/// \file content_hash.cpp  XXH3 of the length and the bytes of every value.
 #include "data/content_hash.hpp"
 
 #include <cstdint>
@@ -11,17 +11,9 @@
 
 namespace quadedge::data {
 
-struct ContentHash::State {
-  XXH3_state_t value;
-};
-
-ContentHash::ContentHash() : state_(std::make_unique<State>()) { XXH3_128bits_reset(&state_->value); }
-ContentHash::~ContentHash() = default;
-
 void ContentHash::add(std::string_view bytes) {
   const std::uint64_t length = bytes.size();
-  XXH3_128bits_update(&state_->value, &length, sizeof length);
-  XXH3_128bits_update(&state_->value, bytes.data(), bytes.size());
+  bytes_.append(reinterpret_cast<const char*>(&length), sizeof length).append(bytes);
 }
 
 void ContentHash::add(const std::vector<double>& values) {
@@ -29,7 +21,7 @@ void ContentHash::add(const std::vector<double>& values) {
 }
 
 std::string ContentHash::hex() const {
-  const XXH128_hash_t digest = XXH3_128bits_digest(&state_->value);
+  const XXH128_hash_t digest = XXH3_128bits(bytes_.data(), bytes_.size());
   char text[33];
   std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(digest.high64),
                 static_cast<unsigned long long>(digest.low64));

@@ -1,7 +1,6 @@
 #pragma once
 /// \file content_hash.hpp  Fingerprints that show whether a kept result belongs to what is asked for.
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,16 +11,13 @@ namespace quadedge::data {
 /// ("a", "bc") differ. Not cryptographically secure.
 class ContentHash {
  public:
-  ContentHash();
-  ~ContentHash();
   void add(std::string_view bytes);
   void add(const std::vector<double>& values);
   /// 32 hexadecimal digits for all values added so far.
   std::string hex() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::string bytes_;
 };
 
 /// Fingerprint of a whole file. \throws DataError

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "data/file_list.hpp"
 #include "data/image_file.hpp"
 #include "data/text.hpp"
 #include "quadedge/calibration.hpp"

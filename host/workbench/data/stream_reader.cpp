@@ -2,7 +2,6 @@
 #include "data/stream_reader.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -11,7 +10,6 @@
 #include <opencv2/core.hpp>
 #include <poll.h>
 #include <unistd.h>
-#include <vector>
 
 #include "data/image_file.hpp"
 #include "data/text.hpp"

@@ -119,6 +119,19 @@ std::string counted(std::size_t count, const std::string& noun) {
 
 std::string counted(int count, const std::string& noun) { return counted(static_cast<std::size_t>(count), noun); }
 
+std::vector<std::string> file_list(const std::string& files) {
+  const auto exists = [](const std::string& file) {
+    std::error_code ignored;
+    return std::filesystem::exists(file, ignored);
+  };
+  const auto first = files.find(',');
+  if (first == std::string::npos || exists(files)) return {files};
+  for (auto comma = first; comma != std::string::npos; comma = files.find(',', comma + 1))
+    if (exists(files.substr(0, comma)) && exists(files.substr(comma + 1)))
+      return {files.substr(0, comma), files.substr(comma + 1)};
+  return {files.substr(0, first), files.substr(first + 1)};
+}
+
 std::string shell_word(const std::string& word) {
   const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c >= 0x80 ||

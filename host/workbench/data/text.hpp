@@ -52,6 +52,10 @@ std::string in_quotes(std::string_view text);
 std::string counted(std::size_t count, const std::string& noun);
 std::string counted(int count, const std::string& noun);
 
+/// The one or two files of an option, separated by a comma: by one that leaves two existing files, else by the first.
+/// An existing file whose name contains a comma is one file.
+std::vector<std::string> file_list(const std::string& files);
+
 /// A word of a command line for a shell: in single quotes where it needs some.
 std::string shell_word(const std::string& word);
 

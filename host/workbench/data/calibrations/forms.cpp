@@ -9,7 +9,6 @@
 
 #include "common/printed.hpp"
 #include "data/atomic_file.hpp"
-#include "data/file_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "data/toml_file.hpp"
