@@ -91,8 +91,6 @@ void read_truth(Dataset& dataset) {
   }
 }
 
-}  // namespace
-
 bool is_eth3d_stereo_pairs(const fs::path& folder) { return fs::is_directory(pairs_folder(folder)); }
 
 Dataset read_eth3d_stereo_pairs(const fs::path& folder, const DatasetOptions&, Findings& findings) {
@@ -120,8 +118,6 @@ Dataset read_eth3d_stereo_pairs(const fs::path& folder, const DatasetOptions&, F
 // two_view_training_gt/SCENE/disp0GT.pfm. The same files as in Middlebury 2014; folder names and ground truth
 // distinguish the two. The third Middlebury benchmark has these files too, the ground truth beside the images.
 
-namespace {
-
 /// Indoor and outdoor scenes at distances of about 0.7 m and more: at most 64 px of disparity, the usual search range
 /// on this benchmark; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %). ndisp of
 /// ETH3D is the image width and says nothing; the third Middlebury benchmark has a smaller one, which holds.
@@ -139,13 +135,6 @@ std::string truth_of(const fs::path& folder) {
     if (fs::exists(place / "disp0GT.pfm")) return (place / "disp0GT.pfm").string();
   }
   return {};
-}
-
-}  // namespace
-
-double eth3d_max_disparity(const PairCalibration& calibration) {
-  const bool is_stated = calibration.disparities > 0 && calibration.disparities < calibration.rig.left.width;
-  return is_stated ? calibration.disparities + calibration.disparity_offset : kMaxDisparity;
 }
 
 bool is_eth3d_two_view(const fs::path& folder) {
@@ -176,5 +165,16 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
   dataset.rig.max_disparity = max_disparity;
   return dataset;
 }
+
+}  // namespace
+
+double eth3d_max_disparity(const PairCalibration& calibration) {
+  const bool is_stated = calibration.disparities > 0 && calibration.disparities < calibration.rig.left.width;
+  return is_stated ? calibration.disparities + calibration.disparity_offset : kMaxDisparity;
+}
+
+const Layout kEth3dStereoPairs{"eth3d-stereo-pairs", is_eth3d_stereo_pairs, read_eth3d_stereo_pairs,
+                               is_eth3d_stereo_pairs};
+const Layout kEth3dTwoView{"eth3d-two-view", is_eth3d_two_view, read_eth3d_two_view};
 
 }  // namespace quadedge::data

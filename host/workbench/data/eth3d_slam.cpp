@@ -86,8 +86,6 @@ Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder,
   return camera1_from_camera2;
 }
 
-}  // namespace
-
 bool is_eth3d_slam(const fs::path& folder) {
   return fs::is_directory(folder / "rgb2") ||
          (fs::is_directory(folder / "rgb") && fs::exists(folder / "calibration.txt"));
@@ -118,5 +116,9 @@ Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, F
   }
   return dataset;
 }
+
+}  // namespace
+
+const Layout kEth3dSlam{"eth3d-slam", is_eth3d_slam, read_eth3d_slam, is_eth3d_slam};
 
 }  // namespace quadedge::data

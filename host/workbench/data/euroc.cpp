@@ -123,6 +123,8 @@ Trajectory read_euroc_truth(const std::string& file) {
   return poses;
 }
 
+namespace {
+
 bool is_euroc(const fs::path& folder) {
   return fs::is_directory(folder / "mav0") || fs::is_directory(folder / "cam0") || fs::is_directory(folder / "cam1");
 }
@@ -147,5 +149,9 @@ Dataset read_euroc(const fs::path& root, const DatasetOptions& options, Findings
   findings.attempt([&] { find_truth(dataset, folder, body_from_left); });
   return dataset;
 }
+
+}  // namespace
+
+const Layout kEuroc{"euroc", is_euroc, read_euroc, is_euroc};
 
 }  // namespace quadedge::data

@@ -166,7 +166,7 @@ std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
     }
     std::string names;
     for (const auto& layout : layouts()) {
-      if (layout.is_recording != nullptr) names += (names.empty() ? "" : ", ") + layout.name;
+      if (layout.is_recording != nullptr) names += std::string(names.empty() ? "" : ", ") + layout.name;
     }
     fail(root_or_list, "no sequence in it or below", "recordings in the layouts " + names);
   }

@@ -27,8 +27,6 @@ void read_frames(Dataset& dataset, std::vector<std::size_t>& rows, const fs::pat
   rows = add_numbered_frames(dataset, left, right, stamps, times_file, findings);
 }
 
-}  // namespace
-
 bool is_kitti_recording(const fs::path& folder) {
   return fs::is_directory(folder / "image_0") || fs::is_directory(folder / "image_2");
 }
@@ -84,5 +82,9 @@ Dataset read_kitti_odometry(const fs::path& root, const DatasetOptions& options,
   }
   return dataset;
 }
+
+}  // namespace
+
+const Layout kKitti{"kitti", is_kitti, read_kitti_odometry, is_kitti_recording};
 
 }  // namespace quadedge::data

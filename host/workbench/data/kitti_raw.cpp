@@ -79,8 +79,6 @@ void read_truth(Dataset& dataset, const fs::path& drive, const YamlMap& cameras,
   }
 }
 
-}  // namespace
-
 bool is_kitti_raw_drive(const fs::path& folder) {
   return fs::is_directory(images_of(folder / "image_00")) || fs::is_directory(folder / "image_02" / "data");
 }
@@ -127,5 +125,9 @@ Dataset read_kitti_raw(const fs::path& root, const DatasetOptions& options, Find
   });
   return dataset;
 }
+
+}  // namespace
+
+const Layout kKittiRaw{"kitti-raw", is_kitti_raw, read_kitti_raw, is_kitti_raw_drive};
 
 }  // namespace quadedge::data

@@ -52,20 +52,8 @@ void Findings::attempt(const std::function<void()>& part) {
 
 const std::vector<Layout>& layouts() {
   static const std::vector<Layout> all = {
-      {"kitti", is_kitti, read_kitti_odometry, is_kitti_recording},
-      {"kitti-raw", is_kitti_raw, read_kitti_raw, is_kitti_raw_drive},
-      {"euroc", is_euroc, read_euroc, is_euroc},
-      {"tartanair", is_tartanair, read_tartanair, is_tartanair},
-      {"eth3d-slam", is_eth3d_slam, read_eth3d_slam, is_eth3d_slam},
-      {"eth3d-stereo-pairs", is_eth3d_stereo_pairs, read_eth3d_stereo_pairs, is_eth3d_stereo_pairs},
-      {"viso2-quad", is_viso2_quad, read_viso2_quad},
-      {"paired-names", is_paired_names, read_paired_names, is_paired_names},
-      {"eth3d-two-view", is_eth3d_two_view, read_eth3d_two_view},
-      {"middlebury-2014", is_middlebury_2014, read_middlebury_2014},
-      {"middlebury-2006", is_middlebury_2006, read_middlebury_2006},
-      {"middlebury-2005", is_middlebury_2005, read_middlebury_2005},
-      {"middlebury-2003", is_middlebury_2003, read_middlebury_2003},
-  };
+      kKitti,       kKittiRaw,     kEuroc,          kTartanair,      kEth3dSlam,      kEth3dStereoPairs, kViso2Quad,
+      kPairedNames, kEth3dTwoView, kMiddlebury2014, kMiddlebury2006, kMiddlebury2005, kMiddlebury2003};
   return all;
 }
 

@@ -35,7 +35,7 @@ class Findings {
 
 /// One published layout.
 struct Layout {
-  std::string name;
+  const char* name;
   /// Whether the folder has this layout. Considers names only, so that damaged datasets are recognised and reported.
   bool (*recognise)(const fs::path& folder);
   /// Fills everything but `format`, and `path` and `name` where they are not the folder's. \throws DataError,
@@ -45,6 +45,9 @@ struct Layout {
   /// for still pairs.
   bool (*is_recording)(const fs::path& folder) = nullptr;
 };
+
+extern const Layout kKitti, kKittiRaw, kEuroc, kTartanair, kEth3dSlam, kEth3dStereoPairs, kViso2Quad, kPairedNames,
+    kEth3dTwoView, kMiddlebury2014, kMiddlebury2006, kMiddlebury2005, kMiddlebury2003;
 
 /// All layouts, in the order in which they are tried.
 const std::vector<Layout>& layouts();
@@ -72,35 +75,6 @@ std::string calibration_of(const Dataset& dataset);
 /// The road is visible from about 6 m, cars and kerbs beside the lane from 3 m: 127 to 129 px with KITTI's f and
 /// baseline. Semi-global matching finds 99.9 % of sequence 06 below 116 px.
 constexpr double kNearestRoadDepth = 3.0;  // m
-
-bool is_kitti(const fs::path& folder);
-bool is_kitti_recording(const fs::path& folder);
-Dataset read_kitti_odometry(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_kitti_raw(const fs::path& folder);
-bool is_kitti_raw_drive(const fs::path& folder);
-Dataset read_kitti_raw(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_tartanair(const fs::path& folder);
-Dataset read_tartanair(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_paired_names(const fs::path& folder);
-Dataset read_paired_names(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_euroc(const fs::path& folder);
-Dataset read_euroc(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_eth3d_slam(const fs::path& folder);
-Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_eth3d_two_view(const fs::path& folder);
-Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_eth3d_stereo_pairs(const fs::path& folder);
-Dataset read_eth3d_stereo_pairs(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_middlebury_2003(const fs::path& folder);
-Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_middlebury_2005(const fs::path& folder);
-Dataset read_middlebury_2005(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_middlebury_2006(const fs::path& folder);
-Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_middlebury_2014(const fs::path& folder);
-Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-bool is_viso2_quad(const fs::path& folder);
-Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 
 /// Names of the images in a folder, sorted. \throws DataError if the folder is missing or contains none
 std::vector<std::string> image_names(const fs::path& folder);

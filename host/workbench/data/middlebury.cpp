@@ -65,8 +65,6 @@ Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
   return dataset;
 }
 
-}  // namespace
-
 bool is_middlebury_2003(const fs::path& folder) { return has(folder, "im2") || has(folder, "im6"); }
 
 Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions&, Findings& findings) {
@@ -121,5 +119,12 @@ Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions&, Find
   });
   return dataset;
 }
+
+}  // namespace
+
+const Layout kMiddlebury2014{"middlebury-2014", is_middlebury_2014, read_middlebury_2014};
+const Layout kMiddlebury2006{"middlebury-2006", is_middlebury_2006, read_middlebury_2006};
+const Layout kMiddlebury2005{"middlebury-2005", is_middlebury_2005, read_middlebury_2005};
+const Layout kMiddlebury2003{"middlebury-2003", is_middlebury_2003, read_middlebury_2003};
 
 }  // namespace quadedge::data

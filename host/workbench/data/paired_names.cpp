@@ -61,8 +61,6 @@ Pairs find_pairs(const fs::path& folder) {
   return {};
 }
 
-}  // namespace
-
 bool is_paired_names(const fs::path& folder) { return !find_pairs(folder).names.empty(); }
 
 Dataset read_paired_names(const fs::path& folder, const DatasetOptions& options, Findings& findings) {
@@ -87,5 +85,9 @@ Dataset read_paired_names(const fs::path& folder, const DatasetOptions& options,
     findings.error(folder.string(), "images without a calibration", "--calibration FILE");
   return dataset;
 }
+
+}  // namespace
+
+const Layout kPairedNames{"paired-names", is_paired_names, read_paired_names, is_paired_names};
 
 }  // namespace quadedge::data

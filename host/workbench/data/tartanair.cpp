@@ -34,8 +34,6 @@ Eigen::Isometry3d read_pose(const Line& line, const std::string& file) {
   return pose;
 }
 
-}  // namespace
-
 bool is_tartanair(const fs::path& folder) { return version_of(folder) != nullptr; }
 
 Dataset read_tartanair(const fs::path& folder, const DatasetOptions&, Findings& findings) {
@@ -56,12 +54,12 @@ Dataset read_tartanair(const fs::path& folder, const DatasetOptions&, Findings& 
     for (std::size_t i = 0; i < left.size(); ++i)
       add_frame(dataset, static_cast<std::int64_t>(i) * kPeriodNs, left[i], right[i], findings);
   });
-  constexpr double kBaseline = 0.25, kNearestDepth = 0.5;  // m
+  constexpr double kDistance = 0.25, kNearestDepth = 0.5;  // m
   set_sizes_from_first_frame(dataset);
   const PinholeCamera size = dataset.rig.left;
   const double focal_length = 0.5 * size.width;  // a field of view of 90 degrees, also of resized images
-  set_rectified_rig(dataset.rig, focal_length, 0.5 * size.width, 0.5 * size.height, 0.5 * size.width, kBaseline);
-  dataset.rig.max_disparity = focal_length * kBaseline / kNearestDepth;
+  set_rectified_rig(dataset.rig, focal_length, 0.5 * size.width, 0.5 * size.height, 0.5 * size.width, kDistance);
+  dataset.rig.max_disparity = focal_length * kDistance / kNearestDepth;
   const fs::path truth = folder / names->poses;
   if (fs::exists(truth)) {
     dataset.truth_file = truth.string();
@@ -73,5 +71,9 @@ Dataset read_tartanair(const fs::path& folder, const DatasetOptions&, Findings& 
   }
   return dataset;
 }
+
+}  // namespace
+
+const Layout kTartanair{"tartanair", is_tartanair, read_tartanair, is_tartanair};
 
 }  // namespace quadedge::data

@@ -14,8 +14,6 @@ constexpr double kNearestQuadDepth = 3.0;  // m
 /// The Karlsruhe sequences have 10 frames per second; the quad has no timestamps.
 constexpr std::int64_t kPeriodNs = 100'000'000;
 
-}  // namespace
-
 bool is_viso2_quad(const fs::path& folder) { return fs::exists(image_with_stem(folder, "I1p")); }
 
 Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions&, Findings& findings) {
@@ -32,5 +30,9 @@ Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions&, Findings&
   dataset.notes.push_back("calibration of the libviso2 demo; nominal times 0.1 s apart");
   return dataset;
 }
+
+}  // namespace
+
+const Layout kViso2Quad{"viso2-quad", is_viso2_quad, read_viso2_quad};
 
 }  // namespace quadedge::data
