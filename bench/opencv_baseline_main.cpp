@@ -12,7 +12,7 @@
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
 #include "output/output_folder.hpp"
-#include "output/rows.hpp"
+#include "output/result_rows.hpp"
 #include "quadedge/error.hpp"
 
 namespace {

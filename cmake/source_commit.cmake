@@ -6,8 +6,9 @@ if(git_program AND EXISTS ${FOLDER}/.git)
   execute_process(COMMAND ${git_program} describe --always --dirty=+ --abbrev=12 --exclude=* WORKING_DIRECTORY ${FOLDER}
     OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 endif()
-set(text "// Generated; do not edit.\n#include \"output/source_commit.hpp\"\n
+set(text "// Generated; do not edit.\n
 namespace quadedge::report {
+const char* source_commit();
 const char* source_commit() { return \"${commit}\"; }\n}  // namespace quadedge::report\n")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} before)

@@ -8,6 +8,7 @@
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "output/calibration_report.hpp"
+#include "output/drawing.hpp"
 #include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
 

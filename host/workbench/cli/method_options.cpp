@@ -11,7 +11,6 @@
 #include "device/variants.hpp"
 #include "output/config_toml.hpp"
 #include "output/json_values.hpp"
-#include "output/source_commit.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/threads.hpp"
 

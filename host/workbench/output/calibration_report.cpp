@@ -1,13 +1,11 @@
-/// \file calibration_report.cpp  The numbers as JSON and as a table; displacements as enlarged strokes on a grid.
+/// \file calibration_report.cpp  The numbers as JSON and as a table.
 #include "output/calibration_report.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
-#include "output/canvas.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -106,83 +104,6 @@ std::string calibration_table(const DriveCalibration& result) {
                   UnseenDistances::kFarthest[is_last ? i - 1 : i], given, learned);
   }
   return table;
-}
-
-namespace {
-
-constexpr int kPanel = 720, kGap = 12;  // px of the pictures
-
-/// A row of panels: the cells of both images, grey by their median distance, white at `most` px.
-void draw_places(cv::Mat& picture, int top, int height, const UnseenDistances& parts, double most) {
-  for (const Side side : kSides) {
-    const int left = index_of(side) * (kPanel + kGap);
-    for (int i = 0; i < UnseenDistances::kRows * UnseenDistances::kColumns; ++i) {
-      const int column = i % UnseenDistances::kColumns, row = i / UnseenDistances::kColumns;
-      const int x = column * kPanel / UnseenDistances::kColumns, y = row * height / UnseenDistances::kRows;
-      const cv::Rect cell(left + x, top + y, (column + 1) * kPanel / UnseenDistances::kColumns - x,
-                          (row + 1) * height / UnseenDistances::kRows - y);
-      const double value = parts.by_place[static_cast<std::size_t>(index_of(side))][static_cast<std::size_t>(i)];
-      if (std::isfinite(value))
-        cv::rectangle(picture, cell, cv::Scalar::all(40 + 215 * std::min(1.0, value / most)), cv::FILLED);
-      cv::rectangle(picture, cell, {60, 60, 60});
-      if (std::isfinite(value))
-        put_text(picture, printed("%.2f", value), cell.x + 4, cell.y + cell.height - 5,
-                 value > most / 2 ? cv::Scalar(0, 0, 0) : cv::Scalar(230, 230, 230), 0.4);
-    }
-  }
-}
-
-}  // namespace
-
-void draw_displacements(const std::string& path, const DriveCalibration& result) {
-  constexpr int kStep = 36, kDepth = 4;  // px of the picture; fractional bits
-  const PinholeCamera cameras[] = {result.given.left.camera, result.given.right.camera};
-  const double largest = std::max({result.change.largest_displacement[0], result.change.largest_displacement[1], 0.01});
-  const double enlarged = std::max(1.0, std::floor(1.5 * kStep / largest));  // in units of the picture
-  int height = 0;
-  for (const PinholeCamera& camera : cameras) height = std::max(height, camera.height * kPanel / camera.width);
-  const int part = height + kLegendLine + 8;
-  cv::Mat picture = cv::Mat::zeros(3 * part, 2 * kPanel + kGap, CV_8UC3);
-  for (const Side side : kSides) {
-    const PinholeCamera& camera = cameras[index_of(side)];
-    const double scale = static_cast<double>(kPanel) / camera.width;
-    const int left = index_of(side) * (kPanel + kGap);
-    cv::rectangle(picture, cv::Rect(left, 0, kPanel, static_cast<int>(camera.height * scale)), {60, 60, 60});
-    for (int y = kStep / 2; y < camera.height * scale; y += kStep) {
-      for (int x = kStep / 2; x < kPanel; x += kStep) {
-        const Eigen::Vector2d moved =
-            displacement(result.given, result.learned, side, Eigen::Vector2d(x / scale, y / scale));
-        if (!moved.allFinite()) continue;
-        const auto end = [&](double factor) {
-          return cv::Point(static_cast<int>(std::lround((left + x + factor * moved.x()) * (1 << kDepth))),
-                           static_cast<int>(std::lround((y + factor * moved.y()) * (1 << kDepth))));
-        };
-        cv::line(picture, end(0), end(enlarged), wheel_colour(std::atan2(moved.y(), moved.x()) / (2 * kPi)), 1,
-                 cv::LINE_AA, kDepth);
-        cv::circle(picture, end(0), 2 << kDepth, {200, 200, 200}, cv::FILLED, cv::LINE_AA, kDepth);
-      }
-    }
-  }
-  const std::string legend = printed(
-      "displacement of pixels from where the given calibration predicts them, %.0f px drawn per px; largest "
-      "%.2f px (left), %.2f px (right)",
-      enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);
-  put_text(picture, legend, 6, height + kLegendLine - 4, {230, 230, 230});
-  double most = 0.01;
-  for (const auto& places : result.unseen_parts_given.by_place)
-    for (const double value : places)
-      if (value > most) most = value;
-  const auto unseen = [&](int row, const UnseenDistances& parts, const char* which) {
-    draw_places(picture, row * part, height, parts, most);
-    put_text(
-        picture,
-        std::string("points in frames that were not learned from, median distance from their predictions with the ") +
-            which + " calibration [px]",
-        6, row * part + height + kLegendLine - 4, {230, 230, 230});
-  };
-  unseen(1, result.unseen_parts_given, "given");
-  unseen(2, result.unseen_parts_learned, "learned");
-  write_png(path, picture);
 }
 
 }  // namespace quadedge::report

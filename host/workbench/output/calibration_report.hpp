@@ -1,5 +1,5 @@
 #pragma once
-/// \file calibration_report.hpp  A learned calibration for people and programs: a picture, a table, JSON.
+/// \file calibration_report.hpp  A learned calibration for people and programs: a table, JSON.
 
 #include <string>
 
@@ -17,10 +17,5 @@ std::string calibration_json(const DriveCalibration& result, const std::string& 
 /// A line per number: change, deviation and prior; then what they change: depths, rotation, distances from the epipolar
 /// lines.
 std::string calibration_table(const DriveCalibration& result);
-
-/// displacement() as arrows over both images side by side, enlarged by a factor that the legend states; below it, the
-/// distances of unseen points by place, with the given and the learned calibration. \throws DataError when the file
-/// cannot be written
-void draw_displacements(const std::string& path, const DriveCalibration& result);
 
 }  // namespace quadedge::report

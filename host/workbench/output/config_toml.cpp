@@ -6,7 +6,6 @@
 
 #include "common/nearest_word.hpp"
 #include "data/atomic_file.hpp"
-#include "data/toml_file.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {

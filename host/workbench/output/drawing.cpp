@@ -1,18 +1,100 @@
-/// \file drawing.cpp  Strokes coloured by direction, dots by disparity (viridis), motion of one quad per cell.
+/// \file drawing.cpp  Strokes coloured by direction, dots by disparity (viridis), motion of one quad per cell. Enlarges
+/// by whole factors; positions in fixed point, so that OpenCV draws between pixels.
 #include "output/drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <set>
+#include <vector>
 
+#include "common/printed.hpp"
+#include "data/atomic_file.hpp"
+#include "data/image_file.hpp"
 #include "data/text.hpp"
-#include "output/canvas.hpp"
 #include "output/statistics.hpp"
 #include "quadedge/camera.hpp"
 
 namespace quadedge::report {
 namespace {
+
+/// Height of one line of text in a legend [px].
+constexpr int kLegendLine = 26;
+constexpr int kPositionShift = 4;     ///< fractional bits of Canvas::position
+constexpr int kSmallestWidth = 1000;  // px; narrower images are enlarged so that strokes can be distinguished
+constexpr int kLargestScale = 4;
+
+int scale_for(int width) {
+  int scale = 1;
+  while (scale < kLargestScale && width * scale < kSmallestWidth) ++scale;
+  return scale;
+}
+
+/// A colour picture of a grey image: enlarged to at least 1000 px width by a whole factor, darkened to `brightness`,
+/// with `legend_lines` black lines below it.
+class Canvas {
+ public:
+  Canvas(const ImageView& image, double brightness, int legend_lines)
+      : scale_(scale_for(image.width)), image_height_(image.height * scale_) {
+    Image pixels = to_8_bits(image);
+    const cv::Mat grey(image.height, image.width, CV_8UC1, pixels.pixels.data());
+    cv::Mat large;
+    cv::resize(grey, large, {}, scale_, scale_, cv::INTER_LINEAR);
+    large.convertTo(large, CV_8UC1, brightness);
+    picture_ =
+        cv::Mat::zeros(large.rows + legend_lines * kLegendLine + 8, std::max(large.cols, kSmallestWidth), CV_8UC3);
+    cv::Mat target = picture_(cv::Rect(0, 0, large.cols, large.rows));
+    cv::cvtColor(large, target, cv::COLOR_GRAY2BGR);
+  }
+
+  cv::Mat& picture() { return picture_; }
+  /// Position in the picture of image coordinates, in units of 1/16 px as OpenCV expects with `shift` = 4.
+  cv::Point position(double x, double y) const {
+    // Pixel centres are whole numbers on both sides of the enlargement.
+    const auto fixed_point = [this](double value) {
+      return static_cast<int>(std::lround(((value + 0.5) * scale_ - 0.5) * (1 << kPositionShift)));
+    };
+    return {fixed_point(x), fixed_point(y)};
+  }
+  /// Picture pixels per image pixel.
+  int scale() const { return scale_; }
+  /// Baseline of legend line `line` from 0 on [px].
+  int legend_y(int line) const { return image_height_ + (line + 1) * kLegendLine - 6; }
+
+ private:
+  int scale_;
+  int image_height_;  ///< of the enlarged image [px]
+  cv::Mat picture_;
+};
+
+/// Writes text with its baseline at (x, y); returns the x after its end.
+int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size = 0.5) {
+  cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
+  int baseline = 0;
+  return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
+}
+
+/// The colour at a share of a turn of the colour wheel, of full saturation, in 180 steps [BGR].
+cv::Scalar wheel_colour(double turn) {
+  static const std::vector<cv::Scalar> wheel = [] {
+    cv::Mat hsv(1, 180, CV_8UC3), bgr;
+    for (int i = 0; i < 180; ++i) hsv.at<cv::Vec3b>(0, i) = {static_cast<unsigned char>(i), 220, 255};
+    cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
+    std::vector<cv::Scalar> colours;
+    for (int i = 0; i < 180; ++i) colours.emplace_back(bgr.at<cv::Vec3b>(0, i));
+    return colours;
+  }();
+  return wheel[static_cast<std::size_t>(std::min(static_cast<int>((turn - std::floor(turn)) * 180.0), 179))];
+}
+
+void write_png(const std::string& path, const cv::Mat& picture) {
+  data::write_atomically(path, data::encode_png(picture));
+}
+
+void write_jpeg(const std::string& path, const cv::Mat& picture) {
+  constexpr int kQuality = 75;
+  data::write_atomically(path, data::encode_jpeg(picture, kQuality));
+}
 
 constexpr double kEdgesBrightness = 0.35;
 constexpr double kHalfStroke = 0.6;  // px of the image to either side of the edge
@@ -175,6 +257,88 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
   put_text(picture, std::to_string(static_cast<std::ptrdiff_t>(details.quads.size()) - inliers) + " others", x + 38, y,
            kOutlier);
+  write_png(path, picture);
+}
+
+void write_image(const std::string& path, const ImageView& image) {
+  Image grey = to_8_bits(image);
+  write_png(path, cv::Mat(grey.height, grey.width, CV_8U, grey.pixels.data()));
+}
+
+namespace {
+
+constexpr int kPanel = 720, kGap = 12;  // px of the pictures
+
+/// A row of panels: the cells of both images, grey by their median distance, white at `most` px.
+void draw_places(cv::Mat& picture, int top, int height, const UnseenDistances& parts, double most) {
+  for (const Side side : kSides) {
+    const int left = index_of(side) * (kPanel + kGap);
+    for (int i = 0; i < UnseenDistances::kRows * UnseenDistances::kColumns; ++i) {
+      const int column = i % UnseenDistances::kColumns, row = i / UnseenDistances::kColumns;
+      const int x = column * kPanel / UnseenDistances::kColumns, y = row * height / UnseenDistances::kRows;
+      const cv::Rect cell(left + x, top + y, (column + 1) * kPanel / UnseenDistances::kColumns - x,
+                          (row + 1) * height / UnseenDistances::kRows - y);
+      const double value = parts.by_place[static_cast<std::size_t>(index_of(side))][static_cast<std::size_t>(i)];
+      if (std::isfinite(value))
+        cv::rectangle(picture, cell, cv::Scalar::all(40 + 215 * std::min(1.0, value / most)), cv::FILLED);
+      cv::rectangle(picture, cell, {60, 60, 60});
+      if (std::isfinite(value))
+        put_text(picture, printed("%.2f", value), cell.x + 4, cell.y + cell.height - 5,
+                 value > most / 2 ? cv::Scalar(0, 0, 0) : cv::Scalar(230, 230, 230), 0.4);
+    }
+  }
+}
+
+}  // namespace
+
+void draw_displacements(const std::string& path, const DriveCalibration& result) {
+  constexpr int kStep = 36, kDepth = 4;  // px of the picture; fractional bits
+  const PinholeCamera cameras[] = {result.given.left.camera, result.given.right.camera};
+  const double largest = std::max({result.change.largest_displacement[0], result.change.largest_displacement[1], 0.01});
+  const double enlarged = std::max(1.0, std::floor(1.5 * kStep / largest));  // in units of the picture
+  int height = 0;
+  for (const PinholeCamera& camera : cameras) height = std::max(height, camera.height * kPanel / camera.width);
+  const int part = height + kLegendLine + 8;
+  cv::Mat picture = cv::Mat::zeros(3 * part, 2 * kPanel + kGap, CV_8UC3);
+  for (const Side side : kSides) {
+    const PinholeCamera& camera = cameras[index_of(side)];
+    const double scale = static_cast<double>(kPanel) / camera.width;
+    const int left = index_of(side) * (kPanel + kGap);
+    cv::rectangle(picture, cv::Rect(left, 0, kPanel, static_cast<int>(camera.height * scale)), {60, 60, 60});
+    for (int y = kStep / 2; y < camera.height * scale; y += kStep) {
+      for (int x = kStep / 2; x < kPanel; x += kStep) {
+        const Eigen::Vector2d moved =
+            displacement(result.given, result.learned, side, Eigen::Vector2d(x / scale, y / scale));
+        if (!moved.allFinite()) continue;
+        const auto end = [&](double factor) {
+          return cv::Point(static_cast<int>(std::lround((left + x + factor * moved.x()) * (1 << kDepth))),
+                           static_cast<int>(std::lround((y + factor * moved.y()) * (1 << kDepth))));
+        };
+        cv::line(picture, end(0), end(enlarged), wheel_colour(std::atan2(moved.y(), moved.x()) / (2 * kPi)), 1,
+                 cv::LINE_AA, kDepth);
+        cv::circle(picture, end(0), 2 << kDepth, {200, 200, 200}, cv::FILLED, cv::LINE_AA, kDepth);
+      }
+    }
+  }
+  const std::string legend = printed(
+      "displacement of pixels from where the given calibration predicts them, %.0f px drawn per px; largest "
+      "%.2f px (left), %.2f px (right)",
+      enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);
+  put_text(picture, legend, 6, height + kLegendLine - 4, {230, 230, 230});
+  double most = 0.01;
+  for (const auto& places : result.unseen_parts_given.by_place)
+    for (const double value : places)
+      if (value > most) most = value;
+  const auto unseen = [&](int row, const UnseenDistances& parts, const char* which) {
+    draw_places(picture, row * part, height, parts, most);
+    put_text(
+        picture,
+        std::string("points in frames that were not learned from, median distance from their predictions with the ") +
+            which + " calibration [px]",
+        6, row * part + height + kLegendLine - 4, {230, 230, 230});
+  };
+  unseen(1, result.unseen_parts_given, "given");
+  unseen(2, result.unseen_parts_learned, "learned");
   write_png(path, picture);
 }
 

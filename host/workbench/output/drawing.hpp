@@ -1,9 +1,10 @@
 #pragma once
-/// \file drawing.hpp  Pictures of results as PNG files, each with its legend. All functions \throw DataError when
-/// the file cannot be written.
+/// \file drawing.hpp  Pictures of results as PNG files, each with its legend. All functions \throw DataError when the
+/// file cannot be written.
 
 #include <string>
 
+#include "quadedge/drive_calibration.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/odometry.hpp"
@@ -28,5 +29,9 @@ void draw_pair(const std::string& path, const ImageView& left, const ImageView& 
 
 /// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details);
+
+/// displacement() as arrows over both images side by side, enlarged by a factor that the legend states; below it, the
+/// distances of unseen points by place, with the given and the learned calibration.
+void draw_displacements(const std::string& path, const DriveCalibration& result);
 
 }  // namespace quadedge::report

@@ -12,18 +12,95 @@
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
 #include "data/text.hpp"
-#include "output/sub_paths.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
 namespace {
 
-using evaluation::angle_deg;
-using evaluation::MatchedPoses;
-using evaluation::mean_of;
-using evaluation::statistics;
-using evaluation::sub_path_errors;
 using Pose = Eigen::Isometry3d;
+
+/// A pose and its ground truth.
+struct MatchedPoses {
+  std::int64_t stamp_ns;
+  Eigen::Isometry3d estimate, truth;
+  int segment;
+};
+
+/// Of all errors that have a value; NaN if none has.
+ErrorStatistics statistics(std::vector<double> errors) {
+  errors.erase(std::remove_if(errors.begin(), errors.end(), [](double error) { return std::isnan(error); }),
+               errors.end());
+  if (errors.empty()) return {kNan, kNan, kNan, kNan};
+  ErrorStatistics result;
+  const double count = static_cast<double>(errors.size());
+  double sum = 0, squares = 0, deviations = 0;
+  for (const double error : errors) {
+    sum += error;
+    squares += error * error;
+    result.max = std::max(result.max, error);
+  }
+  result.mean = sum / count;
+  for (const double error : errors) deviations += (error - result.mean) * (error - result.mean);
+  result.std = std::sqrt(deviations / count);
+  result.rmse = std::sqrt(squares / count);
+  return result;
+}
+
+/// Angle of a rotation [deg], accurate near 0 and 180 degrees, unlike the arc cosine of the trace.
+double angle_deg(const Eigen::Matrix3d& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return 2 * std::atan2(q.vec().norm(), std::abs(q.w())) * kDegreesPerRadian;
+}
+
+constexpr std::size_t kStartStep = 10;  // poses from one start of a sub-path to the next
+
+/// Length of the true path up to each pose [m].
+std::vector<double> distances(const std::vector<MatchedPoses>& poses) {
+  std::vector<double> sums = {0};
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    sums.push_back(sums.back() + (poses[i].truth.translation() - poses[i - 1].truth.translation()).norm());
+  return sums;
+}
+
+/// t_rel and r_rel over sub-paths, what their ends are off, seen from their starts, as KITTI's odometry devkit defines
+/// them. One entry per length [m], with `count` 0 and errors NaN where the path is too short.
+std::vector<SubPathErrors> sub_path_errors(const std::vector<MatchedPoses>& poses, const std::vector<double>& lengths) {
+  const std::vector<double> distance = distances(poses);
+  std::vector<SubPathErrors> errors;
+  for (const double length : lengths) {
+    std::vector<double> translation, rotation;
+    for (std::size_t first = 0; first < poses.size(); first += kStartStep) {
+      // The first pose beyond the length, which the errors are nevertheless divided by.
+      const auto end = std::upper_bound(distance.begin() + static_cast<std::ptrdiff_t>(first), distance.end(),
+                                        distance[first] + length);
+      if (end == distance.end()) break;
+      const MatchedPoses &from = poses[first], &to = poses[static_cast<std::size_t>(end - distance.begin())];
+      if (from.segment != to.segment) continue;
+      const Eigen::Isometry3d off =
+          (from.estimate.inverse() * to.estimate).inverse() * (from.truth.inverse() * to.truth);
+      translation.push_back(100 * off.translation().norm() / length);
+      rotation.push_back(angle_deg(off.linear()) / length);
+    }
+    const int count = static_cast<int>(translation.size());
+    const ErrorStatistics t = statistics(std::move(translation)), r = statistics(std::move(rotation));
+    errors.push_back({length, count, t.mean, r.mean, t.std, r.std});
+  }
+  return errors;
+}
+
+/// The mean over the sub-paths of all lengths.
+SubPathErrors mean_of(const std::vector<SubPathErrors>& lengths) {
+  SubPathErrors mean{kNan, 0, 0, 0};
+  for (const SubPathErrors& errors : lengths) {
+    if (errors.count == 0) continue;
+    mean.count += errors.count;
+    mean.translation_percent += errors.count * errors.translation_percent;
+    mean.rotation_deg_per_m += errors.count * errors.rotation_deg_per_m;
+  }
+  mean.translation_percent = mean.count > 0 ? mean.translation_percent / mean.count : kNan;
+  mean.rotation_deg_per_m = mean.count > 0 ? mean.rotation_deg_per_m / mean.count : kNan;
+  return mean;
+}
 
 /// Nearest truth pose for each estimated pose, both in increasing order and each used at most once: by the nearest pose
 /// of an estimate that is denser. Where a segment of the estimate goes back in time, the search starts anew.

@@ -4,7 +4,6 @@
 #include <ctime>
 
 #include "data/text.hpp"
-#include "output/source_commit.hpp"
 
 namespace quadedge::report {
 

@@ -57,6 +57,10 @@ inline Json to_json(const DeviceInfo& device) {
           {"type", device.type},     {"single_precision", to_json(device.single_precision)}};
 }
 
+/// Commit that this program was built from, with a "+" where the sources had changed; empty when built outside a
+/// checkout.
+const char* source_commit();
+
 /// The figures of an evaluation; without the numbers of poses, the errors of each pose, and the segments.
 Json to_json(const TrajectoryEvaluation& evaluation);
 

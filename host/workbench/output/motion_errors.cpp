@@ -2,14 +2,12 @@
 #include "output/motion_errors.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
 #include "common/numeric.hpp"
 #include "geometry/uncertain_pose.hpp"
-#include "quadedge/evaluation.hpp"
 
 namespace quadedge::evaluation {
 namespace {

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "common/numeric.hpp"
@@ -16,12 +18,30 @@
 #include "output/json.hpp"
 #include "output/output_folder.hpp"
 #include "output/run_record.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/result_files.hpp"
 
 namespace quadedge::report {
 namespace {
 
 constexpr int kDecimals = 6;  // of edges
+
+/// Quoted where needed; line breaks become spaces.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + "\"";
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (std::size_t i = 0; i < fields.size(); ++i) line += (i == 0 ? "" : ",") + csv_field(fields[i]);
+  return line + "\n";
+}
 
 /// Empty for NaN.
 std::string rounded(const char* format, double value) {
@@ -120,6 +140,30 @@ std::string box_text(const std::optional<Eigen::Vector4d>& box) {
 }
 
 }  // namespace
+
+AppendFile::AppendFile(std::string path) : path_(std::move(path)), stream_(std::fopen(path_.c_str(), "wb")) {
+  if (stream_ == nullptr) fail("opened for writing");
+}
+
+AppendFile::~AppendFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+}
+
+void AppendFile::append(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0) fail("written");
+}
+
+void AppendFile::fail(const char* what) const {
+  throw DataError(path_ + ": cannot be " + what + ": " + std::strerror(errno));
+}
+
+void CsvRow::add(std::string name, std::string field) {
+  names_.push_back(std::move(name));
+  fields_.push_back(std::move(field));
+}
+
+std::string CsvRow::heading() const { return csv_line(names_); }
+std::string CsvRow::line() const { return csv_line(fields_); }
 
 CsvRow frames_row(int number, const FrameResult& result) {
   CsvRow row;

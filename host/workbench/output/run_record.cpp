@@ -1,10 +1,7 @@
 /// \file run_record.cpp  Medians and percentiles over the frames after the first, which pays for warming up.
 #include "output/run_record.hpp"
 
-#include <algorithm>
 #include <limits>
-#include <map>
-#include <optional>
 
 #include "output/statistics.hpp"
 
