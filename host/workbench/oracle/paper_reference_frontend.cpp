@@ -1,9 +1,8 @@
 /// \file paper_reference_frontend.cpp  Edges, descriptions and stereo matches frame by frame, quads on request.
-#include "oracle/paper_reference_frontend.hpp"
-
 #include <utility>
 
 #include "edges/tap_lists.hpp"
+#include "oracle/reference_frontend.hpp"
 #include "paper/grid_edges.hpp"
 #include "reference/images.hpp"
 

@@ -5,13 +5,11 @@
 #include <stdexcept>
 
 #include "edges/global_search.hpp"
+#include "edges/tap_lists.hpp"
 #include "geometry/disparity_range.hpp"
 #include "geometry/epipolar_geometry.hpp"
 #include "reference/edge_descriptions.hpp"
-#include "reference/edge_detection.hpp"
 #include "reference/images.hpp"
-#include "reference/stereo_matching.hpp"
-#include "reference/temporal_matching.hpp"
 
 namespace quadedge::frontend {
 namespace {
@@ -170,6 +168,38 @@ void ReferenceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
   frame_edges.left_descriptions = {std::move(patches.left), no_sift};
   frame_edges.right_descriptions = {std::move(patches.right), no_sift};
   frame_edges.wide = unpack_wide(kept);
+}
+
+// What taps receive after each filter, from the candidate lists on.
+
+void ReferenceFrontend::tap_stereo() {
+  for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
+    tap_->stereo_filter(filter, alive_after(filter, candidates_, scores_));
+  const auto tap_clusters = [&](StereoFilter filter, const auto& passes) {
+    tap_->stereo_filter(filter, clusters_that(clusters_, range_.geometry(), left_edges_.x, left_edges_.y, passes));
+  };
+  tap_clusters(StereoFilter::refinement, [](std::size_t, std::size_t) { return true; });
+  tap_clusters(StereoFilter::relaxation,
+               [&](std::size_t i, std::size_t k) { return relaxation_.chosen[i] == static_cast<std::int32_t>(k); });
+}
+
+void ReferenceFrontend::tap_temporal(const TemporalSearch& search, const FrameEdges& current,
+                                     const reference::TemporalMatchResult& result) {
+  for (const Side side : kSides) {
+    const bool is_left = side == Side::left;
+    const PinholeCamera& camera = is_left ? calibration_.left : calibration_.right;
+    const EdgePositionsView edges = current.edges.positions(side);
+    reference::PointIndex index;
+    reference::make_point_index(edges.x, edges.y, camera.width, camera.height, index);
+    const auto displaced = reference::temporal_candidates(is_left ? search.left : search.right, edges, index,
+                                                          search.radius, kAnyDirection, search.step);
+    tap_->temporal_filter(TemporalFilter::displacement, side, {displaced.first, displaced.target, {}, {}, {}});
+    const reference::TemporalMatchLists& lists = is_left ? result.left : result.right;
+    for (auto filter = TemporalFilter::orientation; filter < TemporalFilter::refinement; filter = next(filter))
+      tap_->temporal_filter(filter, side, alive_after(filter, lists.candidates, lists.scores));
+    tap_->temporal_filter(TemporalFilter::agreement, side,
+                          alive_after(TemporalFilter::agreement, result.left.candidates, result.left.scores));
+  }
 }
 
 }  // namespace quadedge::frontend

@@ -1,7 +1,6 @@
 /// \file registration.cpp  Registers the plain C++ reference as the device `reference`. CMake makes every program that
 /// links the library take in this file.
 #include "device/oracle.hpp"
-#include "oracle/paper_reference_frontend.hpp"
 #include "oracle/reference_frontend.hpp"
 #include "paper/grid_edges.hpp"
 #include "reference/edge_detection.hpp"
