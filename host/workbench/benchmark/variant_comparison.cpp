@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "benchmark/bench_record.hpp"

@@ -61,7 +61,6 @@ class BatchCommand : public Command {
     options.text("-o,--output", output_, "output folder; default: quadedge_batch in the current folder", "OUT");
     options.number("--jobs", jobs_,
                    "number of sequences tracked in parallel; 0: one, or one per core with --device reference");
-    options.flag("--profile", profile_, "measure kernel times of every sequence in a second pass");
     options.flag("--loops", loops_, "recognise places and close loops in every sequence");
     options.number("--draw", draw_every_, "draw the edges and quads of every N-th frame");
     options.number("--min-tracked", min_tracked_,
@@ -120,8 +119,8 @@ class BatchCommand : public Command {
   /// all cores, and on a GPU the kernels of others delay it), the plain C++ reference one per core.
   int jobs() const {
     if (jobs_ > 0) return jobs_;
-    const bool has_own_core = method_.device_choice() == "reference" && !profile_;
-    return has_own_core ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : 1;
+    if (method_.device_choice() != "reference") return 1;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
 
   /// What every `quadedge run` of the batch is given beside its sequence.
@@ -134,7 +133,6 @@ class BatchCommand : public Command {
     if (!method_.kernel_folder().empty())
       words.insert(words.end(), {"--kernels", fs::absolute(method_.kernel_folder()).string()});
     if (method_.trusts()) words.emplace_back("--trust");
-    if (profile_) words.emplace_back("--profile");
     if (loops_) words.emplace_back("--loops");
     return words;
   }
@@ -179,7 +177,7 @@ class BatchCommand : public Command {
   std::vector<std::string> snakemake_;
   int jobs_ = 0, draw_every_ = 0;
   double min_tracked_ = 50;
-  bool list_ = false, dry_run_ = false, force_ = false, quiet_ = false, profile_ = false, loops_ = false;
+  bool list_ = false, dry_run_ = false, force_ = false, quiet_ = false, loops_ = false;
   MethodOptions method_;
 };
 

@@ -187,12 +187,12 @@ class BenchCommand : public Command {
     return comparison.regressed() ? bench::kRegressionExitCode : static_cast<int>(ExitCode::done);
   }
 
-  FrameSource open_source(RenderingStatus& rendering) const {
+  FrameSource open_source() const {
     if (source_.is_given()) return FrameSource(source_.open());
     SyntheticOptions scene = scene_;
     scene.frames = 1 + warm_up_ + frames_;
     set_size(scene, size_);
-    return FrameSource(scene, [&](const data::RenderedFrames& frames) { return rendering.show(frames); });
+    return FrameSource(scene, quiet_);
   }
 
   /// \throws DataError for fewer frames than one to measure needs.
@@ -206,8 +206,7 @@ class BenchCommand : public Command {
   bench::BenchRecord measure() {
     bench::BenchRecord record;
     auto& run = record.run;
-    RenderingStatus rendering(quiet_, nullptr);
-    FrameSource source = open_source(rendering);
+    FrameSource source = open_source();
     run.input = source.facts();
     run.config = method_.config();
     record.command = command_line();

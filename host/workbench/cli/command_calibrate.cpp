@@ -1,10 +1,9 @@
 /// \file command_calibrate.cpp  quadedge calibrate: the calibration of a rig, learned from a recording with it.
 #include <cstdio>
 
-#include "cli/calibration_export.hpp"
+#include "cli/calibration.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "cli/rig_learning.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "output/calibration_report.hpp"
@@ -31,11 +30,7 @@ class CalibrateCommand : public Command {
     options.output("--picture", picture_,
                    "draw the displacement of pixels of both images between the two calibrations (PNG)");
     options.output("--json", json_, "write verdict, numbers and covariance");
-    auto formats = dataset_formats();
-    formats.insert(formats.begin(), "auto");
-    options.choice("--format", dataset_.format, formats, "dataset layout; auto: recognised");
-    options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
-    options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
+    source_.declare_layout(options);
     options.number("--most-frames", limits_.frames,
                    "maximum number of frames to learn from, spread evenly over longer recordings");
     options.flag("--force", force_, "replace the files");
@@ -46,11 +41,10 @@ class CalibrateCommand : public Command {
   int run() override {
     if (limits_.frames < 2)
       throw UsageError("--most-frames " + std::to_string(limits_.frames) + ": expected 2 or more");
-    set_frames(dataset_, frames_);
     for (const std::string& file : {output_, picture_, json_}) report::check_output_file(file, force_);
     export_.check(force_);
     limits_.has_k3 = !export_.lacks_k3();
-    const Dataset dataset = source_.open(dataset_);
+    const Dataset dataset = source_.open();
     const Interruption interruption;
     const DriveCalibration result = learn_rig(dataset, limits_, quiet_, interruption);
     if (!output_.empty()) write_calibration(output_, result.calibration);
@@ -65,10 +59,9 @@ class CalibrateCommand : public Command {
   }
 
  private:
-  std::string output_, picture_, json_, frames_;
+  std::string output_, picture_, json_;
   CalibrationExport export_;
   SourceOptions source_;
-  DatasetOptions dataset_;
   LearningLimits limits_;
   bool force_ = false, quiet_ = false;
 };

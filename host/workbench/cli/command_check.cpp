@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "cli/calibration_check.hpp"
-#include "cli/calibration_export.hpp"
+#include "cli/calibration.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/source_options.hpp"
@@ -27,10 +26,7 @@ class CheckCommand : public Command {
                 "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml") {}
   void declare(Options& options) override {
     source_.declare_path(options, "folder of a sequence, or of many sequences");
-    auto formats = dataset_formats();
-    formats.insert(formats.begin(), "auto");
-    options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
-    options.text("--sequence", options_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
+    source_.declare_layout(options, false);
     options.output("--write-calibration", calibration_,
                    "write the cameras in the program's own format, for --calibration");
     export_.declare(options);
@@ -55,7 +51,7 @@ class CheckCommand : public Command {
     RigEvidenceCollector evidence;
     const auto see = [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); };
     DatasetCheck check = source_.is_own_camera() ? check_stereo_source(source_.own_camera(), see)
-                                                 : check_dataset(path_, source_.layout(options_), see);
+                                                 : check_dataset(path_, source_.layout(), see);
     if (evidence.empty()) return check;
     evidence.finish(check);
     if (!check.errors.empty()) return check;
@@ -80,29 +76,29 @@ class CheckCommand : public Command {
   /// Is PATH a folder of recordings instead of one? (A KITTI folder with a single sequence counts as that sequence.)
   bool is_tree() {
     std::error_code ignored;
-    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() || !export_.empty() ||
-        source_.has_camera_options() || !std::filesystem::is_directory(path_, ignored))
+    if (source_.has_layout() || !calibration_.empty() || !export_.empty() || source_.has_camera_options() ||
+        !std::filesystem::is_directory(path_, ignored))
       return false;
-    const auto members = data::find_members(path_);
-    return members.size() > 1 || (members.size() == 1 && members[0].path != "." && members[0].format != "kitti");
+    const auto members = data::find_recordings(path_, true);
+    return members.size() > 1 || (members.size() == 1 && members[0].path != path_ && members[0].format != "kitti");
   }
 
   /// Checks every recording and pair below PATH.
   int check_tree() {
     int damaged = 0;
     StatusLine status(quiet_);
-    const auto members = data::find_members(path_);
+    const auto members = data::find_recordings(path_, true);
     for (std::size_t i = 0; i < members.size(); ++i) {
-      const auto& member = members[i];
+      const std::string member = std::filesystem::path(members[i].path).lexically_relative(path_).string();
       if (status.due())
-        status.show("reading " + member.path + "  " + std::to_string(i) + "/" + std::to_string(members.size()));
-      const DatasetCheck check = check_dataset((std::filesystem::path(path_) / member.path).string());
+        status.show("reading " + member + "  " + std::to_string(i) + "/" + std::to_string(members.size()));
+      const DatasetCheck check = check_dataset(members[i].path);
       damaged += check.errors.empty() ? 0 : 1;
       if (!quiet_) {
-        std::printf("%-8s %s: %s\n", check.errors.empty() ? "ok" : "DAMAGED", member.path.c_str(),
+        std::printf("%-8s %s: %s\n", check.errors.empty() ? "ok" : "DAMAGED", member.c_str(),
                     data::one_line(check).c_str());
       }
-      for (const auto& warning : check.warnings) std::printf("warning: %s: %s\n", member.path.c_str(), warning.c_str());
+      for (const auto& warning : check.warnings) std::printf("warning: %s: %s\n", member.c_str(), warning.c_str());
       for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
     }
     if (!quiet_) std::printf("%zu found, %d of them damaged\n", members.size(), damaged);
@@ -113,7 +109,6 @@ class CheckCommand : public Command {
   CalibrationExport export_;
   std::optional<StereoCalibration> written_;  ///< of a recording without errors
   SourceOptions source_;
-  DatasetOptions options_;
   bool force_ = false, quiet_ = false;
 };
 

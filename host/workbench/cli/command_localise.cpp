@@ -48,11 +48,7 @@ class LocaliseCommand : public Command {
     options.positional("MAP", map_, "file of `quadedge run --save-map`");
     source_.declare_path(options, "folder of a recorded sequence, by these or other cameras");
     options.text("-o,--output", output_, "output folder; default: quadedge_NAME in the current folder", "OUT");
-    auto formats = dataset_formats();
-    formats.insert(formats.begin(), "auto");
-    options.choice("--format", dataset_.format, formats, "dataset layout; auto: recognised");
-    options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
-    options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
+    source_.declare_layout(options);
     options.flag("--follow", follow_, "search near a prediction from the two frames before, if these were located");
     options.number("--min-tracked", min_located_, "exit with code 5 if fewer frames are located [percent]");
     options.flag("--force", force_, "replace results in OUT");
@@ -66,9 +62,8 @@ class LocaliseCommand : public Command {
     if (!(min_located_ >= 0 && min_located_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     report::LocalisationRecord record;
     record.config = method_.config();
-    set_frames(dataset_, frames_);
     const SavedMap map = read_map(map_);
-    Dataset dataset = source_.open(dataset_);
+    Dataset dataset = source_.open();
     if (output_.empty()) output_ = report::default_output_folder(dataset.name);
     record.command = command_line();
     record.map_file = map_;
@@ -145,9 +140,8 @@ class LocaliseCommand : public Command {
     std::printf("\nresults in %s\n", output_.c_str());
   }
 
-  std::string map_, frames_, output_;
+  std::string map_, output_;
   SourceOptions source_;
-  DatasetOptions dataset_;
   bool follow_ = false, force_ = false, quiet_ = false;
   double min_located_ = 50;
   MethodOptions method_;

@@ -162,14 +162,6 @@ std::string program_as_typed() {
   return program.find('/') == std::string::npos ? "quadedge" : data::shell_word(program);
 }
 
-void print_kernel_times(const report::RunRecord& run) {
-  if (run.kernel_times.empty()) return;
-  std::printf("\nkernel times of the profiling pass [ms]\n%-22s %12s %12s\n", "", "median", "p90");
-  for (const auto& stage : report::stage_summary(run.kernel_times))
-    std::printf("%-22s %12.3f %12.3f\n", stage.stage.c_str(), stage.median, stage.p90);
-  std::printf("\n");
-}
-
 }  // namespace
 
 StatusLine::StatusLine(bool quiet)
@@ -262,7 +254,6 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   print_tracked(run);
   print_path(run);
   print_time(run);
-  print_kernel_times(run);
   const std::string command = program_as_typed() + " report " + data::shell_word(output);
   std::printf("results    %s/trajectory.txt (TUM format); report.json has all figures\n", output.c_str());
   std::printf("next       %s    # makes a page with plots: %s/report.html\n", command.c_str(), output.c_str());

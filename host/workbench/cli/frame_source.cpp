@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "cli/calibration_check.hpp"
-#include "cli/console.hpp"
+#include "cli/calibration.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 
@@ -22,7 +21,7 @@ std::shared_ptr<const data::RenderedFrames> render(const SyntheticOptions& optio
 FrameSource::FrameSource(Dataset dataset, std::function<bool()> stop, std::vector<std::string> options)
     : dataset_(std::move(dataset)), stop_(std::move(stop)), options_(std::move(options)) {}
 
-FrameSource::FrameSource(const SyntheticOptions& options, std::function<bool(const data::RenderedFrames&)> watch)
+FrameSource::FrameSource(const SyntheticOptions& options, bool quiet, const Interruption* interruption)
     : rendered_(render(options)) {
   const SyntheticSequence& sequence = rendered_->sequence();
   dataset_.format = "synthetic";
@@ -35,7 +34,12 @@ FrameSource::FrameSource(const SyntheticOptions& options, std::function<bool(con
     dataset_.frames.push_back({sequence.stamp_ns(i), {}, {}});
     dataset_.truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
   }
-  if (watch) stop_ = [frames = rendered_, watch = std::move(watch)] { return !watch(*frames); };
+  // The time of the progress begins with the first frame.
+  stop_ = [=, frames = rendered_, progress = std::make_shared<std::optional<Progress>>()] {
+    if (!*progress) progress->emplace(quiet, "frames");
+    if (frames->rendered() > 0) (*progress)->update("rendering", frames->ready(), frames->sequence().frames());
+    return interruption != nullptr && interruption->signal() != 0;
+  };
 }
 
 report::InputFacts FrameSource::facts() const {
@@ -50,7 +54,7 @@ report::InputFacts FrameSource::facts() const {
 void FrameSource::prepare() {
   pairs_ = std::make_unique<FramePrefetcher>(dataset_, 2, stop_);
   first_ = pairs_->next();
-  if (!std::exchange(has_begun_, true) && first_ && !rendered_)
+  if (first_ && !rendered_)
     if (const std::string proposal = rectified_proposal(dataset_, *first_); !proposal.empty())
       note("warning: " + proposal);
   if (stop_) stop_();  // shows that rendering is done
@@ -72,12 +76,6 @@ void set_size(SyntheticOptions& options, const std::string& size) {
   options.focal *= static_cast<double>(width) / options.width;
   options.width = width;
   options.height = height;
-}
-
-bool RenderingStatus::show(const data::RenderedFrames& frames) {
-  if (!progress_) progress_.emplace(quiet_, "frames");
-  if (frames.rendered() > 0) progress_->update("rendering", frames.ready(), frames.sequence().frames());
-  return interruption_ == nullptr || interruption_->signal() == 0;
 }
 
 }  // namespace quadedge::cli

@@ -21,9 +21,10 @@ class FrameSource {
   /// A recorded sequence or the user's own cameras. `stop`: as FramePrefetcher. `options`: how it was opened, see
   /// InputFacts.
   explicit FrameSource(Dataset dataset, std::function<bool()> stop = {}, std::vector<std::string> options = {});
-  /// A built-in sequence, kept in the user's cache. `watch`: called while frames are made, and where a frame is handed
-  /// out; ends the sequence where it returns false. \throws UsageError for options that cannot be rendered
-  explicit FrameSource(const SyntheticOptions& options, std::function<bool(const data::RenderedFrames&)> watch = {});
+  /// A built-in sequence, kept in the user's cache. Unless `quiet`, shows "rendering 12/60 ..." while frames are
+  /// rendered. A signal of `interruption`, which may be null, ends it. \throws UsageError for options that cannot be
+  /// rendered
+  explicit FrameSource(const SyntheticOptions& options, bool quiet = true, const Interruption* interruption = nullptr);
 
   const Dataset& dataset() const { return dataset_; }
   const StereoRig& rig() const { return dataset_.rig; }
@@ -32,8 +33,6 @@ class FrameSource {
   void prepare();
   /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read
   std::optional<StereoPair> next();
-  /// Starts again with the first frame.
-  void rewind() { pairs_.reset(); }
   /// Pairs dropped so far because they came faster than they were taken.
   int dropped() const { return pairs_ ? pairs_->dropped() : 0; }
   /// The renderer's frames; null for recorded sequences.
@@ -46,26 +45,9 @@ class FrameSource {
   std::shared_ptr<const data::RenderedFrames> rendered_;
   std::unique_ptr<FramePrefetcher> pairs_;
   std::optional<StereoPair> first_;
-  bool has_begun_ = false;
 };
 
 /// Reads "WIDTHxHEIGHT" into the options. \throws UsageError.
 void set_size(SyntheticOptions& options, const std::string& size);
-
-// What the user sees of rendering ahead.
-
-/// "rendering 12/60 ..." while frames are rendered; silent while they are read.
-class RenderingStatus {
- public:
-  /// `interruption` may be null; else its signal ends the rendering.
-  RenderingStatus(bool quiet, const Interruption* interruption) : quiet_(quiet), interruption_(interruption) {}
-  /// Returns false after a signal.
-  bool show(const data::RenderedFrames& frames);
-
- private:
-  bool quiet_;
-  const Interruption* interruption_;
-  std::optional<Progress> progress_;  ///< its time begins with the first frame
-};
 
 }  // namespace quadedge::cli

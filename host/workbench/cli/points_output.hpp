@@ -1,7 +1,9 @@
 #pragma once
-/// \file points_output.hpp  What a run writes beside its frames: the edges in space, and with --loops the corrected
-/// trajectory, the closures and the map.
+/// \file points_output.hpp  What a run writes beside its frames: the edges in space, some of them for its page, and
+/// with --loops the corrected trajectory, the closures and the map.
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "output/run_record.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/map.hpp"
+#include "quadedge/odometry.hpp"
 #include "quadedge/point_cloud.hpp"
 
 namespace quadedge::cli {
@@ -69,6 +72,27 @@ class LoopOutput {
   Map map_;
   double total_ms_ = 0;
   std::vector<double> latencies_ms_;  ///< of all frames, with the time of the map
+};
+
+/// A bounded number of stereo edges of keyframes, evenly spread over the run. They are inliers of the motion of their
+/// frame, so that few of them are mismatched. `run --points` writes all edges.
+class EdgeSample {
+ public:
+  /// Takes in the frame that was tracked last, if it became the keyframe.
+  void add(const StereoOdometry& odometry, const FrameResult& result);
+  /// edges.csv: frame, x_m, y_m, z_m in the world (the first left camera), 3 decimals.
+  std::string csv() const;
+
+ private:
+  struct Point {
+    int frame;
+    Eigen::Vector3d position;  ///< [m]
+  };
+  void thin();
+
+  std::vector<Point> points_;
+  std::size_t per_frame_ = 2500;
+  int frames_ = 0;
 };
 
 }  // namespace quadedge::cli

@@ -2,7 +2,6 @@
 #include "cli/processes.hpp"
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-/// \file sequence_run.cpp  Tracks and writes frame by frame, profiles in a second pass; then errors, report and trace.
+/// \file sequence_run.cpp  Tracks and writes frame by frame; then errors, report and trace.
 #include "cli/sequence_run.hpp"
 
 #include <algorithm>
@@ -6,8 +6,6 @@
 
 #include "benchmark/variant_comparison.hpp"
 #include "cli/console.hpp"
-#include "cli/edge_sample.hpp"
-#include "cli/points_output.hpp"
 #include "common/printed.hpp"
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
@@ -21,7 +19,6 @@
 #include "output/output_folder.hpp"
 #include "output/result_rows.hpp"
 #include "quadedge/config.hpp"
-#include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 
 namespace quadedge::cli {
@@ -119,13 +116,11 @@ void show_progress(const report::RunRecord& run, int lost, Progress& progress) {
   progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
 }
 
-/// First pass: poses and latencies. LONG: what a frame passes through, in its order.
+/// Poses and latencies. LONG: what a frame passes through, in its order.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                   const Interruption& interruption, PointsOutput& points, EdgeSample& sample, report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
-  if (options.profile && device.is_reference())
-    throw UsageError("--profile measures kernels, and the reference device has none");
   bench::add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
   StereoOdometry& odometry = *pipeline;
@@ -184,23 +179,6 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   run.input.dropped = source.dropped();
   run.device_peak_mb = device_peak_mb(device, odometry);
   run.host_peak_mb = host_peak_mb();
-}
-
-/// Second pass, with a profiling queue, which slows the device down: kernel times only.
-void profile_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                    const Interruption& interruption, report::RunRecord& run) {
-  source.rewind();
-  Device device = method.open_device(true);
-  StereoOdometry odometry(source.rig(), device, run.config);
-  source.prepare();
-  Progress progress(options.quiet, "frames");
-  std::int64_t last_ns = INT64_MIN;
-  while (const auto frame = source.next()) {
-    if (options.restarts && frame->stamp_ns < std::exchange(last_ns, frame->stamp_ns)) odometry.restart();
-    run.kernel_times.push_back(odometry.track(frame->view()).timing.kernels);
-    progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
-    if (interruption.signal() != 0) return;
-  }
 }
 
 Trajectory tracked_poses(const report::RunRecord& run) {
@@ -307,14 +285,6 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   if (run.frames.empty()) end_if_interrupted(interruption, source);
   points.write();
   run.points = points.facts();
-  if (options.profile && interruption.signal() == 0) {
-    try {
-      profile_frames(source, method, options, interruption, run);
-    } catch (const Error& error) {
-      run.kernel_times.clear();
-      end_with_error(error, run.frames.size(), options.output, {[&] { write_results(source, options, sample, run); }});
-    }
-  }
   if (interruption.signal() != 0) {
     const bool knows_all = run.input.frames > static_cast<int>(run.frames.size());
     run.ended_early = "interrupted after " + (knows_all ? std::to_string(run.frames.size()) + " of " : "") +

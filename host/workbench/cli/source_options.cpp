@@ -26,8 +26,7 @@ int frame_number(const std::string& text, int missing, const std::string& whole)
   return value;
 }
 
-}  // namespace
-
+/// Sets the range of frames to "A:B", either of which may be omitted; empty: all. \throws UsageError
 void set_frames(DatasetOptions& options, const std::string& frames) {
   if (frames.empty()) return;
   const auto colon = frames.find(':');
@@ -36,8 +35,19 @@ void set_frames(DatasetOptions& options, const std::string& frames) {
   options.last_frame = frame_number(frames.substr(colon + 1), -1, frames);
 }
 
+}  // namespace
+
 void SourceOptions::declare_path(Options& options, const std::string& help, const std::string& name) {
   options.positional(name, path_, help + "; -: images from a pipe", false);
+}
+
+void SourceOptions::declare_layout(Options& options, bool has_frames) {
+  auto formats = dataset_formats();
+  formats.insert(formats.begin(), "auto");
+  options.choice("--format", layout_.format, formats, "dataset layout; auto: recognised");
+  options.text("--sequence", layout_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
+  if (has_frames)
+    options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
 }
 
 void SourceOptions::declare(Options& options) {
@@ -91,7 +101,7 @@ StereoSource SourceOptions::own_camera() const {
   return source;
 }
 
-DatasetOptions SourceOptions::layout(DatasetOptions options) const {
+DatasetOptions SourceOptions::layout() const {
   if (!own_.split.empty() || own_.fps != 0 || !own_.times.empty() || own_.live || own_.restarts ||
       own_.tolerance_ms != 0) {
     throw UsageError(
@@ -99,6 +109,8 @@ DatasetOptions SourceOptions::layout(DatasetOptions options) const {
         ": a recorded sequence has its own timestamps; --split, --fps, --times, --restarts, --tolerance and "
         "--live are for --left, --right, --video and -");
   }
+  DatasetOptions options = layout_;
+  set_frames(options, frames_);
   options.calibration = own_.calibration;
   options.rectified = own_.rectified;
   options.fov = own_.fov;
@@ -106,19 +118,20 @@ DatasetOptions SourceOptions::layout(DatasetOptions options) const {
   return options;
 }
 
-Dataset SourceOptions::open(const DatasetOptions& options) const {
+Dataset SourceOptions::open() const {
   if (!is_given()) throw UsageError("no input: expected PATH, or --left, --right and --calibration");
-  Dataset dataset = is_own_camera() ? open_own_camera(options) : open_dataset(path_, layout(options));
+  Dataset dataset = is_own_camera() ? open_own_camera() : open_dataset(path_, layout());
   if (!masks_.empty()) add_masks(dataset, masks_);
   return dataset;
 }
 
-Dataset SourceOptions::open_own_camera(const DatasetOptions& options) const {
+Dataset SourceOptions::open_own_camera() const {
   StereoSource source = own_camera();
-  if (options.format != "auto" || !options.sequence.empty())
-    throw UsageError("--format and --sequence are for datasets in a published layout");
-  source.first_frame = options.first_frame;
-  source.last_frame = options.last_frame;
+  if (has_layout()) throw UsageError("--format and --sequence are for datasets in a published layout");
+  DatasetOptions range;
+  set_frames(range, frames_);
+  source.first_frame = range.first_frame;
+  source.last_frame = range.last_frame;
   Dataset dataset = open_stereo_source(source);
   for (const auto& warning : dataset.warnings) note("warning: " + warning);
   return dataset;
@@ -134,7 +147,7 @@ void SourceOptions::replace_calibration(Dataset& dataset, const StereoCalibratio
 }
 
 void SourceOptions::refuse_all() const {
-  layout({});
+  layout();
   if (has_camera_options()) throw UsageError("--calibration, --fov and --mask are not used for single image files");
 }
 
@@ -150,10 +163,9 @@ Dataset SourceOptions::still_pair(const std::string& left, const std::string& ri
 
 PairOfSource SourceOptions::pair(int number) const {
   if (number < 0) throw UsageError("--frame " + std::to_string(number) + ": expected 0 or more");
-  DatasetOptions one;
-  one.first_frame = number;
-  one.last_frame = number + 1;
-  PairOfSource result{open(one), {}};
+  SourceOptions one = *this;
+  one.frames_ = std::to_string(number) + ":" + std::to_string(number + 1);
+  PairOfSource result{one.open(), {}};
   FramePrefetcher pairs(result.dataset);
   auto pair = pairs.next();
   if (!pair) throw UsageError("--frame " + std::to_string(number) + ": " + result.dataset.path + " ends before it");

@@ -18,14 +18,13 @@ struct PairOfSource {
   FramePrefetcher::Frame pair;
 };
 
-/// Sets the range of frames to "A:B", either of which may be omitted; empty: all. \throws UsageError
-void set_frames(DatasetOptions& options, const std::string& frames);
-
 /// PATH, which is a recorded sequence or "-", and the options for the user's own cameras.
 class SourceOptions {
  public:
   /// Declares PATH, or what else the command calls it. `help` describes it.
   void declare_path(Options& options, const std::string& help, const std::string& name = "PATH");
+  /// --format and --sequence, and --frames for commands that can read a part.
+  void declare_layout(Options& options, bool has_frames = true);
   /// Pictures from a pipe, for a command whose positional arguments are something else.
   void read_pipe() { path_ = "-"; }
   /// --left, --right, --video, --split, --calibration ... as a group.
@@ -55,21 +54,23 @@ class SourceOptions {
   Dataset still_pair(const std::string& left, const std::string& right) const;
   /// The user's own source. \throws UsageError if PATH is given as well.
   StereoSource own_camera() const;
-  /// The options of a recorded sequence with these camera options. \throws UsageError for options that only apply to
-  /// the user's own cameras.
-  DatasetOptions layout(DatasetOptions options) const;
-  /// Opens what is given. `options`: format, sequence and range of frames; only the range applies to own cameras.
-  /// \throws UsageError where nothing or too much is given, and as open_dataset() and open_stereo_source() do.
-  Dataset open(const DatasetOptions& options = {}) const;
+  /// The options of a recorded sequence. \throws UsageError for options that only apply to the user's own cameras.
+  DatasetOptions layout() const;
+  /// Whether a layout or a sequence is named.
+  bool has_layout() const { return layout_.format != "auto" || !layout_.sequence.empty(); }
+  /// Opens what is given. \throws UsageError where nothing or too much is given, and as open_dataset() and
+  /// open_stereo_source() do.
+  Dataset open() const;
   /// Takes another calibration for a dataset that was opened, with the same field of view and masks.
   void replace_calibration(Dataset& dataset, const StereoCalibration& calibration) const;
   /// Opens what is given and reads one pair. \throws UsageError for a number that it does not have.
   PairOfSource pair(int number) const;
 
  private:
-  Dataset open_own_camera(const DatasetOptions& options) const;
+  Dataset open_own_camera() const;
 
-  std::string path_, masks_;
+  std::string path_, masks_, frames_;
+  DatasetOptions layout_;
   StereoSource own_;  ///< calibration, field of view and mask are of recorded sequences too
 };
 

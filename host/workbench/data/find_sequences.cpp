@@ -111,8 +111,7 @@ std::string name_of(const FoundRecording& recording, int parts) {
 std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) {
   constexpr int kMostParts = 8;
   std::vector<FoundSequence> sequences;
-  for (const auto& recording : recordings)
-    sequences.push_back({name_of(recording, 1), recording.path, recording.format, recording.source});
+  for (const auto& recording : recordings) sequences.push_back({recording, name_of(recording, 1)});
   for (int parts = 2; parts <= kMostParts; ++parts) {
     std::map<std::string, int> uses;
     for (const auto& sequence : sequences) ++uses[sequence.name];
@@ -262,14 +261,6 @@ std::string source_name(const StereoSource& source) {
   folder = folder.parent_path();
   if (folder.filename() == "mav0") folder = folder.parent_path();
   return folder.has_filename() ? folder.filename().string() : folder_name(first);
-}
-
-std::vector<TreeMember> find_members(const std::string& root) {
-  std::vector<TreeMember> members;
-  for (const auto& found : find_recordings(root, true)) {
-    members.push_back({std::filesystem::path(found.path).lexically_relative(root).string(), found.format});
-  }
-  return members;
 }
 
 std::string one_line(const DatasetCheck& check) {

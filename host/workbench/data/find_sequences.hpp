@@ -10,13 +10,16 @@
 
 namespace quadedge::data {
 
+/// A folder with recorded data, or an unreadable folder without a format.
+struct FoundRecording {
+  std::string path;                                   ///< folder; of a custom camera its first folder or file
+  std::string format;                                 ///< recognised layout; empty without a recording
+  std::optional<StereoSource> source = std::nullopt;  ///< custom camera
+};
+
 /// A sequence of a batch.
-struct FoundSequence {
+struct FoundSequence : FoundRecording {
   std::string name;  ///< unique in its batch; contains only letters, digits and -_., so that it can name a folder
-  std::string path;  ///< folder of the sequence
-  std::string
-      format;  ///< recognised layout; empty for a line of a list without a recording, and for an unreadable folder
-  std::optional<StereoSource> source;  ///< custom camera; `path` is then its first folder or file
 };
 
 /// For a folder: every recording of any layout below it, following links, sorted by path, without still pairs. Damaged
@@ -25,12 +28,6 @@ struct FoundSequence {
 /// remains in the result, and a line of options describes a custom camera. There are no duplicates.
 /// \throws DataError for a missing or empty root or list
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list);
-
-/// A folder with recorded data, or an unreadable folder without a format.
-struct FoundRecording {
-  std::string path, format;
-  std::optional<StereoSource> source = std::nullopt;  ///< see FoundSequence
-};
 
 /// The recordings in and below a folder, sorted by path, following links; optionally with still pairs. Includes
 /// unreadable folders, links to themselves and paths that are too long.
@@ -55,18 +52,6 @@ std::vector<std::string> source_words(const StereoSource& source);
 /// A short name for a sequence of image folders or videos: the file name of a video, or NAME for `NAME/left`,
 /// `NAME/cam0/data` or `NAME/mav0/cam0/data`.
 std::string source_name(const StereoSource& source);
-
-// Lists the recordings and pairs in a folder.
-
-/// A recording or pair of a tree.
-struct TreeMember {
-  std::string path;    ///< relative to the tree
-  std::string format;  ///< layout
-};
-
-/// Recordings and still pairs in and below a folder, sorted by path. A folder that is one itself yields one member with
-/// the path ".".
-std::vector<TreeMember> find_members(const std::string& root);
 
 /// One line about a checked member: layout, number of frames, size, ground truth, number of warnings.
 std::string one_line(const DatasetCheck& check);

@@ -169,12 +169,6 @@ std::string trace_json(const RunRecord& run) {
       add(stage.stage, "stage", start, stage.ms, 1);
       start += stage.ms;
     }
-    if (i >= run.kernel_times.size()) continue;
-    start = frame.start_ms;
-    for (const auto& kernel : run.kernel_times[i]) {
-      add(kernel.stage, "kernel time of the profiling pass", start, kernel.ms, 2);
-      start += kernel.ms;
-    }
   }
   Json trace;
   trace["displayTimeUnit"] = "ms";

@@ -75,7 +75,7 @@ struct RunRecord {
   double start_ms = 0;             ///< opening the device and building the pipeline, before the first frame
   double kernel_build_ms = 0;      ///< the part of it that builds kernels
   double host_peak_mb = 0, device_peak_mb = 0;
-  /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
+  /// Kernel times of the pass of `bench` with a profiling queue: one list per frame.
   std::vector<std::vector<StageTime>> kernel_times;
   std::optional<PointFacts> points;                           ///< only if requested
   std::optional<LoopFacts> loops;                             ///< only with --loops
