@@ -3,11 +3,12 @@
 from types import SimpleNamespace
 
 import numpy
+import pandas
 import pytest
 import quadedge
 from matching_scene import (STEEP, candidates, edges, floats, images_of, plane_truth, result, small_rig, stereo_edges)
 from quadedge import StereoFilter, TemporalFilter
-from quadedge.matching.counts import Counts, FilterRow, Nearby, Pools, Tolerance
+from quadedge.matching.counts import Nearby, Pools, Tolerance, filter_counts, shares
 from quadedge.matching.cues import DRAWN_OTHERS, Judge, histogram, histogram_document, make_cues
 from quadedge.matching.document import summary
 from quadedge.matching.observer import FrameMatching, MatchingObserver, MatchingResult, add_cues
@@ -23,6 +24,12 @@ def observer_of(**config):
 def in_bin(cue, kind, value):
     low, high, count = cue.bins
     return cue.of[kind][1 + int((value - low) / (high - low) * count)]
+
+
+def by_pool(counts):
+    """The rows of a table, each with the shares of both pools by name."""
+    pools = [row for _, row in shares(pandas.DataFrame(counts)).iterrows()]
+    return [SimpleNamespace(paired=paired, everything=all_edges) for paired, all_edges in zip(pools[::2], pools[1::2])]
 
 
 def test_a_scene_has_the_recall_precision_and_ambiguity_calculated_by_hand():
@@ -45,16 +52,17 @@ def test_a_scene_has_the_recall_precision_and_ambiguity_calculated_by_hand():
                                                               y=[10, 30, 50]))
     measured, _ = observer.end(result())
     assert measured.census.tolist() == [7, 1, 1, 1, 0]
-    baseline, first, second = measured.stereo
-    assert (baseline.order, baseline.filter, first.filter) == (0, "baseline", "epipolar proximity")
-    assert (baseline.paired.pool, baseline.paired.recall, baseline.paired.ambiguity) == (2, 1, 4)
+    assert measured.stereo[0].items() >= {"order": 0, "filter": "baseline"}.items()
+    assert measured.stereo[2]["filter"] == "epipolar proximity"
+    baseline, first, second = by_pool(measured.stereo)
+    assert (baseline.paired.edges, baseline.paired.recall, baseline.paired.ambiguity) == (2, 1, 4)
     assert baseline.paired.precision == pytest.approx(3 / 10)
-    assert (baseline.everything.pool, baseline.everything.recall) == (5, 3 / 5)
+    assert (baseline.everything.edges, baseline.everything.recall) == (5, 3 / 5)
     assert baseline.everything.precision == pytest.approx(4 / 25)
     assert (first.paired.recall, first.paired.precision, first.paired.ambiguity, first.paired.most) == (1, 3 / 4, 1, 3)
     assert (first.everything.recall, first.everything.precision, first.everything.ambiguity) == (2 / 5, 3 / 6, 0.5)
     assert (second.paired.recall, second.paired.precision, second.paired.ambiguity) == (0.5, 1, 0)
-    assert (second.everything.recall, second.everything.candidates) == (2 / 5, 3)
+    assert (second.everything.recall, second.everything.kept) == (2 / 5, 3)
     assert second.everything.precision == pytest.approx(2 / 3)
 
 
@@ -69,9 +77,9 @@ def test_the_error_of_a_stereo_edge_is_its_disparity_error_and_the_part_across_t
 
 
 def test_pooled_tables_add_counts_not_percentages_and_give_the_spread_over_the_frames():
-    small = Counts.of(numpy.array([1]), numpy.array([1]))
-    large = Counts.of(numpy.array([2, 2, 2]), numpy.array([1, 0, 0]))
-    frames = [FrameMatching(stereo=[FilterRow(0, "baseline", counts, counts)]) for counts in (small, large)]
+    frames = [FrameMatching(stereo=filter_counts(StereoFilter.baseline, numpy.array(kept), numpy.array(true),
+                                                 Pools(*2 * [numpy.ones(len(kept), bool)])))
+              for kept, true in (([1], [1]), ([2, 2, 2], [1, 0, 0]))]
     frames[0].disparity_error, frames[1].disparity_error = floats([-0.1, 0.2]), floats([0.4])
     content = summary([MatchingResult("two frames", frames)])
     (row,) = content["stereo"]
@@ -110,17 +118,17 @@ def test_two_frames_have_the_temporal_recall_and_precision_calculated_by_hand():
 
     # Pools: paired = {0, 1}, all = {0, 1, 2, 3}.
     found = second.temporal
-    baseline, left, best = found.tables["left"]
-    assert best.filter == "best"
-    assert (baseline.paired.pool, baseline.paired.recall, baseline.paired.precision) == (2, 1, 2 / 8)
-    assert (baseline.everything.pool, baseline.everything.recall) == (4, 3 / 4)
+    baseline, left, _ = by_pool(found.tables["left"])
+    assert found.tables["left"][-1]["filter"] == "best"
+    assert (baseline.paired.edges, baseline.paired.recall, baseline.paired.precision) == (2, 1, 2 / 8)
+    assert (baseline.everything.edges, baseline.everything.recall) == (4, 3 / 4)
     assert (left.paired.recall, left.paired.precision, left.paired.ambiguity) == (0.5, 1 / 3, 0.5)
     assert (left.everything.recall, left.everything.precision) == (2 / 4, 2 / 5)
-    right = found.tables["right"][1]
+    right = by_pool(found.tables["right"])[1]
     assert (right.paired.recall, right.paired.precision, right.everything.precision) == (1, 1, 3 / 4)
-    paired, everything = found.quads
-    assert (paired.pool, paired.recall, paired.precision) == (2, 0.5, 0.5)
-    assert (everything.pool, everything.recall, everything.precision) == (4, 0.5, 2 / 3)
+    (quads,) = by_pool(found.quads)
+    assert (quads.paired.edges, quads.paired.recall, quads.paired.precision) == (2, 0.5, 0.5)
+    assert (quads.everything.edges, quads.everything.recall, quads.everything.precision) == (4, 0.5, 2 / 3)
     assert summary([MatchingResult("", [first, second])])["quads"]["ambiguity_mean"] == (3 + 1) / 2
     # Pairs are drawn from the quads 0, 1 and 3; one of three pairs consists of true quads.
     assert found.pairs.veridical[0] / found.pairs.pairs[0] == pytest.approx(1 / 3, abs=0.01)
@@ -164,10 +172,12 @@ def test_after_a_loss_only_the_search_that_gave_the_motion_is_evaluated():
     show_search(observer, 2, 1, one, [3, 2, 1, 0], two)  # tried afterwards
     show_search(observer, 3, 1, one, [0, 1], two, 2)     # a subset of the edges
     found, _ = observer.end(result(search=1, reference_frame=1, x=0.352))
-    paired = found.temporal.quads[0]
-    assert (paired.pool, paired.recall, paired.precision) == (4, 1, 1)
+    (quads,) = by_pool(found.temporal.quads)
+    paired = quads.paired
+    assert (paired.edges, paired.recall, paired.precision) == (4, 1, 1)
     for table in found.temporal.tables.values():
-        assert len(table) == 3 and table[1].paired.recall == table[1].paired.precision == 1
+        rows = by_pool(table)
+        assert len(rows) == 3 and rows[1].paired.recall == rows[1].paired.precision == 1
     assert found.motion[1] == pytest.approx(0.002)  # since frame 1, from the pipeline's poses of both
 
     # The pipeline may choose a search before the last one, even if the last one was against an older frame.
@@ -175,7 +185,8 @@ def test_after_a_loss_only_the_search_that_gave_the_motion_is_evaluated():
     show_search(observer, 0, 2, two, [0, 1, 2, 3], two)
     show_search(observer, 1, 1, one, [1, 0, 3, 2], two)
     older, _ = observer.end(result(search=1, reference_frame=1, x=0.352))
-    assert older.temporal.quads[1].pool == 4 and older.temporal.quads[1].precision == 0
+    (quads,) = by_pool(older.temporal.quads)
+    assert quads.everything.edges == 4 and quads.everything.precision == 0
 
 
 def test_cues_of_a_scene_are_sorted_by_the_ground_truth():
@@ -192,7 +203,7 @@ def test_cues_of_a_scene_are_sorted_by_the_ground_truth():
     observer.stereo_filter(StereoFilter.orientation, candidates(*lists, cue=[100, 300, 150]))
     observer.stereo_filter(StereoFilter.ncc, candidates(*lists, cue=[0.9, 0.45, 0.95]))
     measured, cues = observer.end(result())
-    assert measured.stereo[0].paired.pool == 1
+    assert measured.stereo[0]["edges"] == 1
 
     def of(order):
         cue = cues["stereo", order]

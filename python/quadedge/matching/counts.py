@@ -1,8 +1,9 @@
 """Which edges have a counterpart, and what a filter leaves of their candidates: recall, precision and ambiguity."""
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 
 import numpy as np
+import pandas
 
 from .surfaces import UNKNOWN, VISIBLE, TruePositions
 
@@ -36,66 +37,26 @@ def ratio(part, whole) -> float:
     return part / whole if whole > 0 else np.nan
 
 
-@dataclass
-class Counts:
-    """Sums over the edges of one pool; can be added over frames and pairs."""
-
-    pool: int = 0
-    found: int = 0
-    """Edges with a veridical candidate."""
-    alive: int = 0
-    """Edges with any candidate."""
-    candidates: int = 0
-    veridical: int = 0
-    most: int = 0
-    """Largest number of candidates of one edge."""
-    precisions: float = 0.0
-    """Sum over the edges with candidates."""
-
-    @classmethod
-    def of(cls, candidates: np.ndarray, veridical: np.ndarray) -> "Counts":
-        """From the numbers of candidates and of veridical ones of every edge of the pool."""
-        alive = candidates > 0
-        return cls(len(candidates), int((veridical > 0).sum()), int(alive.sum()), int(candidates.sum()),
-                   int(veridical.sum()), int(candidates.max(initial=0)),
-                   float((veridical[alive] / candidates[alive]).sum()))
-
-    def __add__(self, other: "Counts") -> "Counts":
-        sums = [a + b for a, b in zip(astuple(self), astuple(other))]
-        sums[5] = max(self.most, other.most)
-        return Counts(*sums)
-
-    @property
-    def recall(self) -> float:
-        return ratio(self.found, self.pool)
-
-    @property
-    def precision(self) -> float:
-        return ratio(self.veridical, self.candidates)
-
-    @property
-    def ambiguity(self) -> float:
-        """Mean number of candidates of the edges that have any, minus 1."""
-        return ratio(self.candidates, self.alive) - 1
+def filter_counts(filter, candidates: np.ndarray, veridical: np.ndarray, pools: Pools, **sums) -> list[dict]:
+    """Sums over the edges of either pool, from the numbers of candidates and of veridical ones of every row; can be
+    added over frames and pairs, but for `most`. filter: a StereoFilter or TemporalFilter. sums: of every row, too."""
+    counts = []
+    for pool, rows in vars(pools).items():
+        kept, true = candidates[rows], veridical[rows]
+        alive = kept > 0
+        counts.append({"order": int(filter), "filter": filter.title, "pool": pool, "edges": len(kept),
+                       "found": (true > 0).sum(), "alive": alive.sum(), "kept": kept.sum(), "veridical": true.sum(),
+                       "most": kept.max(initial=0), "precisions": (true[alive] / kept[alive]).sum(),
+                       **{name: values[rows].sum() for name, values in sums.items()}})
+    return counts
 
 
-@dataclass
-class FilterRow:
-    """One row of Table 1 or 2."""
-
-    order: int
-    filter: str
-    paired: Counts
-    everything: Counts
-
-    def __add__(self, other: "FilterRow") -> "FilterRow":
-        return FilterRow(self.order, self.filter, self.paired + other.paired, self.everything + other.everything)
-
-
-def filter_row(filter, candidates: np.ndarray, veridical: np.ndarray, pools: Pools) -> FilterRow:
-    """From the numbers of candidates and of veridical ones of every row. filter: a StereoFilter or TemporalFilter."""
-    of = [Counts.of(candidates[pool], veridical[pool]) for pool in (pools.paired, pools.everything)]
-    return FilterRow(int(filter), filter.title, *of)
+def shares(counts: pandas.DataFrame) -> pandas.DataFrame:
+    """With the recall (edges with a veridical candidate / edges), the precision (veridical candidates / all), and the
+    ambiguity: candidates of the edges that have any, minus 1; of quads, the clusters that compete with one."""
+    ambiguity = counts["competing"] / counts["kept"] if "competing" in counts else counts["kept"] / counts["alive"] - 1
+    return counts.assign(recall=counts["found"] / counts["edges"], precision=counts["veridical"] / counts["kept"],
+                         ambiguity=ambiguity)
 
 
 def line_angle(a, b) -> np.ndarray:

@@ -3,9 +3,10 @@
 import datetime
 
 import numpy as np
+import pandas
 
 from .. import __version__, configuration
-from .counts import ratio
+from .counts import ratio, shares
 from .cues import Cues, histogram, histogram_document
 from .observer import CENSUS, CLASSES, SIDES, MatchingResult, Tolerance, add_cues
 from .quad_pairs import CONSTRAINTS
@@ -14,6 +15,11 @@ SCHEMA = 1
 """Incremented when a key changes its meaning."""
 SIFT_FILTERS = {"SIFT", "nearly best SIFT"}
 POOLS = (("paired", ""), ("everything", "_all"))
+SHARES = ["recall", "precision", "ambiguity"]
+FILTER_COLUMNS = ["order", "filter", "recall", "precision", "precision_per_edge", "ambiguity_mean", "ambiguity_of_pool",
+                  "ambiguity_max", "kept", "edges", *(f"{share}_std" for share in SHARES)]
+QUAD_COLUMNS = ["recall", "precision", "edges", "kept", "recall_std", "precision_std", "ambiguity_mean",
+                "ambiguity_std"]
 COUNTS = ("edges_left", "edges_right", "stereo_edges", "temporal_left", "temporal_right", "quads", "inliers")
 DISPARITY_RANGE = 1.5
 
@@ -23,70 +29,61 @@ def _number(value) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _deviation(values) -> float | None:
-    """Standard deviation of the finite values (divided by N); None for fewer than two."""
-    values = np.array([value for value in values if np.isfinite(value)])
-    return float(values.std()) if len(values) > 1 else None
+def _deviations(values):
+    """Standard deviations over frames that have a value (divided by N); NaN for fewer than two."""
+    return values.std(ddof=0).where(values.count() > 1)
 
 
 def _quantile(values: np.ndarray, fraction: float) -> float | None:
     return float(np.sort(values)[int(fraction * (len(values) - 1) + 0.5)]) if len(values) else None
 
 
-def _is_off(row, before) -> bool:
-    """Whether a filter of SIFT has no limit, so that everything passes."""
-    def kept(which):
-        return [(counts.candidates, counts.veridical, counts.alive) for counts in (which.paired, which.everything)]
-
-    return before is not None and row.filter in SIFT_FILTERS and kept(row) == kept(before)
-
-
-def _table(tables: list[list], pool: str) -> list[dict]:
-    """Sums over the frames' tables, with standard deviations over the frames."""
-    lines, before = [], None
-    for rows in zip(*tables):
-        row, frames = sum(rows[1:], rows[0]), [getattr(frame, pool) for frame in rows]
-        counts = getattr(row, pool)
-        lines.append({"order": row.order, "filter": row.filter, "recall": _number(counts.recall),
-                      "precision": _number(counts.precision),
-                      "precision_per_edge": _number(ratio(counts.precisions, counts.alive)),
-                      "ambiguity_mean": _number(counts.ambiguity),
-                      "ambiguity_of_pool": _number(ratio(counts.candidates, counts.pool) - 1),
-                      "ambiguity_max": float(counts.most - 1) if counts.most else None,
-                      "kept": counts.candidates, "edges": counts.pool,
-                      **{f"{name}_std": _deviation([getattr(frame, name) for frame in frames])
-                         for name in ("recall", "precision", "ambiguity")}})
-        if _is_off(row, before):
-            lines[-1]["off"] = True
-        before = row
-    return lines
+def _sums(counts: list[dict], pool: str) -> pandas.DataFrame:
+    """Over the frames, by the number and name of the filter, with the standard deviations of the shares."""
+    frames = shares(pandas.DataFrame(counts))
+    groups = frames[frames["pool"] == pool].groupby(["order", "filter"])
+    sums = shares(groups.sum(numeric_only=True)).assign(most=groups["most"].max())
+    return sums.join(_deviations(groups[SHARES]).add_suffix("_std"))
 
 
-def _quads(frames: list, pool: int) -> dict:
-    counts = [frame.quads[pool] for frame in frames]
-    total, competing = sum(counts[1:], counts[0]), [frame.competing[pool] for frame in frames]
-    return {"recall": _number(total.recall), "precision": _number(total.precision), "edges": total.pool,
-            "kept": total.candidates, "recall_std": _deviation([each.recall for each in counts]),
-            "precision_std": _deviation([each.precision for each in counts]),
-            "ambiguity_mean": _number(ratio(sum(competing), total.candidates)),
-            "ambiguity_std": _deviation([ratio(each, of.candidates) for each, of in zip(competing, counts)])}
+def _records(sums: pandas.DataFrame, columns: list[str]) -> list[dict]:
+    sums = sums.reset_index().rename(columns={"ambiguity": "ambiguity_mean"})[columns]
+    return sums.astype(object).where(sums.notna(), None).to_dict("records")
+
+
+def _table(counts: list[dict], pool: str) -> list[dict]:
+    """Sums over the frames; `off` marks filters of SIFT without a limit, which everything passes."""
+    if not counts:
+        return []
+    sums, everything = _sums(counts, pool), _sums(counts, "everything")
+    rows = _records(sums.assign(precision_per_edge=sums["precisions"] / sums["alive"],
+                                ambiguity_of_pool=sums["kept"] / sums["edges"] - 1,
+                                ambiguity_max=(sums["most"] - 1.0).where(sums["most"] > 0)), FILTER_COLUMNS)
+    for row, changed in zip(rows, everything[["kept", "veridical", "alive"]].diff().any(axis=1)):
+        if row["filter"] in SIFT_FILTERS and not changed:
+            row["off"] = True
+    return rows
+
+
+def _quads(frames: list, pool: str) -> dict:
+    return _records(_sums([row for frame in frames for row in frame.quads], pool), QUAD_COLUMNS)[0]
 
 
 def _constraints(frames: list) -> list[dict]:
-    pairs, veridical = (np.array([getattr(frame.pairs, name) for frame in frames]) for name in ("pairs", "veridical"))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        recall, precision = veridical / veridical[:, :1], veridical / pairs
-    return [{"order": order, "constraint": name,
-             "recall": _number(ratio(veridical[:, order].sum(), veridical[:, 0].sum())),
-             "precision": _number(ratio(veridical[:, order].sum(), pairs[:, order].sum())),
-             "pairs": int(pairs[:, order].sum()), "recall_std": _deviation(recall[:, order]),
-             "precision_std": _deviation(precision[:, order])} for order, name in enumerate(CONSTRAINTS)]
+    pairs, veridical = (pandas.DataFrame([getattr(frame.pairs, name) for frame in frames], columns=list(CONSTRAINTS))
+                        for name in ("pairs", "veridical"))
+    true = veridical.sum()
+    table = pandas.DataFrame({"order": range(len(CONSTRAINTS)), "recall": true / true.iloc[0],
+                              "precision": true / pairs.sum(), "pairs": pairs.sum(),
+                              "recall_std": _deviations(veridical.div(veridical.iloc[:, 0], axis=0)),
+                              "precision_std": _deviations(veridical / pairs)}).rename_axis("constraint")
+    return _records(table, ["order", "constraint", "recall", "precision", "pairs", "recall_std", "precision_std"])
 
 
 def summary(results: list[MatchingResult]) -> dict:
     """The tables of one or several results."""
     frames = [frame for result in results for frame in result.frames]
-    stereo = [frame.stereo for frame in frames if frame.stereo]
+    stereo = [row for frame in frames for row in frame.stereo]
     temporal = [frame.temporal for frame in frames if frame.temporal]
     errors, across = (np.concatenate([getattr(frame, name) for frame in frames])
                       for name in ("disparity_error", "across_error"))
@@ -100,8 +97,9 @@ def summary(results: list[MatchingResult]) -> dict:
     if temporal:
         for pool, suffix in POOLS:
             for side in SIDES:
-                content[f"temporal_{side}{suffix}"] = _table([frame.tables[side] for frame in temporal], pool)
-        content |= {"quads": _quads(temporal, 0), "quads_all": _quads(temporal, 1),
+                counts = [row for frame in temporal for row in frame.tables[side]]
+                content[f"temporal_{side}{suffix}"] = _table(counts, pool)
+        content |= {"quads": _quads(temporal, "paired"), "quads_all": _quads(temporal, "everything"),
                     "constraints": _constraints(temporal)}
     return content
 

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from .. import Odometry, StereoFilter, Tap, TemporalFilter
-from .counts import (Counts, FilterRow, Pools, Tolerance, filter_row, is_veridical, line_angle, near_truth, quad_pools,
-                     stereo_pools, temporal_pools)
+from .counts import (Pools, Tolerance, filter_counts, is_veridical, line_angle, near_truth, quad_pools, stereo_pools,
+                     temporal_pools)
 from .cues import Cues, Judge, make_cues
 from .quad_pairs import PairMeasurement, measure_pairs, motion_errors
 from .surfaces import OCCLUDED, UNKNOWN, VISIBLE, FrameTruth, TruePositions, true_later_positions, true_right_positions
@@ -27,12 +27,10 @@ the right view does not show, and those on depth steps."""
 class Temporal:
     """Evaluation of the temporal search that gave the motion of a frame."""
 
-    tables: dict[str, list[FilterRow]]
-    """Table 2, by side."""
-    quads: tuple[Counts, Counts] = None
-    """Of the pools paired and all."""
-    competing: tuple[int, int] = (0, 0)
-    """Competing clusters of the edges of a pool's quads."""
+    tables: dict[str, list[dict]]
+    """Table 2, by side: filter_counts() of its rows."""
+    quads: list[dict] = None
+    """The same of the quads, with their competing clusters."""
     pairs: PairMeasurement = None
 
 
@@ -40,8 +38,8 @@ class Temporal:
 class FrameMatching:
     """One frame. Errors are those of final stereo edges with known, visible true position [px]."""
 
-    stereo: list[FilterRow] = field(default_factory=list)
-    """Table 1."""
+    stereo: list[dict] = field(default_factory=list)
+    """Table 1: filter_counts() of its rows."""
     census: np.ndarray = field(default_factory=lambda: np.zeros(len(CENSUS), int))
     """Numbers of CENSUS."""
     classes: np.ndarray = field(default_factory=lambda: np.zeros(len(CLASSES), int))
@@ -199,29 +197,30 @@ class MatchingObserver(Tap):
                                           (counted & (self._truth.state == OCCLUDED)).sum(),
                                           (counted & self._truth.contour).sum()])
         self._judge = Judge(self._truth, self._pools, self._tolerance, right)
-        self._measured.stereo.append(self._baseline(StereoFilter.baseline, self._judge))
+        self._measured.stereo += self._baseline(StereoFilter.baseline, self._judge)
         self._collect_stereo(StereoFilter.baseline, None)
 
-    def _baseline(self, filter, judge: Judge) -> FilterRow:
+    def _baseline(self, filter, judge: Judge) -> list[dict]:
         """Row 0: every edge is paired with every target, without creating the lists."""
         rows = len(judge.truth.x)
         found, _ = near_truth(judge.truth, judge.pools.everything, judge.targets, self._tolerance)
-        return filter_row(filter, np.full(rows, len(judge.targets.x)), np.bincount(found, minlength=rows), judge.pools)
+        return filter_counts(filter, np.full(rows, len(judge.targets.x)), np.bincount(found, minlength=rows),
+                             judge.pools)
 
     @staticmethod
-    def _row(filter, lists, judge: Judge) -> FilterRow:
+    def _row(filter, lists, judge: Judge) -> list[dict]:
         row, _, veridical = judge.candidates(lists)
-        return filter_row(filter, np.diff(lists.first), np.bincount(row[veridical], minlength=len(lists.first) - 1),
-                          judge.pools)
+        return filter_counts(filter, np.diff(lists.first), np.bincount(row[veridical], minlength=len(lists.first) - 1),
+                             judge.pools)
 
     def stereo_filter(self, filter, candidates) -> None:
-        self._measured.stereo.append(self._row(filter, candidates, self._judge))
+        self._measured.stereo += self._row(filter, candidates, self._judge)
         self._collect_stereo(filter, candidates)
 
     def stereo(self, edges) -> None:
         left, right, row = edges.left, edges.right, edges.left_index
-        self._measured.stereo.append(self._row(StereoFilter.best, _lists(row, len(self._left.x), edges.right_index,
-                                                                        right), self._judge))
+        lists = _lists(row, len(self._left.x), edges.right_index, right)
+        self._measured.stereo += self._row(StereoFilter.best, lists, self._judge)
         sides = [SimpleNamespace(x=xy[:, 0], y=xy[:, 1], direction=direction)
                  for xy, direction in ((left, edges.left_direction), (right, edges.right_direction))]
         veridical = is_veridical(self._truth, row, right[:, 0], right[:, 1], self._tolerance)
@@ -252,7 +251,7 @@ class MatchingObserver(Tap):
             found.later[side] = true_later_positions(self._rig, base.truth, now.truth, side, base.edges.left)
             found.pools[side] = temporal_pools(getattr(base.edges, side).direction, base.veridical,
                                                getattr(now.edges, side), found.later[side], tolerance)
-            found.measured.tables[side].append(self._baseline(TemporalFilter.baseline, self._judge_of(side)))
+            found.measured.tables[side] += self._baseline(TemporalFilter.baseline, self._judge_of(side))
             self._collect_temporal(TemporalFilter.baseline, side, None)
         found.quad_pools = quad_pools(base.edges, base.veridical, now.edges, *found.later.values(), tolerance)
 
@@ -263,7 +262,7 @@ class MatchingObserver(Tap):
     def temporal_filter(self, filter, side: str, candidates) -> None:
         if self._search.measured is None:
             return
-        self._search.measured.tables[side].append(self._row(filter, candidates, self._judge_of(side)))
+        self._search.measured.tables[side] += self._row(filter, candidates, self._judge_of(side))
         self._collect_temporal(filter, side, candidates)
 
     def quads(self, quads) -> None:
@@ -275,12 +274,12 @@ class MatchingObserver(Tap):
         for side in SIDES:
             xy = getattr(quads, side)
             lists = _lists(previous, rows, quads.current, xy)
-            search.measured.tables[side].append(self._row(TemporalFilter.best, lists, self._judge_of(side)))
+            search.measured.tables[side] += self._row(TemporalFilter.best, lists, self._judge_of(side))
             veridical &= is_veridical(search.later[side], previous, xy[:, 0], xy[:, 1], self._tolerance)
         found = [np.bincount(which, minlength=rows) for which in (previous, previous[veridical])]
-        pools = (search.quad_pools.paired, search.quad_pools.everything)
-        search.measured.quads = tuple(Counts.of(*(numbers[pool] for numbers in found)) for pool in pools)
-        search.measured.competing = tuple(int(quads.competing_clusters[pool[previous]].sum()) for pool in pools)
+        search.measured.quads = filter_counts(
+            TemporalFilter.best, *found, search.quad_pools,
+            competing=np.bincount(previous, quads.competing_clusters, minlength=rows).astype(int))
         points = [(edges.points[index], edges.tangents[index])
                   for edges, index in ((base.edges, previous), (self._now.edges, quads.current))]
         usable = search.quad_pools.everything[previous]
