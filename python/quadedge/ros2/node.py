@@ -29,7 +29,7 @@ _SAVE_MAP, _LOAD_MAP, _MAP_POSE = "/quadedge/save_map", "/quadedge/load_map", "/
 
 
 class Node:
-    """Subscribes to two cameras of a domain and publishes odometry. options: after check_options()."""
+    """Subscribes to two cameras of a domain and publishes odometry. options: checked."""
 
     def __init__(self, domain: Domain, topics: StereoTopics, kinds: dict[str, str], options: argparse.Namespace,
                  say: Callable):
