@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pandas
 
 from .errors import DataError
 
@@ -49,8 +50,8 @@ def whole_lines(file: Path, *, may_be_cut: bool = False) -> list[str]:
     return text.splitlines()
 
 
-def read_columns(file: Path, *, may_be_cut: bool = False) -> dict[str, list[str]]:
-    """The columns of a CSV file with a heading, as texts. Raises DamagedResults for rows of another length.
+def read_table(file: Path, *, may_be_cut: bool = False) -> pandas.DataFrame:
+    """The texts in a CSV file with a heading. Raises DamagedResults for rows of another length.
 
     `may_be_cut`: as for whole_lines().
     """
@@ -60,13 +61,13 @@ def read_columns(file: Path, *, may_be_cut: bool = False) -> dict[str, list[str]
     for number, row in enumerate(rows, 1):
         if len(row) != len(rows[0]):
             raise DamagedResults(f"{file}:{number}: {len(row)} fields; expected {len(rows[0])} as in the heading")
-    return {name: [row[column] for row in rows[1:]] for column, name in enumerate(rows[0])}
+    return pandas.DataFrame(rows[1:], columns=rows[0], dtype=object)
 
 
-def numbers(texts: list[str], file: Path) -> np.ndarray:
+def numbers(texts: pandas.Series | pandas.DataFrame, file: Path) -> np.ndarray:
     """Texts as numbers, NaN for empty ones. Raises DamagedResults."""
     try:
-        return np.array([float(text) if text else np.nan for text in texts])
+        return texts.where(texts != "", "nan").to_numpy(float)
     except ValueError as problem:
         raise DamagedResults(f"{file}: {problem}") from None
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy
 
 from .errors import DataError
-from .result_files import read_columns, rotations
+from .result_files import read_table, rotations
 
 _COUNTS = ("stereo_edges", "quads", "inliers")
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -50,11 +50,6 @@ class RunFrame:
         return self.predicted_world_from_left if self.world_from_left is None else self.world_from_left
 
 
-def _rows(file: Path) -> list[dict[str, str]]:
-    columns = read_columns(file)
-    return [dict(zip(columns, row)) for row in zip(*columns.values())]
-
-
 def _pose(row: dict[str, str], prefix: str = "") -> numpy.ndarray | None:
     texts = [row[prefix + name] for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
     if not all(texts):
@@ -86,7 +81,7 @@ def _times(row: dict[str, str]) -> dict[str, float]:
 def read_frames(folder: str | PathLike) -> list[RunFrame]:
     """The frames of a results folder. Raises DataError for a folder without results, and for damaged ones."""
     folder = Path(folder)
-    frames, poses = _rows(folder / "frames.csv"), _rows(folder / "poses.csv")
+    frames, poses = (read_table(folder / name).to_dict("records") for name in ("frames.csv", "poses.csv"))
     if len(frames) != len(poses):
         raise DataError(f"{folder}: found {len(frames)} rows in frames.csv and {len(poses)} in poses.csv, expected the "
                         "same number")

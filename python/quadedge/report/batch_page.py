@@ -5,13 +5,13 @@ from pathlib import Path
 from statistics import median
 
 from ..result_files import expecting
+from .advice import notices
 from .error_tables import ALIGNMENTS, error_table
-from .numbers import exists, length_text, share_of, significant
-from .origin import origin
+from .numbers import DASH, exists, share_of, significant
 from .page import Detail, Facts, Page, Section, Text, Tile
 from .results import DamagedResults, Run, read_json, read_run
-from .run_page import NO_PLOTS, picture_blocks, plots
-from .run_tables import LATENCY, LATENCY_TITLES
+from .run_page import facts_of, overview, picture_blocks, plot_sections
+from .run_tables import LATENCY, LATENCY_TITLES, origin
 from .table import Cell, Table
 
 RAN = ("done", "too few tracked")
@@ -136,17 +136,12 @@ def _sequence_blocks(sequence: Sequence, detail: Detail) -> list:
         if sequence.run is None:
             return [Text(sequence.message, warns=True)]
         with expecting("the report of a run", sequence.run.folder / "report.json"):
-            report = sequence.run.report
             facts = [("Recording", f"{entry['path']} ({entry['format']})"),
-                     ("Command", report.get("command") or "\u2013"),
-                     ("Frames tracked", share_of(entry["frames_tracked"], entry["frames"]))]
-            if accuracy := entry.get("accuracy"):
-                facts.append(("Path", f"{length_text(accuracy['path_length_m'])}, drift at its end "
-                                      f"{significant(accuracy['end_drift_percent'], 2)} %"))
-            warnings = [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True)
-                        for warning in report["warnings"]]
-            shown = [block for _, part in plots(sequence.run, detail) for block in part] or [NO_PLOTS]
-            return [Facts(facts), *warnings, *shown, *picture_blocks(sequence.run, detail)]
+                     ("Command", sequence.run.report.get("command") or DASH), *facts_of(sequence.run)]
+            figures = [block for section in plot_sections(sequence.run, detail) for block in section.blocks
+                       if block.kind == "figures"]
+            return [Facts(facts), *notices(sequence.run), *overview(sequence.run, detail), *figures,
+                    *picture_blocks(sequence.run, detail)]
     except DamagedResults as problem:
         sequence.message = f"its results are damaged: {problem}"
         return [Text(sequence.message, warns=True)]

@@ -11,7 +11,7 @@ import numpy as np
 import pandas
 
 from ..errors import DataError, DeviceError, Error, UsageError
-from ..result_files import DamagedResults, expecting, numbers, read_columns, read_json
+from ..result_files import DamagedResults, expecting, numbers, read_json, read_table
 from . import make_page
 from .error_tables import ALIGNMENTS, ERRORS, STATISTICS
 from .numbers import exists, share_of
@@ -66,7 +66,8 @@ def read_row(folder: Path, name: str, plan: dict) -> Row:
             entry |= {key: member[key] for key in ("path", "format", "exit_code", "message", "jobs")}
         if entry["exit_code"] != 0:
             return Row(entry, nothing)
-        latencies = numbers(read_columns(folder / "frames.csv").get("latency_ms", []), folder / "frames.csv")
+        frames = read_table(folder / "frames.csv")
+        latencies = numbers(frames["latency_ms"], folder / "frames.csv") if "latency_ms" in frames else nothing
         with expecting("the report of a run", folder / "report.json"):
             return Row(entry | _figures(read_json(folder / "report.json", "the report of a run"), plan), latencies)
     except DamagedResults as problem:

@@ -4,9 +4,8 @@ from .figure import FEWEST_FRAMES, Figure
 from .matching_figures import accuracy_figures, count_figures, cue_figures, disparity_figures, filter_figure
 from .matching_tables import count_table, overview_table, summary_tables
 from .numbers import percent, significant
-from .origin import device_text, origin
 from .page import Facts, Figures, Page, Section, Text, Tile
-from .run_tables import configuration_table
+from .run_tables import configuration_table, device_text, origin
 
 MOST_MESSAGES = 12
 CASCADES = (("stereo", "Stereo (Figure 3)", "stereo pairs"),

@@ -8,19 +8,21 @@ import io
 import json
 import os
 import re
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import metadata, resources
 from pathlib import Path
+from urllib.parse import quote
 
 import jinja2
 from markupsafe import Markup
 
-from .documentation import explanation_of
 from .figure import Figure, rounded
 from .table import Table, to_markdown
 
 LARGEST_PAGE = 6_000_000  # bytes
+_LABEL = "Documentation"  # of its address in the package's metadata
 
 
 @dataclass(frozen=True)
@@ -185,6 +187,30 @@ def _slug(text: str) -> str:
 def _emphasised(text: str) -> Markup:
     """The escaped text, with line breaks allowed after the slashes of paths."""
     return Markup(html.escape(text, quote=False).replace("/", "/<wbr>"))
+
+
+@functools.cache
+def _documentation() -> str:
+    """Its address: the published one if the package names it, else a folder of this machine, else ""."""
+    try:
+        urls = metadata.metadata("quadedge").get_all("Project-URL") or []
+    except metadata.PackageNotFoundError:
+        urls = []
+    for url in urls:
+        label, _, address = url.partition(",")
+        if label.strip() == _LABEL:
+            return address.strip().rstrip("/") + "/"
+    checkout, installed = Path(__file__).resolve().parents[3], Path(sys.prefix) / "share/doc/quadedge"
+    for folder in (checkout / "doc", installed / "doc"):
+        if (folder / "reference.md").is_file():
+            return "file://" + quote(str(folder)) + "/"
+    return ""
+
+
+def explanation_of(page: str) -> tuple[str, str]:
+    """Address of a page such as "accuracy.md#presets", "" if there is none, and how to call it."""
+    address = _documentation()
+    return address and address + page, "doc/" + page.partition("#")[0]
 
 
 def to_html(page: Page) -> str:

@@ -6,8 +6,9 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
+import pandas
 
-from ..result_files import DamagedResults, expecting, numbers, read_columns, read_json, rotations, whole_lines
+from ..result_files import DamagedResults, expecting, numbers, read_json, read_table, rotations, whole_lines
 
 STAMP_TOLERANCE_S = 0.01  # as the evaluation of trajectories matches poses
 
@@ -66,21 +67,7 @@ def aligned(poses: Trajectory, reference: Trajectory) -> Trajectory | None:
     return match and moved(poses, match[0], reference.positions[match[1]], reference.rotations[match[1]])
 
 
-@dataclass
-class Errors:
-    """Errors of every pose against the ground truth, origin-aligned, against time [s, deg, m]; NaN where undefined."""
-
-    stamps: np.ndarray
-    ape_rotation_deg: np.ndarray
-    ape_translation_m: np.ndarray
-    rpe_rotation_deg: np.ndarray
-    rpe_translation_m: np.ndarray
-
-    @classmethod
-    def of(cls, columns: dict[str, list[str]], file: Path) -> "Errors":
-        """From columns of texts; a missing one is empty. Raises DamagedResults, which names the file."""
-        names = ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
-        return cls(*[numbers(columns.get(name, []), file) for name in names])
+ERRORS = ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 
 
 @dataclass
@@ -90,18 +77,20 @@ class Run:
     name: str
     folder: Path
     report: dict
-    frames: dict[str, list[str]]
+    frames: pandas.DataFrame
+    """The texts of frames.csv."""
     estimate: Trajectory
     truth: Trajectory | None
-    errors: Errors | None
+    errors: pandas.DataFrame | None
+    """Of every pose against the ground truth, origin-aligned, against time [s, deg, m]; NaN where undefined."""
     predicted: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     """Stamps [s], and what the covariances predict of the errors in the world: the roots of the traces of the
     position's part ("ape_translation_m") [m] and of the rotation's ("ape_rotation_deg") [deg]."""
     pictures: list[Path] = field(default_factory=list)
     corrected: Trajectory | None = None
     """The trajectory of the map, of a run with --loops."""
-    loops: dict[str, list[str]] = field(default_factory=dict)
-    """loops.csv."""
+    loops: pandas.DataFrame | None = None
+    """The texts of loops.csv."""
     edges: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
     """Some edges in space, of edges.csv [m]."""
 
@@ -122,17 +111,16 @@ class Run:
     def segments(self) -> Iterator[tuple[int, np.ndarray]]:
         """Number of every segment and the indices of its estimated poses; a run before 0.2 has a single one."""
         numbers = self.column("segment") if "segment" in self.frames else np.zeros(self.count())
-        tracked = np.array([not is_lost(status) for status in self.frames["status"]], bool)
-        of_poses = numbers[tracked][:len(self.estimate)]
+        of_poses = numbers[~self.frames["status"].map(is_lost)][:len(self.estimate)]
         for segment in np.unique(of_poses):
             yield int(segment), np.nonzero(of_poses == segment)[0]
 
     def count(self) -> int:
-        return len(self.frames["stamp_s"])
+        return len(self.frames)
 
     def losses(self) -> Iterator[tuple[range, str, str]]:
         """Frames lost one after the other for the same reason: their numbers, the reason, the first one's message."""
-        messages = self.frames.get("message") or [""] * self.count()
+        messages = self.frames.get("message", [""] * self.count())
         for status, group in groupby(range(self.count()), key=lambda number: self.frames["status"][number]):
             lost = list(group)
             if is_lost(status):
@@ -149,11 +137,11 @@ def read_run(folder: Path, name: str = "") -> Run:
     killed = not (folder / "report.json").is_file()
     if killed and not (folder / "frames.csv").is_file():
         raise DamagedResults(f"{folder}: no report.json or frames.csv; expected the folder of a run")
-    frames = read_columns(folder / "frames.csv", may_be_cut=killed)
+    frames = read_table(folder / "frames.csv", may_be_cut=killed)
     for column in REQUIRED_COLUMNS:
         if column not in frames:
             raise DamagedResults(f"{folder / 'frames.csv'}: no column {column}; expected a frames.csv of a run")
-    if not frames["stamp_s"]:
+    if frames.empty:
         raise DamagedResults(f"{folder / 'frames.csv'}: no frame; expected those of a run")
     report = report_of_killed(folder, frames) if killed else read_json(folder / "report.json", "the report of a run")
     estimate = read_tum(folder / "trajectory.txt", may_be_cut=killed)
@@ -169,13 +157,14 @@ def read_run(folder: Path, name: str = "") -> Run:
         run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None,
                   edges=edges)
     if (folder / "errors.csv").is_file() and match:
-        run.errors = Errors.of(read_columns(folder / "errors.csv"), folder / "errors.csv")
+        table = read_table(folder / "errors.csv").reindex(columns=list(ERRORS))
+        run.errors = pandas.DataFrame(numbers(table, folder / "errors.csv"), columns=list(ERRORS))
     if (folder / "poses.csv").is_file():
         run.predicted = read_predicted(folder / "poses.csv", may_be_cut=killed)
     if (folder / "trajectory_map.txt").is_file() and (folder / "loops.csv").is_file():
         corrected = read_tum(folder / "trajectory_map.txt")
         run.corrected = aligned(corrected, run.truth) if run.truth else corrected
-        run.loops = read_columns(folder / "loops.csv")
+        run.loops = read_table(folder / "loops.csv")
     if (folder / "pictures").is_dir():
         run.pictures = sorted((folder / "pictures").iterdir())
     return run
@@ -183,33 +172,33 @@ def read_run(folder: Path, name: str = "") -> Run:
 
 def read_predicted(file: Path, *, may_be_cut: bool) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Run.predicted of poses.csv; what has no covariances is missing. Raises DamagedResults."""
-    columns = read_columns(file, may_be_cut=may_be_cut)
+    columns = read_table(file, may_be_cut=may_be_cut)
     found = {}
     for key, axes, factor in (("ape_translation_m", ("x", "y", "z"), 1), ("ape_rotation_deg", ("rx", "ry", "rz"),
                                                                            180 / np.pi)):
         names = [f"covariance_{axis}_{axis}" for axis in axes]
-        if all(name in columns for name in names):
-            variance = sum(numbers(columns[name], file) for name in names)
+        if set(names) <= set(columns):
+            variance = numbers(columns[names], file).sum(axis=1)
             found[key] = numbers(columns["stamp_s"], file), factor * np.sqrt(variance)
     return found
 
 
 def read_edges(file: Path) -> np.ndarray:
     """The points of edges.csv (n x 3) [m]. Raises DamagedResults."""
-    columns, names = read_columns(file), ("x_m", "y_m", "z_m")
+    columns, names = read_table(file), ["x_m", "y_m", "z_m"]
     if not set(names) <= set(columns):
         raise DamagedResults(f"{file}: no column {' or '.join(names)}; expected the edges of a run")
-    return np.stack([numbers(columns[name], file) for name in names], 1)
+    return numbers(columns[names], file)
 
 
-def report_of_killed(folder: Path, frames: dict[str, list[str]]) -> dict:
+def report_of_killed(folder: Path, frames: pandas.DataFrame) -> dict:
     """What report.json would say of a run that was killed, as far as its other files tell. Raises DamagedResults."""
     latency = numbers(frames["latency_ms"], folder / "frames.csv")
     steady = latency[1:] if len(latency) > 1 else latency
     return {"input": {"name": folder.resolve().name, "frames": len(latency)},
             "ended_early": f"killed after {len(latency)} frames, before it could write report.json",
-            "frames_tracked": sum(not is_lost(status) for status in frames["status"]),
-            "key_rigs": frames["new_key_rig"].count("1"),
+            "frames_tracked": int((~frames["status"].map(is_lost)).sum()),
+            "key_rigs": int((frames["new_key_rig"] == "1").sum()),
             "warnings": [{"frame": number, "text": text} for number, text in enumerate(frames.get("warning", []))
                          if text],
             "latency_ms": {"first": latency[0], "max": steady.max()} | dict(zip(

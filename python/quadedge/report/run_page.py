@@ -5,14 +5,12 @@ from pathlib import Path
 from .advice import notices
 from .error_tables import accuracy_table, segment_tables
 from .figure import FEWEST_FRAMES
-from .latency import latency_figures
 from .numbers import DASH, length_text, share_of, significant
-from .origin import device_text, origin
 from .page import Columns, Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, Tile, reduced
 from .results import Run
-from .run_tables import (configuration_table, consistency_tables, consistency_texts, latency_table, loss_tables,
-                         stage_table)
-from .sequence_figures import error_figures, frame_figures, trajectory_figures
+from .run_tables import (configuration_table, consistency_tables, consistency_texts, device_text, latency_table,
+                         loss_tables, origin, stage_table)
+from .sequence_figures import error_figures, frame_figures, latency_figures, trajectory_figures
 
 QUADS_CAPTION = ("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame "
                  "that they were matched with, white for inliers, red for others, one per cell of 16 px.")
@@ -30,7 +28,7 @@ def run_page(run: Run, detail: Detail) -> Page:
     facts = Facts(origin(report, device, recording_text(report)) + facts_of(run))
     page = Page(f"Tracking report: {name_of(run)}", facts, lead=lead_of(run), tiles=tiles_of(run))
     best, picture = best_picture(run, detail)
-    page.sections.append(Section("Overview", [*notices(run), *overview(run, picture, detail), *loss_tables(run)]))
+    page.sections.append(Section("Overview", [*notices(run), *overview(run, detail, picture), *loss_tables(run)]))
     page.sections += plot_sections(run, detail)
     pictures = picture_blocks(run, detail, without=best)
     if pictures:
@@ -87,7 +85,7 @@ def tiles_of(run: Run) -> list[Tile]:
     return tiles
 
 
-def overview(run: Run, picture: Picture | None, detail: Detail) -> list:
+def overview(run: Run, detail: Detail, picture: Picture | None = None) -> list:
     """The path from above beside a picture."""
     figures = [figure for figure in trajectory_figures(run, detail.points) if figure.name.endswith("_from_above")]
     both = [*([Figures(figures)] if figures else []), *([Pictures([picture], wide=True)] if picture else [])]
@@ -186,16 +184,6 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
         facts.append(("Memory",
                       f"{memory['host_peak']:.0f} MB on the host, {memory['device_peak']:.0f} MB on the device"))
     return facts
-
-
-def plots(run: Run, detail: Detail) -> list[tuple[str, list]]:
-    """Path, errors and frames of a member of a batch, each with its name; nothing for a run of few frames."""
-    world = "In the frame of the first left camera" + (" with ground truth, origin-aligned." if run.truth else ".")
-    frames = [*frame_figures(run, detail.points), *latency_figures(run, detail.points)]
-    blocks = [("Path", trajectory_figures(run, detail.points), world),
-              ("Errors", error_figures(run, detail.points), "Errors against the ground truth, origin-aligned."),
-              ("Frames", frames, "")]
-    return [(name, [Figures(figures, caption)]) for name, figures, caption in blocks if figures]
 
 
 def picture_blocks(run: Run, detail: Detail, without: Path | None = None) -> list:

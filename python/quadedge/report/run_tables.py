@@ -1,6 +1,6 @@
-"""The tables of a run's page."""
+"""The tables of a run's page, and where its figures come from."""
 
-from .numbers import count, length_unit, significant
+from .numbers import DASH, count, length_unit, significant
 from .results import Run
 from .table import Cell, Table
 
@@ -8,6 +8,22 @@ MOST_LOSSES = 30  # rows of a table
 LATENCY = ("median", "p90", "p99", "max", "first")
 LATENCY_TITLES = ("median", "p90", "p99", "largest", "first frame")
 CONSISTENT = (0.5, 2)  # NEES between these is called consistent
+
+
+def device_text(device: dict) -> str:
+    return f"{device['name']} ({device['platform']}, {device['opencl']}, driver {device['driver']})"
+
+
+def origin(content: dict, device: str, recording: str) -> list[tuple[str, str]]:
+    """Input, program, date, device, configuration and command of a JSON result, as terms and texts."""
+    commit, changed = content.get("commit"), content.get("config_changed", {})
+    constants = ", ".join(f"{key} = {value}" for key, value in changed.items()) or "defaults"
+    return [("Input", recording),
+            ("Program", f"QuadEdge {content.get('version', DASH)}" + (f", commit {commit}" if commit else "")),
+            ("Date", content.get("date", DASH).replace("T", " ").replace("Z", " UTC")),
+            ("Device", device or DASH),
+            ("Configuration", constants if "config_changed" in content else DASH),
+            ("Command", content.get("command") or DASH)]
 
 
 def loss_tables(run: Run) -> list[Table]:
@@ -89,12 +105,9 @@ def consistency_tables(accuracy: dict) -> list[Table]:
 
 
 def stage_table(report: dict) -> Table:
-    table = Table("stages", "Stages on the host, and kernels of a profiling pass where there was one [ms]",
-                  ["stage", "median", "p90"])
-    for kind in ("stages_ms", "kernels_ms"):
-        for name, times in report.get(kind, {}).items():
-            table.add(("kernel " if kind == "kernels_ms" else "") + name,
-                      *[Cell.of(times[key], 3) for key in ("median", "p90")])
+    table = Table("stages", "Stages on the host [ms]", ["stage", "median", "p90"])
+    for name, times in report.get("stages_ms", {}).items():
+        table.add(name, *[Cell.of(times[key], 3) for key in ("median", "p90")])
     return table
 
 

@@ -1,12 +1,15 @@
-"""Figures of one sequence: trajectory, errors, numbers of edges and quads."""
+"""Figures of one sequence: trajectory, errors, numbers of edges and quads, time per frame by stage."""
 
 import numpy as np
 
 from .figure import FEWEST_FRAMES, GREY, Figure, every, thinned
-from .latency import TIME
 from .numbers import DEGREE, Unit, length_unit, significant
 from .results import Run, Trajectory, is_lost
 
+TIME = "time since the first frame [s]"
+SLOW = 3  # times the 90th percentile
+MOST_SLOW = 4  # that are marked
+STAGE = "_ms"  # end of the names of their columns
 MAP_STYLE, CLOSURE_STYLE = 4, 6  # segments have the styles below
 EDGES = 8  # points of edges in space per point of a curve
 AROUND = (1, 99)  # percentiles of the edges that the plot in space shows
@@ -16,7 +19,7 @@ MOST_KEY_RIGS = 0.4  # of the frames, to be marked
 
 def _key_rig_stamps(run: Run) -> np.ndarray:
     """Of the frames that became keyframes; none where so many did that their marks would hide the curves."""
-    chosen = np.array([text == "1" for text in run.frames["new_key_rig"]], bool)
+    chosen = (run.frames["new_key_rig"] == "1").to_numpy()
     return run.column("stamp_s")[chosen & (chosen.mean() < MOST_KEY_RIGS)]
 
 
@@ -98,23 +101,22 @@ def trajectory_figures(run: Run, points: int) -> list[Figure]:
 
 def error_figures(run: Run, points: int) -> list[Figure]:
     """Absolute errors, above bands of the deviations that the covariances predict, and errors per frame."""
-    if not run.errors or run.count() < FEWEST_FRAMES:
+    if run.errors is None or run.count() < FEWEST_FRAMES:
         return []
-    figures = []
+    figures, stamps = [], run.errors["stamp_s"].to_numpy()
     for key, title, quantity in (("ape_translation_m", "Position error (APE)", "APE translation"),
                                  ("ape_rotation_deg", "Orientation error (APE)", "APE rotation"),
                                  ("rpe_translation_m", "Position error per frame (RPE)", "RPE translation"),
                                  ("rpe_rotation_deg", "Orientation error per frame (RPE)", "RPE rotation")):
-        values = getattr(run.errors, key)
+        values = run.errors[key].to_numpy()
         unit = length_unit(values) if key.endswith("_m") else DEGREE
         figure = Figure(f"{run.name}_{key.rsplit('_', 1)[0]}", title, TIME, f"{quantity} [{unit.name}]")
-        figure.add("QuadEdge", *thinned(run.errors.stamps - run.start, values * unit.factor, points))
+        figure.add("QuadEdge", *thinned(stamps - run.start, values * unit.factor, points))
         if key in run.predicted:
             _add_predicted(figure, run, key, unit, points, float(np.nanmax(values, initial=0)) * unit.factor)
-        rigs = _at(run.errors.stamps, _key_rig_stamps(run))
+        rigs = _at(stamps, _key_rig_stamps(run))
         rigs = rigs[every(len(rigs), points)]
-        figure.add("new keyframe", run.errors.stamps[rigs] - run.start,
-                   values[rigs] * unit.factor, style=2, points=True)
+        figure.add("new keyframe", stamps[rigs] - run.start, values[rigs] * unit.factor, style=2, points=True)
         figures.append(figure)
     return figures
 
@@ -144,9 +146,41 @@ def frame_figures(run: Run, points: int) -> list[Figure]:
     quads = Figure(f"{run.name}_quads", "Quads, and the inliers of the pose", TIME, "quads per frame")
     for style, column in enumerate(("quads", "inliers")):
         quads.add(column, *thinned(run.times, run.column(column), points), style=style)
-    lost = np.array([is_lost(status) for status in run.frames["status"]], bool)
+    lost = run.frames["status"].map(is_lost).to_numpy()
     if lost.any():
         chosen = np.nonzero(lost)[0][every(int(lost.sum()), points)]
         hover = [run.frames["status"][index] for index in chosen]
         quads.add("lost frame", run.times[chosen], np.zeros(len(chosen)), style=2, points=True, hover=hover)
     return [edges, quads]
+
+
+def _stages(run: Run) -> list[str]:
+    """The columns of the stages, in the order of their work."""
+    names = list(run.frames)
+    return [name for name in names[names.index("latency_ms") + 1:] if name.endswith(STAGE)]
+
+
+def latency_figures(run: Run, points: int) -> list[Figure]:
+    """The time of every frame as a stack of its stages, with the remainder on top. Slow frames, which would flatten the
+    others, are marked at the upper end with their time."""
+    if run.count() < FEWEST_FRAMES:
+        return []
+    figure = Figure(f"{run.name}_latency", "Time per frame, by stage", TIME, "time [ms]", wide=True)
+    latency = run.column("latency_ms")
+    slow = np.nonzero(latency > SLOW * np.nanpercentile(latency, 90))[0]
+    slow = slow[np.argsort(-latency[slow], kind="stable")]
+    top = 1.5 * float(np.nanmax(np.delete(latency, slow)))
+    if len(slow):
+        figure.y_range = (0, top)
+    chosen = every(run.count(), points)
+    floor = np.zeros(len(chosen))
+    for style, stage in enumerate(_stages(run)):
+        floor = floor + np.nan_to_num(run.column(stage)[chosen])
+        figure.add(stage.removesuffix(STAGE), run.times[chosen], floor, style=style % 5,
+                   fill="below" if style else "zero")
+    figure.add("rest", run.times[chosen], np.maximum(latency[chosen], floor), style=GREY, fill="below")
+    if len(slow):
+        shown = sorted(slow[:MOST_SLOW])
+        figure.add("slower than the plot", run.times[shown], np.full(len(shown), 0.97 * top), style=6, points=True,
+                   labels=[f"frame {frame}: {latency[frame]:.0f} ms" for frame in shown])
+    return [figure]
