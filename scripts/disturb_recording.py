@@ -20,7 +20,6 @@ Needs NumPy, Pillow and the package quadedge. Exit code: 0 done, 2 wrong usage.
 import argparse
 import csv
 import re
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -31,60 +30,24 @@ NOISE = 2.0  # grey levels
 DISPARITY = 25.0  # of a board [px]
 
 
-def files(recording, side):
-    return sorted((recording.root / recording.parts[side]).iterdir())
-
-
-def transform(numbers):
-    matrix = np.eye(4)
-    matrix[:3, :4] = np.reshape(numbers, (-1, 4))[:3]
-    return matrix
-
-
-class Kitti:
-    """A sequence in KITTI's layout: rectified images."""
+class Recording:
+    """A recording in KITTI's layout, of rectified images, or in EuRoC's, with radial and tangential distortion."""
 
     def __init__(self, root, sequence):
-        self.parts = [Path("sequences") / sequence / f"image_{side}" for side in (0, 1)]
-        self.root, self.folder = root, Path("sequences") / sequence
-        text = (root / self.folder / "calib.txt").read_text().splitlines()
-        projections = [np.reshape([float(x) for x in line.split()[1:]], (3, 4)) for line in text[:2]]
-        self.focal = projections[0][0, 0]
-        self.right_from_left = np.eye(4)
-        self.right_from_left[0, 3] = projections[1][0, 3] / self.focal
-        self.intrinsics = projections[0]
+        self.root, self.is_kitti = root, (root / "sequences").exists()
+        dataset = quadedge.open_dataset(root, sequence if self.is_kitti else "")
+        self.rig = dataset.rig
+        self.files = [[Path(getattr(frame, side)) for frame in dataset.frames] for side in ("left", "right")]
+        self.distortion = [(0, 0, 0, 0)] * 2
+        if not self.is_kitti:
+            texts = [(files[0].parent.parent / "sensor.yaml").read_text() for files in self.files]
+            self.distortion = [[float(x) for x in re.search(r"distortion_coefficients: *\[([^]]*)", text)[1].split(",")]
+                               for text in texts]
 
     def rays(self, side, shape):
         v, u = np.mgrid[:shape[0], :shape[1]]
-        k = self.intrinsics
-        return (u - k[0, 2]) / k[0, 0], (v - k[1, 2]) / k[1, 1]
-
-    def start(self, out, frames):
-        for part in self.parts:
-            (out / part).mkdir(parents=True)
-        shutil.copy(self.root / self.folder / "calib.txt", out / self.folder)
-        times = (self.root / self.folder / "times.txt").read_text().splitlines()[frames]
-        (out / self.folder / "times.txt").write_text("\n".join(times) + "\n")
-
-
-class Euroc:
-    """A sequence in EuRoC's layout: images with radial and tangential distortion."""
-
-    def __init__(self, root, _):
-        self.root = root
-        self.parts = [Path(f"mav0/cam{side}/data") for side in (0, 1)]
-        numbers = [{key: [float(x) for x in re.findall(r"[-+.\deE]+", value)] for key, value in re.findall(
-            r"(?m)^ *(data|intrinsics|distortion_coefficients): *\[([^\]]*)\]",
-            (root / part.parent / "sensor.yaml").read_text())} for part in self.parts]
-        self.lens = [(each["intrinsics"], each["distortion_coefficients"]) for each in numbers]
-        self.focal = numbers[0]["intrinsics"][0]
-        body = [transform(each["data"]) for each in numbers]
-        self.right_from_left = np.linalg.inv(body[1]) @ body[0]
-
-    def rays(self, side, shape):
-        v, u = np.mgrid[:shape[0], :shape[1]]
-        (fu, fv, cu, cv), (k1, k2, p1, p2) = self.lens[side]
-        recorded = (u - cu) / fu, (v - cv) / fv
+        camera, (k1, k2, p1, p2) = (self.rig.left, self.rig.right)[side], self.distortion[side]
+        recorded = (u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy
         x, y = recorded
         for _ in range(20):
             r2 = x * x + y * y
@@ -94,23 +57,32 @@ class Euroc:
         return x, y
 
     def start(self, out, frames):
-        for part in self.parts:
-            (out / part).mkdir(parents=True)
-            shutil.copy(self.root / part.parent / "sensor.yaml", out / part.parent)
-            rows = (self.root / part.parent / "data.csv").read_text().splitlines()
-            (out / part.parent / "data.csv").write_text("\n".join(rows[:1] + rows[1:][frames]) + "\n")
+        """Makes the folders of both cameras, with the calibration and the times of these frames."""
+        for files in self.files:
+            folder, kept = files[0].parent.parent, {file.name for file in files[frames]}
+            (out / files[0].parent.relative_to(self.root)).mkdir(parents=True)
+            for name in ("calib.txt", "times.txt", "sensor.yaml", "data.csv"):
+                if not (folder / name).exists():
+                    continue
+                lines = (folder / name).read_text().splitlines()
+                if name == "times.txt":
+                    lines = lines[frames]
+                elif name == "data.csv":
+                    lines = lines[:1] + [line for line in lines[1:] if line.split(",")[-1] in kept]
+                (out / folder.relative_to(self.root) / name).write_text("\n".join(lines) + "\n")
 
 
 def on_board(recording, side, shape):
     """Where the pixels' rays meet the plane of the board, in pixels of the left camera at the plane's depth."""
     x, y = recording.rays(side, shape)
-    depth = recording.focal * np.linalg.norm(recording.right_from_left[:3, 3]) / DISPARITY
-    left_from_camera = np.eye(4) if side == 0 else np.linalg.inv(recording.right_from_left)
+    rig = recording.rig
+    depth = rig.left.fx * rig.baseline / DISPARITY
+    left_from_camera = np.eye(4) if side == 0 else np.linalg.inv(rig.right_from_left)
     rays = np.stack([x, y, np.ones_like(x)])
     rays = np.tensordot(left_from_camera[:3, :3], rays, 1)
     origin = left_from_camera[:3, 3]
     times = (depth - origin[2]) / rays[2]
-    return [recording.focal * (origin[i] + times * rays[i]) / depth for i in (0, 1)]
+    return [rig.left.fx * (origin[i] + times * rays[i]) / depth for i in (0, 1)]
 
 
 def sample(photo, u, v):
@@ -125,16 +97,15 @@ def sample(photo, u, v):
 
 
 def alter(args):
-    recording = (Kitti if (args.recording / "sequences").exists() else Euroc)(args.recording, args.sequence)
+    recording = Recording(args.recording, args.sequence)
     frames = slice(*(int(x) if x else None for x in args.frames.split(":")))
-    chosen = range(len(files(recording, 0)))[frames]
+    chosen = range(len(recording.files[0]))[frames]
     frames = slice(chosen.start, chosen.stop - abs(args.late))
     photo = np.asarray(Image.open(args.photo).convert("L"), float) if args.board else None
     recording.start(args.out, frames)
     random = np.random.default_rng(args.seed)
-    for side, part in enumerate(recording.parts):
+    for side, taken in enumerate(recording.files):
         still = places = None
-        taken = files(recording, side)
         for number, file in enumerate(taken[frames]):
             source = taken[frames.start + number + max(args.late if side == 0 else -args.late, 0)]
             image = np.asarray(Image.open(source).convert("L"), float).copy()
@@ -152,9 +123,9 @@ def alter(args):
                 shown[image.shape[0] // 2:] = args.bonnet
             noisy = over + random.normal(0, NOISE, image.shape)
             image[shown] = noisy[shown]
-            name = file.name if isinstance(recording, Euroc) else f"{number:06d}.png"
+            name = f"{number:06d}.png" if recording.is_kitti else file.name
             stored = np.clip(np.rint(image), 0, 255).astype(np.uint8)
-            Image.fromarray(stored).save(args.out / part / name)
+            Image.fromarray(stored).save(args.out / file.parent.relative_to(args.recording) / name)
 
 
 def poses(path):

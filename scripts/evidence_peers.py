@@ -1,10 +1,10 @@
-"""Other systems on rectified pairs, each in a process of its own: what scripts/recordings.py compares QuadEdge with.
+"""ORB-SLAM3 on rectified pairs, in a process of its own: what scripts/recordings.py compares QuadEdge with.
 
-    evidence_peers.py SYSTEM PAIRS OUT FEATURES      SYSTEM: orb_slam3
+    evidence_peers.py PAIRS OUT FEATURES
 
 PAIRS is a folder with image_0, image_1, calib.txt and times.txt as KITTI has them. OUT receives one row per pose, in
 TUM's format, in the coordinates of the rectified left camera; the last line printed is a JSON object with the version
-and the seconds per frame. Nothing of the systems is part of this repository: pyorbslam3 is on PyPI.
+and the seconds per frame. Nothing of ORB-SLAM3 is part of this repository: pyorbslam3 is on PyPI.
 """
 
 import json
@@ -44,14 +44,6 @@ class Pairs:
     def size(self):
         height, width = cv2.imread(str(self.files[0][0]), cv2.IMREAD_GRAYSCALE).shape
         return width, height
-
-
-def quaternion(rotation):
-    """x, y, z, w of a rotation matrix."""
-    vector = cv2.Rodrigues(rotation)[0].ravel()
-    angle = numpy.linalg.norm(vector)
-    half = 0.5 if angle == 0 else numpy.sin(angle / 2) / angle
-    return (*(half * vector), numpy.cos(angle / 2))
 
 
 def train_vocabulary(pairs, file, branching=10, levels=3):
@@ -108,17 +100,13 @@ def orb_slam3(pairs, folder, features):
     return [(float(row[0]), row[1:]) for row in rows], seconds
 
 
-SYSTEMS = {"orb_slam3": (orb_slam3, "pyorbslam3")}
-
-
 def main():
-    system, folder, out, features = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]), int(sys.argv[4])
-    run, package = SYSTEMS[system]
+    folder, out, features = Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
     out.parent.mkdir(parents=True, exist_ok=True)
-    poses, seconds = run(Pairs(folder), out.parent, features)
+    poses, seconds = orb_slam3(Pairs(folder), out.parent, features)
     out.write_text("".join(f"{stamp:.9f} {' '.join(values)}\n" for stamp, values in poses), encoding="ascii")
-    print(json.dumps({"version": f"{package} {metadata.version(package)}", "seconds": seconds}))
+    print(json.dumps({"version": f"pyorbslam3 {metadata.version('pyorbslam3')}", "seconds": seconds}))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

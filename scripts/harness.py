@@ -1,5 +1,6 @@
 """What all measurements of scripts/measure.py share: programs, their commands, runs and what is said of them."""
 
+import datetime
 import json
 import resource
 import shlex
@@ -15,6 +16,23 @@ COMPLETE = "complete"  # empty file in the folder of a finished run
 MANY_LOST = 5  # exit code of a run that lost many frames, which is a result as well
 # Steps of rendered scenes are a few cm: a limit of 5 cm would hide any error.
 STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
+
+
+def commit():
+    """Of the sources, followed by "+" if they have uncommitted changes outside the documentation."""
+
+    def git(*arguments):
+        command = ["git", "-C", REPOSITORY, *arguments]
+        return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+
+    changed = git("status", "--porcelain", "--", ".", ":!doc", ":!README.md")
+    return git("rev-parse", "--short=7", "HEAD") + ("+" if changed else "")
+
+
+def write(result, measured, file):
+    """Writes `result` as JSON, with the commit `measured` and the date in front."""
+    today = datetime.datetime.now(datetime.timezone.utc).date().isoformat()
+    file.write_text(json.dumps({"commit": measured, "date": today, **result}, indent=1) + "\n", encoding="utf-8")
 
 
 class Problem(Exception):

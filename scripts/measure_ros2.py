@@ -1,14 +1,9 @@
-#!/usr/bin/env python3
-"""Measures python -m quadedge.ros2 on the loopback: latency, dropped pairs, memory. Writes doc/results/ros2.json.
+"""Latency, dropped pairs and memory of python -m quadedge.ros2 on the loopback (scripts/measure.py --only ros2).
 
-    scripts/measure_ros2.py DATA            DATA: folder of the recorded sequences; three minutes
-    scripts/measure_ros2.py DATA --out F    another file
-
-Runs with the Python that has the package with its dependencies (build/venv). This program publishes pairs at a constant
-rate, each image with the time at which it is sent; the time of a pose is the source time stamp that DDS gives it.
+This program publishes pairs at a constant rate, each image with the time at which it is sent; the time of a pose is the
+source time stamp that DDS gives it.
 """
 
-import argparse
 import csv
 import os
 import signal
@@ -19,13 +14,13 @@ import time
 from pathlib import Path
 
 import numpy
-from stamped import REPOSITORY, stamped, write
 
 import quadedge
 from quadedge.ros2.domain import Domain
 from quadedge.ros_messages import header, message_store, stamp_ns
 
-SENT, RATES, PRESETS = 120, (20, 30, 60), ("fast", "default")
+SENT, RATES, PRESETS, MEMORY_PAIRS = 120, (20, 30, 60), ("fast", "default"), 5000
+NOTE = "shared with the sender of the images, nothing else running"  # on the machine
 
 
 def flight(data: Path, _):
@@ -152,30 +147,18 @@ def memory(number: int, frames, calibration: str, count: int, work: Path) -> lis
     return found
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("data", type=Path)
-    parser.add_argument("--out", type=Path, default=REPOSITORY / "doc" / "results" / "ros2.json")
-    parser.add_argument("--rates", type=int, nargs="+", default=RATES)
-    parser.add_argument("--pairs", type=int, default=5000, help="pairs for the memory")
-    parser.add_argument("--note", default="shared with the sender of the images, nothing else running",
-                        help="what else ran on the machine")
-    options = parser.parse_args()
+def measure_topics(programs) -> dict:
+    """The content of ros2.json."""
     rows, numbers = [], iter(range(20, 230))
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
         for source in (flight, room):
-            frames, calibration = source(options.data, work)
+            frames, calibration = source(programs.options.data, work)
             for preset in PRESETS:
-                for rate in options.rates:
+                for rate in RATES:
                     rows.append(measured(next(numbers), frames, calibration, preset, rate, work))
                     print(rows[-1], f"load {os.getloadavg()[0]:.1f}", flush=True)
             if source is flight:
-                kept = memory(next(numbers), frames, calibration, options.pairs, work)
+                kept = memory(next(numbers), frames, calibration, MEMORY_PAIRS, work)
                 print(kept, flush=True)
-    write(stamped({"cores": os.cpu_count(), "note": options.note, "rows": rows, "memory_mb": kept}),
-          options.out)
-
-
-if __name__ == "__main__":
-    main()
+    return {"cores": os.cpu_count(), "note": NOTE, "rows": rows, "memory_mb": kept}

@@ -214,5 +214,11 @@ def measure_paper(programs):
     return rows
 
 
+def measure_live(programs):
+    from measure_ros2 import measure_topics  # which needs cyclonedds and rosbags
+
+    return measure_topics(programs)
+
+
 PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed,
-         "paper": measure_paper, "evidence": measure_recordings}
+         "paper": measure_paper, "evidence": measure_recordings, "ros2": measure_live}

@@ -13,8 +13,7 @@ import re
 import statistics
 import sys
 
-from harness import REPOSITORY, Problem, positions, report
-from stamped import commit
+from harness import REPOSITORY, Problem, commit, positions, report
 
 # Name, official name, lengths of sub-paths [m], source, features of ORB-SLAM3's own settings. The truth of Karlsruhe
 # has no orientation that could be used, so only its length is compared, with that of the inertial system's positions at
@@ -34,8 +33,8 @@ QUADEDGE = {"QuadEdge": [], "QuadEdge, learned rig": ["--calibration", "RIG"],
             "QuadEdge, fast": ["--preset", "fast"]}
 PEERS = {"viso2": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
          "viso2, learned rig": "VISO2 PAIRS/image_0 PAIRS/image_1 F CU CV BASELINE POSES",
-         "orb_slam3": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES FEATURES",
-         "orb_slam3, learned rig": "PYTHON scripts/evidence_peers.py orb_slam3 PAIRS POSES FEATURES"}
+         "orb_slam3": "PYTHON scripts/evidence_peers.py PAIRS POSES FEATURES",
+         "orb_slam3, learned rig": "PYTHON scripts/evidence_peers.py PAIRS POSES FEATURES"}
 ONE_RUN = ("viso2", "viso2, learned rig", "QuadEdge, --calibrate", "QuadEdge, --loops")  # of others one per seed
 SYSTEMS = (*QUADEDGE, *PEERS)
 
@@ -92,20 +91,16 @@ class Recording:
         (self.pairs / "calib.txt").write_text(f"P0: {rows[0]}\nP1: {rows[1]}\n")
         (self.pairs / "times.txt").write_text("".join(f"{stamp * 1e-9:.9f}\n" for stamp in self.stamps))
 
-    def turn_back(self, rows):
-        """Poses (stamp [ns], 4 x 4) of the rectified camera as rows of TUM's format of the recorded one."""
+    def turn_back(self, found, file):
+        """Writes poses (stamp [ns], 4 x 4) of the rectified camera as those of the recorded one, in TUM's format."""
         import numpy
-        from evidence_peers import quaternion
+        import quadedge
 
         turn = numpy.eye(4)
         if self.rotation is not None:
             turn[:3, :3] = self.rotation
-        lines = []
-        for stamp, pose in rows:
-            pose = pose @ turn
-            values = (*pose[:3, 3], *quaternion(pose[:3, :3]))
-            lines.append(f"{stamp // 10**9}.{stamp % 10**9:09d} " + " ".join(f"{value:.9f}" for value in values) + "\n")
-        return "".join(lines)
+        poses = numpy.reshape([pose for _, pose in found], (-1, 4, 4)) @ turn
+        quadedge.Trajectory(numpy.array([stamp for stamp, _ in found], numpy.int64), poses).write_tum(file)
 
 
 def halves(programs, recording):
@@ -126,35 +121,30 @@ def run_peer(programs, recording, folder, system):
     """Runs a peer on the rectified pairs; the trajectory is that of the recorded camera. Returns its version, and the
     times per frame [ms] and the processor time [s] of its run."""
     import numpy
-    from evidence_peers import Pairs
+    import quadedge
 
     recording.rectify()
     folder.mkdir(parents=True, exist_ok=True)
-    rectified, camera = folder / "rectified.txt", Pairs(recording.pairs)
+    rectified = folder / "rectified.txt"
     if system.startswith("viso2"):
+        rig = quadedge.open_dataset(recording.pairs).rig
         printed, used = programs.call([programs.options.viso2, recording.pairs / "image_0", recording.pairs / "image_1",
-                                       camera.f, camera.cx, camera.cy, camera.baseline, rectified])
+                                       rig.left.fx, rig.left.cx, rig.left.cy, rig.baseline, rectified])
         times = {name: float(value) for name, value in re.findall(r"(median|p99) ([\d.]+) ms", printed)}
-        matrices = [numpy.vstack([numpy.array(line.split(), float).reshape(3, 4), [0, 0, 0, 1]])
-                    for line in rectified.read_text().splitlines()]
-        found, version = list(zip(recording.stamps, matrices)), "libviso2"
+        found, version = list(zip(recording.stamps, quadedge.Trajectory.from_file(rectified).poses)), "libviso2"
     else:
-        from quadedge.result_files import rotations
-
         # ORB-SLAM3 reads memory that it has not written; glibc then hands out zeros.
         printed, used = programs.call(
-            [programs.options.peers, REPOSITORY / "scripts/evidence_peers.py", system.split(",")[0], recording.pairs,
-             rectified, RECORDINGS[recording.name][4]],
+            [programs.options.peers, REPOSITORY / "scripts/evidence_peers.py", recording.pairs, rectified,
+             RECORDINGS[recording.name][4]],
             env={**os.environ, "MALLOC_PERTURB_": "255"})
         about = json.loads(printed.strip().splitlines()[-1])
         version, each = about["version"], [1000 * seconds for seconds in about["seconds"]]
         times = {"first": each[0], "median": statistics.median(each[2:]), "p99": numpy.percentile(each[2:], 99)}
-        found = []
-        for row in numpy.loadtxt(rectified, ndmin=2):
-            pose = numpy.eye(4)
-            pose[:3, :3], pose[:3, 3] = rotations(row[None, 4:])[0], row[1:4]
-            found.append((min(recording.stamps, key=lambda of, at=row[0] * 1e9: abs(of - at)), pose))
-    (folder / "trajectory.txt").write_text(recording.turn_back(found), encoding="ascii")
+        trajectory = quadedge.Trajectory.from_file(rectified)
+        found = [(min(recording.stamps, key=lambda of, at=stamp: abs(of - at)), pose)
+                 for stamp, pose in zip(trajectory.stamps_ns.tolist(), trajectory.poses)]
+    recording.turn_back(found, folder / "trajectory.txt")
     return version, {"latency_ms": times, "processor_s": used}
 
 

@@ -10,11 +10,10 @@ A block is enclosed by <!-- table: NAME --> and <!-- end of table -->. scripts/m
 import json
 import re
 import sys
-from pathlib import Path
 
+from harness import REPOSITORY
 from tables import TABLES
 
-REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
