@@ -32,7 +32,7 @@ struct Circle {
   std::vector<GraphEdge> odometry, closures;
 
   Circle() {
-    config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_focal = config.rig_sigma_lens = 0;
+    config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_lens = 0;
     for (int i = 0; i < kNodes; ++i) {
       Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
       const double angle = 2 * 3.14159265358979 * i / kRound;

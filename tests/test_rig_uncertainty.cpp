@@ -55,13 +55,13 @@ TEST_CASE("rig uncertainty: it grows linearly with the path length and is zero f
   for (int k = 1; k < 100; ++k) far = far * step;
   const double sigma = std::sqrt(pose::whole_covariance(far, config)(2, 2));
   CHECK(sigma == Approx(100 * config.rig_sigma_length));
-  config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_focal = config.rig_sigma_lens = 0;
+  config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_lens = 0;
   CHECK(pose::whole_covariance(far, config).norm() == 0);
 }
 
 TEST_CASE("rig uncertainty: residual distortion errs in proportion to the motion of the image", "[pose]") {
   PoseConfig config;
-  config.rig_sigma_length = config.rig_sigma_axis = config.rig_sigma_focal = 0;
+  config.rig_sigma_length = config.rig_sigma_axis = 0;
   const auto along = pose::whole_covariance(exact(motion_of(0, {0, 0, 1}, {0, 0, 1}), 0.2), config);
   const auto about = pose::whole_covariance(exact(motion_of(0.1, {0, 1, 0}, {0, 0, 0}), 0.2), config);
   for (int axis = 0; axis < 3; ++axis) {

@@ -24,12 +24,11 @@ using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 /// Calibration errors, which are common to all frames of a recording (doc/method.md section 7):
 ///   0        relative error of the baseline length
 ///   1, 2, 3  rotation of the left camera's optical frame about its x, y, z [rad]: principal point, image axes
-///   4        relative error of the focal length
 /// and residual lens distortion, per motion of the image [rad], which is path length x inverse depth + rotation:
-///   5, 6, 7  a rotation about x, y, z [rad]
-///   8, 9, 10 a translation along x, y, z, relative to the depth, per rotation only
+///   4, 5, 6  a rotation about x, y, z [rad]
+///   7, 8, 9  a translation along x, y, z, relative to the depth, per rotation only
 /// and, last, what was not known of the disparity offset when the motion was measured, in its standard deviations then.
-constexpr int kRigErrors = 12;
+constexpr int kRigErrors = 11;
 
 /// Derivative of the error of a pose in a fixed frame, in the order and about the axes of PoseCovariance, with respect
 /// to each of these errors.

@@ -238,7 +238,7 @@ void bind_diagnostics(nb::module_& module) {
       .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
       .def_prop_ro(
           "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
-          "(6, 12) float64: derivative of the pose in the frame of the keyframe with respect to the calibration "
+          "(6, 11) float64: derivative of the pose in the frame of the keyframe with respect to the calibration "
           "errors\n"
           "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
   def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,

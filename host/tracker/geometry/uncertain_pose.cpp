@@ -67,10 +67,9 @@ RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, doubl
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
     result.col(1 + axis).head<3>() = unit.cross(translation);
     result.col(1 + axis).tail<3>() = unit - turn * unit;
-    result.col(5 + axis).tail<3>() = image_motion * unit;
-    if (inverse_depth > 0) result.col(8 + axis).head<3>() = rotation.angle() / inverse_depth * unit;
+    result.col(4 + axis).tail<3>() = image_motion * unit;
+    if (inverse_depth > 0) result.col(7 + axis).head<3>() = rotation.angle() / inverse_depth * unit;
   }
-  result.col(4).tail<3>() = rotation.angle() * rotation.axis();
   return result;
 }
 
@@ -84,7 +83,7 @@ Eigen::Matrix<double, 6, 1> offset_sensitivity(const Eigen::Isometry3d& fixed_fr
 
 Eigen::Matrix<double, kRigErrors, 1> rig_sigmas(const PoseConfig& config) {
   Eigen::Matrix<double, kRigErrors, 1> sigmas;
-  sigmas << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
+  sigmas << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()),
       Eigen::Matrix<double, 6, 1>::Constant(config.rig_sigma_lens), 1;
   return sigmas;
 }

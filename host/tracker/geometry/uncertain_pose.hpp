@@ -56,8 +56,8 @@ inline PoseCovariance in_other_order(const PoseCovariance& covariance) {
 UncertainPose inverse(const UncertainPose& fixed_from_camera);
 
 /// Sensitivity of a pose, found from edges at `inverse_depth` [1/m], to calibration errors: a longer baseline lengthens
-/// the translation, a rotated optical frame rotates the motion, a longer focal length reduces the angles, and residual
-/// distortion rotates the camera in proportion to the motion of the image and, where it turns, moves it.
+/// the translation, a rotated optical frame rotates the motion, and residual distortion rotates the camera in
+/// proportion to the motion of the image and, where it turns, moves it.
 /// \param fixed_from_camera a single motion, between two frames or since a keyframe
 RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth);
 

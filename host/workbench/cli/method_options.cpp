@@ -110,7 +110,7 @@ void MethodOptions::declare(Options& options) {
 
 void MethodOptions::assume_exact_rig() {
   PoseConfig& pose = config_.pose;
-  pose.rig_sigma_length = pose.rig_sigma_axis = pose.rig_sigma_focal = pose.rig_sigma_lens = 0;
+  pose.rig_sigma_length = pose.rig_sigma_axis = pose.rig_sigma_lens = 0;
 }
 
 Config MethodOptions::config() const {
