@@ -374,7 +374,7 @@ void FrameTracker::locate(const MotionStep& step, FrameResult& result) {
   if (result.new_key_rig) {
     // All frames located against one keyframe share its disparities, so that together they carry no more information
     // than the last, most distant one.
-    learned_.adopt(current_->rig(), current_->frame);
+    learned_.adopt(current_->rig());
     set_key(current_, world_from_current, inverse_depth_, !step.verdict.ambiguity.exists());
   } else {
     state_.base = {current_, current_from_key, key_from_current};

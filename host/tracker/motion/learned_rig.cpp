@@ -2,7 +2,6 @@
 #include "motion/learned_rig.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "rig/rig_constants.hpp"
 
@@ -78,13 +77,10 @@ RigEstimate LearnedRig::anchored(RigEstimate frame) {
   return frame;
 }
 
-void LearnedRig::adopt(const RigEstimate& frame, int number) {
+void LearnedRig::adopt(const RigEstimate& frame) {
   if (!(prior_.variance > 0)) return;
-  const int frames = number - std::exchange(adopted_, number);
   value_ = frame.disparity_offset;
-  prior_ = {frame.disparity_offset_sigma * frame.disparity_offset_sigma +
-                frames * kDisparityOffsetDrift * kDisparityOffsetDrift,
-            frame.disparity_offset_shared, prior_.error};
+  prior_ = {frame.disparity_offset_sigma * frame.disparity_offset_sigma, frame.disparity_offset_shared, prior_.error};
 }
 
 void LearnedRig::restart() {

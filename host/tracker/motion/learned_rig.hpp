@@ -30,8 +30,8 @@ class LearnedRig {
   /// Draws the displacement of a frame towards 0, where those of a recording scatter about, and takes note of it and of
   /// the errors of disparities.
   RigEstimate anchored(RigEstimate frame);
-  /// Takes over the offset of keyframe `number`, which drifts from there on as since the one adopted before.
-  void adopt(const RigEstimate& frame, int number);
+  /// Takes over the offset of a keyframe.
+  void adopt(const RigEstimate& frame);
   /// The images of the next recording may not be displaced, and the rig may have been calibrated anew.
   void restart();
 
@@ -41,7 +41,6 @@ class LearnedRig {
   double value_;
   pose::OffsetPrior prior_;
   double error_weight_ = 0;          ///< of prior_.error, see RigEstimate
-  int adopted_ = 0;                  ///< number of the keyframe adopted last
   int displaced_ = 0;                ///< frames
   double frames_ = 0, squares_ = 0;  ///< since the first displaced one, and sum of squares [px^2], older ones less
 };

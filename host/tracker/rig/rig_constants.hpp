@@ -86,10 +86,7 @@ constexpr int kNegativeSearches = 3;
 /// Learned disparity offset. [px]
 constexpr double kMaxOffset = 1.5;
 
-// The disparity offset and displaced images (learned_rig.cpp, image_jump.cpp).
-
-/// Growth per frame of the standard deviation of the disparity offset [px]: the rig bends with temperature, slowly.
-constexpr double kDisparityOffsetDrift = 0.003;
+// Displaced images (learned_rig.cpp, image_jump.cpp).
 
 /// A right image that is displaced along the epipolar lines: the displacement from which the first kDisplacedFrames of
 /// a recording count, and later ones [px], and its standard deviations.
