@@ -152,7 +152,7 @@ TEST_CASE("drive calibration: the motion of a pair is found from far away", "[ri
   auto pairs = made_up_pairs(truth, 1, 0.05);
   const Eigen::Vector3d true_translation = pairs[0].second_from_first.translation();
   pairs[0].second_from_first.setIdentity();
-  CHECK(rig::find_motion(unknowns, pairs[0]) > 0.99);
+  CHECK(rig::PairAdjustment::find_motion(unknowns, pairs[0]) > 0.99);
   CHECK((pairs[0].second_from_first.translation() - true_translation).norm() < 0.01);
 }
 
@@ -169,9 +169,9 @@ TEST_CASE("corner flow: a shifted image is found to a few hundredths of a pixel"
       to.set(x, y, grey(x - shift_x, y - shift_y) / 2 + 40);  // and half the contrast
     }
   }
-  const rig::FlowImage one(from.view()), other(to.view());
+  const rig::FlowImage one = rig::pyramid(from.view()), other = rig::pyramid(to.view());
   int found = 0;
-  for (const Eigen::Vector2d& corner : rig::flow_corners(from.view(), 40)) {
+  for (const Eigen::Vector2d& corner : rig::flow_corners(one, 40)) {
     const bool is_inside = corner.x() > 45 && corner.y() > 45 && corner.x() < 155 && corner.y() < 115;
     const auto match = rig::follow(one, other, corner, corner);
     if (!match || !is_inside) continue;  // brightness is compared within the image
@@ -244,7 +244,6 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(10 * fallen > 9 * compared);
   REQUIRE(mended.change.depths.size() == 5);
   CHECK(mended.change.depths[4].error > 0.1);  // 0.2 degrees of yaw are 0.8 px: half the disparity at 50 m and more
-  CHECK(mended.change.sampson_learned < 0.6 * mended.change.sampson_given);
   CHECK_THAT(mended.text(), Contains("the calibration is off"));
   // The same frames give the same bytes.
   const DriveCalibration again = learned_in_room(wrong);
@@ -267,7 +266,7 @@ TEST_CASE("drive calibration: points that one calibration loses count against it
   const StereoCalibration truth = made_up_rig(LensModel::radial_tangential, {});
   const rig::RigUnknowns unknowns(truth);
   auto pairs = made_up_pairs(truth, 8, 0.5);
-  for (rig::FramePair& pair : pairs) rig::find_motion(unknowns, pair);  // as pairs are collected
+  for (rig::FramePair& pair : pairs) rig::PairAdjustment::find_motion(unknowns, pair);  // as pairs are collected
   const auto judged = [&](const Eigen::VectorXd& learned) {
     rig::UnseenViews views;
     views.add(unknowns, pointers_to(pairs), learned);

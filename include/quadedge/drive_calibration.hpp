@@ -39,10 +39,9 @@ struct CalibrationChange {
     double depth = 0;  ///< m
     double error = 0;  ///< of the measured depth, as a part of it: median of its absolute value over the image
   };
-  std::vector<AtDepth> depths;                    ///< at 1, 2, 5, 10 and 50 m
-  double rotation = 0;                            ///< of the right camera [rad]
-  std::array<double, 2> largest_displacement{};   ///< over the left and the right image [px]
-  double sampson_given = 0, sampson_learned = 0;  ///< median distance of points from their epipolar lines [px]
+  std::vector<AtDepth> depths;                   ///< at 1, 2, 5, 10 and 50 m
+  double rotation = 0;                           ///< of the right camera [rad]
+  std::array<double, 2> largest_displacement{};  ///< over the left and the right image [px]
 };
 
 /// Where frames that were not learned from contradict a calibration: median distances of points from where they are

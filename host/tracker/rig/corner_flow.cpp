@@ -1,4 +1,4 @@
-/// \file corner_flow.cpp  Pyramids of locally equalised images; Gauss-Newton with the template's slopes on every level.
+/// \file corner_flow.cpp  Pyramids; Gauss-Newton with the template's slopes on every level.
 #include "rig/corner_flow.hpp"
 
 #include <Eigen/LU>
@@ -6,11 +6,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include "common/parallel.hpp"
-#include "rig/patch_search.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
@@ -18,86 +15,14 @@ namespace {
 
 constexpr int kHalf = 8, kSide = 2 * kHalf + 1;  // patches of 17 x 17 px
 constexpr std::size_t kLevels = 6;
-constexpr int kSmallestLevel = 3 * kSide;            // px
-constexpr int kNeighbourhood = 11;                   // half side of the squares that brightness is compared within [px]
-constexpr float kContrast = 45, kLeastContrast = 6;  // of the normalised images, of recorded ones [grey levels]
-constexpr float kLargestGrey = 128;
+constexpr int kSmallestLevel = 3 * kSide;  // px
 constexpr int kSteps = 30;
 constexpr double kSettledMove = 0.01, kMaxReturn = 0.35;  // px
 constexpr double kMinFlowCorrelation = 0.7;
 
-using Plane = std::vector<float>;
-
-std::size_t index_of(int x, int y, int width) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-}
-
-/// Means over the part of the row from -kNeighbourhood to kNeighbourhood around each pixel that exists.
-void mean_along(const float* values, float* means, int count) {
-  double sum = 0;
-  int members = 0;
-  for (int i = -kNeighbourhood; i < count; ++i) {
-    if (const int ahead = i + kNeighbourhood; ahead < count) {
-      sum += static_cast<double>(values[ahead]);
-      ++members;
-    }
-    if (const int behind = i - kNeighbourhood - 1; behind >= 0) {
-      sum -= static_cast<double>(values[behind]);
-      --members;
-    }
-    if (i >= 0) means[i] = static_cast<float>(sum / members);
-  }
-}
-
-/// The same down the columns, for all columns at once.
-void mean_down(const Plane& values, Plane& means, int width, int height) {
-  const auto columns = static_cast<std::size_t>(width);
-  std::vector<double> sums(columns, 0.0);
-  int members = 0;
-  const auto add = [&](int row, double sign) {
-    const float* const line = &values[index_of(0, row, width)];
-    for (std::size_t x = 0; x < columns; ++x) sums[x] += sign * static_cast<double>(line[x]);
-    members += sign > 0 ? 1 : -1;
-  };
-  for (int y = -kNeighbourhood; y < height; ++y) {
-    if (y + kNeighbourhood < height) add(y + kNeighbourhood, 1);
-    if (y - kNeighbourhood - 1 >= 0) add(y - kNeighbourhood - 1, -1);
-    if (y < 0) continue;
-    float* const line = &means[index_of(0, y, width)];
-    for (std::size_t x = 0; x < columns; ++x) line[x] = static_cast<float>(sums[x] / members);
-  }
-}
-
-/// Means over squares, twice, which is nearly a Gaussian.
-void smooth(Plane& plane, int width, int height) {
-  Plane other(plane.size());
-  for (int round = 0; round < 2; ++round) {
-    tbb::parallel_for(0, height,
-                      [&](int y) { mean_along(&plane[index_of(0, y, width)], &other[index_of(0, y, width)], width); });
-    mean_down(other, plane, width, height);
-  }
-}
-
-FlowImage::Level normalised(const ImageView& image) {
-  FlowImage::Level level{image.width, image.height, {}};
-  level.grey.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) level.grey[index_of(x, y, image.width)] = image.at(x, y);
-  Plane mean = level.grey, square(mean.size());
-  std::transform(mean.begin(), mean.end(), square.begin(), [](float value) { return value * value; });
-  tbb::parallel_invoke([&] { smooth(mean, image.width, image.height); },
-                       [&] { smooth(square, image.width, image.height); });
-  for (std::size_t i = 0; i < mean.size(); ++i) {
-    const float spread = std::sqrt(std::max(0.0F, square[i] - mean[i] * mean[i]));
-    level.grey[i] =
-        std::clamp(kContrast * (level.grey[i] - mean[i]) / (spread + kLeastContrast), -kLargestGrey, kLargestGrey);
-  }
-  return level;
-}
-
 /// Half the size, by weights 1 3 3 1 in both directions; pixel x is at 2 x + 1/2.
-FlowImage::Level halved(const FlowImage::Level& from) {
-  FlowImage::Level to{from.width / 2, from.height / 2, {}};
+GreyPlane halved(const GreyPlane& from) {
+  GreyPlane to{from.width / 2, from.height / 2, {}, {}, {}};
   to.grey.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
   constexpr std::array<float, 4> kWeights = {0.125F, 0.375F, 0.375F, 0.125F};
   for (int y = 0; y < to.height; ++y) {
@@ -108,38 +33,38 @@ FlowImage::Level halved(const FlowImage::Level& from) {
         float line = 0;
         for (int u = 0; u < 4; ++u)
           line += kWeights[static_cast<std::size_t>(u)] *
-                  from.grey[index_of(std::clamp(2 * x + u - 1, 0, from.width - 1), row, from.width)];
+                  from.grey[from.index(std::clamp(2 * x + u - 1, 0, from.width - 1), row)];
         sum += kWeights[static_cast<std::size_t>(v)] * line;
       }
-      to.grey[index_of(x, y, to.width)] = sum;
+      to.grey[to.index(x, y)] = sum;
     }
   }
   return to;
 }
 
-bool holds(const FlowImage::Level& level, const Eigen::Vector2d& at, int reach) {
+bool holds(const GreyPlane& level, const Eigen::Vector2d& at, int reach) {
   return at.x() >= reach && at.y() >= reach && at.x() < level.width - 1 - reach && at.y() < level.height - 1 - reach;
 }
 
 /// Bilinear samples, `side` x `side` of them, around a position that holds() with half the side.
 QUADEDGE_VECTOR_CLONES
-void cut(const float* grey, int width, const Eigen::Vector2d& at, int side, float* out) {
+void cut(const GreyPlane& plane, const Eigen::Vector2d& at, int side, float* out) {
   const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
   const auto right = static_cast<float>(at.x() - x), below = static_cast<float>(at.y() - y);
   const float w00 = (1 - right) * (1 - below), w01 = right * (1 - below), w10 = (1 - right) * below,
               w11 = right * below;
   for (int row = 0; row < side; ++row, out += side) {
-    const float* const here = grey + index_of(x - side / 2, y - side / 2 + row, width);
-    const float* const under = here + width;
+    const float* const here = &plane.grey[plane.index(x - side / 2, y - side / 2 + row)];
+    const float* const under = here + plane.width;
     for (int i = 0; i < side; ++i) out[i] = w00 * here[i] + w01 * here[i + 1] + w10 * under[i] + w11 * under[i + 1];
   }
 }
 
 using Square = std::array<float, static_cast<std::size_t>(kSide) * kSide>;
 
-Square cut(const FlowImage::Level& level, const Eigen::Vector2d& at) {
+Square cut(const GreyPlane& level, const Eigen::Vector2d& at) {
   Square square;
-  cut(level.grey.data(), level.width, at, kSide, square.data());
+  cut(level, at, kSide, square.data());
   return square;
 }
 
@@ -172,10 +97,10 @@ struct Template {
   bool is_corner = false;
 };
 
-Template template_at(const FlowImage::Level& level, const Eigen::Vector2d& at) {
+Template template_at(const GreyPlane& level, const Eigen::Vector2d& at) {
   constexpr std::size_t kWide = kSide + 2;
   std::array<float, kWide * kWide> wide;
-  cut(level.grey.data(), level.width, at, kWide, wide.data());
+  cut(level, at, kWide, wide.data());
   Template patch;
   for (std::size_t row = 0; row < kSide; ++row) {
     for (std::size_t i = 0; i < kSide; ++i) {
@@ -197,7 +122,7 @@ Template template_at(const FlowImage::Level& level, const Eigen::Vector2d& at) {
 
 /// Moves `at` to where the patch is; returns whether it stays inside the image. Whether it has settled, the way back
 /// shows.
-bool align(const Template& patch, const FlowImage::Level& to, Eigen::Vector2d& at) {
+bool align(const Template& patch, const GreyPlane& to, Eigen::Vector2d& at) {
   Eigen::Vector2d position = at;
   for (int step = 0; step < kSteps; ++step) {
     if (!holds(to, position, kHalf + 1)) return false;
@@ -221,44 +146,44 @@ Eigen::Vector2d reduced(const Eigen::Vector2d& at, double scale) {
 /// One way: down the levels. A level on which the patch leaves the image changes nothing, except the last one.
 std::optional<Eigen::Vector2d> search(const FlowImage& from, const FlowImage& to, const Eigen::Vector2d& at,
                                       Eigen::Vector2d position) {
-  const std::size_t count = std::min(from.levels().size(), to.levels().size());
+  const std::size_t count = std::min(from.size(), to.size());
   for (std::size_t k = count; k-- > 0;) {
     const double scale = static_cast<double>(1 << k);
     const Eigen::Vector2d here = reduced(at, scale);
     Eigen::Vector2d there = reduced(position, scale);
     const bool is_last = k == 0;
-    if (!holds(from.levels()[k], here, kHalf + 2)) {
+    if (!holds(from[k], here, kHalf + 2)) {
       if (is_last) return std::nullopt;
       continue;
     }
-    const Template patch = template_at(from.levels()[k], here);
-    const bool found = patch.is_corner && align(patch, to.levels()[k], there);
+    const Template patch = template_at(from[k], here);
+    const bool found = patch.is_corner && align(patch, to[k], there);
     if (!found && is_last) return std::nullopt;
     if (found) position = ((there.array() + 0.5) * scale - 0.5).matrix();
   }
   return position;
 }
 
-double correlation(const FlowImage::Level& from, const Eigen::Vector2d& at, const FlowImage::Level& to,
+double correlation(const GreyPlane& from, const Eigen::Vector2d& at, const GreyPlane& to,
                    const Eigen::Vector2d& found) {
   return product(equalised(cut(from, at)), equalised(cut(to, found)));
 }
 
 }  // namespace
 
-FlowImage::FlowImage(const ImageView& recorded) {
-  levels_.push_back(normalised(recorded));
-  while (levels_.size() < kLevels && std::min(levels_.back().width, levels_.back().height) >= 2 * kSmallestLevel)
-    levels_.push_back(halved(levels_.back()));
+FlowImage pyramid(const ImageView& recorded) {
+  FlowImage levels{{recorded.width, recorded.height, {}, {}, {}}};
+  for (int y = 0; y < recorded.height; ++y)
+    for (int x = 0; x < recorded.width; ++x) levels[0].grey.push_back(recorded.at(x, y));
+  while (levels.size() < kLevels && std::min(levels.back().width, levels.back().height) >= 2 * kSmallestLevel)
+    levels.push_back(halved(levels.back()));
+  return levels;
 }
 
-std::vector<Eigen::Vector2d> flow_corners(const ImageView& recorded, int count) {
-  GreyPlane plane{recorded.width, recorded.height, {}, {}, {}};
-  plane.grey.resize(recorded.width * static_cast<std::size_t>(recorded.height) + kAtOnce);
-  for (int y = 0; y < recorded.height; ++y)
-    for (int x = 0; x < recorded.width; ++x) plane.grey[plane.index(x, y)] = recorded.at(x, y);
+std::vector<Eigen::Vector2d> flow_corners(const FlowImage& image, int count) {
+  GreyPlane plane = image.front();
   measure_patches(plane);
-  const double area = static_cast<double>(recorded.width) * recorded.height;
+  const double area = static_cast<double>(plane.width) * plane.height;
   std::vector<Eigen::Vector2d> corners;
   for (const Eigen::Vector2i& corner : find_corners(plane, std::max(kCell, static_cast<int>(std::sqrt(area / count)))))
     corners.push_back(corner.cast<double>());
@@ -272,7 +197,7 @@ std::optional<FlowMatch> follow(const FlowImage& from, const FlowImage& to, cons
   // Back from a start that is off by as much as the first one was.
   const auto back = search(to, from, *there, at + (start - *there));
   if (!back || (*back - at).cwiseAbs().maxCoeff() > kMaxReturn) return std::nullopt;
-  const double likeness = correlation(from.levels().front(), at, to.levels().front(), *there);
+  const double likeness = correlation(from.front(), at, to.front(), *there);
   if (likeness < kMinFlowCorrelation) return std::nullopt;
   return FlowMatch{*there, likeness};
 }

@@ -7,29 +7,16 @@
 #include <vector>
 
 #include "quadedge/image.hpp"
+#include "rig/patch_search.hpp"
 
 namespace quadedge::rig {
 
-/// An image and its reductions by 2, 4 and 8, without local differences of brightness and contrast.
-class FlowImage {
- public:
-  explicit FlowImage(const ImageView& recorded);
-
-  int width() const { return levels_.front().width; }
-  int height() const { return levels_.front().height; }
-
-  struct Level {
-    int width = 0, height = 0;
-    std::vector<float> grey;  ///< height x width, row-major
-  };
-  const std::vector<Level>& levels() const { return levels_; }
-
- private:
-  std::vector<Level> levels_;  ///< the full resolution first
-};
+/// An image and its reductions by 2, 4, 8 ..., grey levels only.
+using FlowImage = std::vector<GreyPlane>;
+FlowImage pyramid(const ImageView& recorded);
 
 /// The strongest corner of each of about `count` cells, where it is one [px].
-std::vector<Eigen::Vector2d> flow_corners(const ImageView& recorded, int count);
+std::vector<Eigen::Vector2d> flow_corners(const FlowImage& image, int count);
 
 /// Where a patch was found.
 struct FlowMatch {

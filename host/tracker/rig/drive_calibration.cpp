@@ -148,11 +148,7 @@ void DriveCalibrator::Implementation::learn(DriveCalibration& result) const {
         {unknowns_[i].name, unknowns_[i].unit, values[i], std::sqrt(result.covariance(i, i)), unknowns_[i].prior});
   result.learned = unknowns_.at(values);
   result.learned.right_from_left = rounded_transform(result.learned.right_from_left);
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> seen;
-  for (const rig::FramePair& pair : pairs_)
-    for (const rig::SeenPoint& point : pair.points)
-      seen.emplace_back(point.at[rig::kLeftFirst], point.at[rig::kRightFirst]);
-  result.change = rig::change_of(given_, result.learned, seen);
+  result.change = rig::change_of(given_, result.learned);
 }
 
 DriveCalibration DriveCalibrator::Implementation::finish() const {

@@ -438,21 +438,17 @@ int PairAdjustment::points() const {
   return count;
 }
 
-double find_motion(const RigUnknowns& unknowns, FramePair& pair) {
+double PairAdjustment::find_motion(const RigUnknowns& unknowns, FramePair& pair) {
   PairAdjustment adjustment(unknowns, {&pair});
-  pair.second_from_first = adjustment.find_motion();
-  return pair.points.empty() ? 0 : static_cast<double>(adjustment.points()) / static_cast<double>(pair.points.size());
-}
-
-Eigen::Isometry3d PairAdjustment::find_motion() {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(unknowns_.count());
-  start(values);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(unknowns.count());
+  adjustment.start(values);
   for (const double scale : {20.0, 5.0, 1.5}) {
-    scale_ = scale;
-    optimise(values, false, {});
+    adjustment.scale_ = scale;
+    adjustment.optimise(values, false, {});
   }
-  cull(values, kAgreeing);
-  return pairs_.front().motion;
+  adjustment.cull(values, kAgreeing);
+  pair.second_from_first = adjustment.pairs_.front().motion;
+  return pair.points.empty() ? 0 : static_cast<double>(adjustment.points()) / static_cast<double>(pair.points.size());
 }
 
 }  // namespace quadedge::rig

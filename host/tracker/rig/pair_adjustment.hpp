@@ -46,9 +46,9 @@ class PairAdjustment {
   /// Learns the unknowns, or with `fixed` values only motions and points. \returns the values
   Eigen::VectorXd learn();
   void fit(const Eigen::VectorXd& fixed);
-  /// The motion of the only pair by the calibration that it was made with, from a start that may be far off; points()
-  /// then agree.
-  Eigen::Isometry3d find_motion();
+  /// Estimates the motion of a pair by its points and the given calibration; starts from that of the pair, which may be
+  /// far off. \returns the part of the points that agree with it
+  static double find_motion(const RigUnknowns& unknowns, FramePair& pair);
 
   /// Of the last learn(): what the pairs alone tell, at the values.
   const Evidence& evidence() const { return evidence_; }
@@ -95,9 +95,5 @@ class PairAdjustment {
   Evidence evidence_;
   double scale_;  ///< distance from which views count less [px]
 };
-
-/// Estimates the motion of a pair by its points and the given calibration; starts from that of the pair.
-/// \returns the part of the points that agree with it
-double find_motion(const RigUnknowns& unknowns, FramePair& pair);
 
 }  // namespace quadedge::rig

@@ -39,8 +39,8 @@ PairCollector::PairCollector(const RigUnknowns& unknowns, double disparity,
     disparities_.push_back(start);
 }
 
-void PairCollector::begin(const StereoFrame& frame, FlowImage left, const FlowImage& right, int number) {
-  std::vector<Eigen::Vector2d> corners = flow_corners(frame.left, kCorners);
+void PairCollector::begin(FlowImage left, const FlowImage& right, int number) {
+  std::vector<Eigen::Vector2d> corners = flow_corners(left, kCorners);
   corners.erase(
       std::remove_if(corners.begin(), corners.end(), [&](const auto& at) { return hides_ && hides_(Side::left, at); }),
       corners.end());
@@ -138,7 +138,7 @@ std::optional<FramePair> PairCollector::close(const FlowImage& left, const FlowI
   const int frames = std::max(1, number - pair.first);
   pair.second_from_first.linear() = rotation_by(frames * rounded_rotation(per_frame_));
   pair.second_from_first.translation() = frames * per_frame_.translation();
-  if (find_motion(unknowns_, pair) < kMinAgreeing) {
+  if (PairAdjustment::find_motion(unknowns_, pair) < kMinAgreeing) {
     per_frame_.setIdentity();
     return std::nullopt;
   }
@@ -148,14 +148,14 @@ std::optional<FramePair> PairCollector::close(const FlowImage& left, const FlowI
 }
 
 std::optional<FramePair> PairCollector::see(const StereoFrame& frame, int number) {
-  FlowImage left(frame.left);
+  FlowImage left = pyramid(frame.left);
   if (first_) follow_tracks(left);
   const bool is_lost = !first_ || first_->tracks.size() < kFewestTracks || first_->age > kLongestWait;
   if (!is_lost && flow() < kEnoughFlow * unknowns_.given().left.camera.fx) return std::nullopt;
-  const FlowImage right(frame.right);
+  const FlowImage right = pyramid(frame.right);
   std::optional<FramePair> pair;
   if (!is_lost) pair = close(left, right, number);
-  begin(frame, std::move(left), right, number);
+  begin(std::move(left), right, number);
   return pair;
 }
 

@@ -37,7 +37,7 @@ class PairCollector {
     std::vector<Track> tracks;
   };
 
-  void begin(const StereoFrame& frame, FlowImage left, const FlowImage& right, int number);
+  void begin(FlowImage left, const FlowImage& right, int number);
   void follow_tracks(const FlowImage& left);
   std::optional<FramePair> close(const FlowImage& left, const FlowImage& right, int number);
   std::optional<Eigen::Vector2d> find_right(const FlowImage& left, const FlowImage& right,

@@ -59,24 +59,7 @@ double depth_error(const StereoCalibration& given, const StereoCalibration& lear
   return errors.empty() ? kNan : upper_median(errors);
 }
 
-std::optional<double> sampson_distance(const StereoCalibration& calibration, const Eigen::Vector2d& left,
-                                       const Eigen::Vector2d& right) {
-  const auto a = LensMapping(calibration.left).ray(left), b = LensMapping(calibration.right).ray(right);
-  if (!a || !b) return std::nullopt;
-  const Eigen::Vector3d t = calibration.right_from_left.translation().normalized();
-  const Eigen::Vector3d turned = calibration.right_from_left.linear() * *a;
-  // b . (t x turned) = 0; its slopes by directions of both rays.
-  const Eigen::Vector3d by_right = t.cross(turned), by_left = b->cross(t);
-  const double value = b->dot(by_right);
-  const auto tangential = [](const Eigen::Vector3d& slope, const Eigen::Vector3d& ray) {
-    return (slope - slope.dot(ray) * ray).squaredNorm();
-  };
-  return calibration.left.camera.fx * std::abs(value) /
-         std::sqrt(tangential(by_right, *b) + tangential(by_left, turned));
-}
-
-CalibrationChange change_of(const StereoCalibration& given, const StereoCalibration& learned,
-                            const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& points) {
+CalibrationChange change_of(const StereoCalibration& given, const StereoCalibration& learned) {
   CalibrationChange change;
   for (const double depth : {1, 2, 5, 10, 50}) change.depths.push_back({depth, depth_error(given, learned, depth)});
   change.rotation =
@@ -88,14 +71,6 @@ CalibrationChange change_of(const StereoCalibration& given, const StereoCalibrat
       if (distance > largest) largest = distance;
     }
   }
-  const auto median = [&](const StereoCalibration& calibration) {
-    std::vector<double> distances;
-    for (const auto& [left, right] : points)
-      if (const auto distance = sampson_distance(calibration, left, right)) distances.push_back(*distance);
-    return distances.empty() ? kNan : upper_median(distances);
-  };
-  change.sampson_given = median(given);
-  change.sampson_learned = median(learned);
   return change;
 }
 

@@ -60,8 +60,6 @@ Json to_json(const DriveCalibration& result) {
     json["depth_error"].push_back({{"depth_m", at.depth}, {"percent", to_json(100 * at.error)}});
   json["rotation_deg"] = result.change.rotation / kDegree;
   json["largest_displacement_px"] = both_sides(result.change.largest_displacement);
-  json["sampson_px"] = {{"given", to_json(result.change.sampson_given)},
-                        {"learned", to_json(result.change.sampson_learned)}};
   json["covariance"] = Json::array();
   for (Eigen::Index row = 0; row < result.covariance.rows(); ++row) {
     Json values = Json::array();
@@ -93,8 +91,6 @@ std::string calibration_table(const DriveCalibration& result) {
   table += line("  right camera          turned by %.4f degrees", result.change.rotation / kDegree);
   table += line("  pixels                displaced by up to %.2f px (left), %.2f px (right)",
                 result.change.largest_displacement[0], result.change.largest_displacement[1]);
-  table += line("  epipolar (Sampson)    %.3f px, learned %.3f px", result.change.sampson_given,
-                result.change.sampson_learned);
   table += "\npoints in frames that were not learned from, by distance (given, learned):\n";
   for (std::size_t i = 0; i < UnseenDistances::kFarthest.size(); ++i) {
     const double given = result.unseen_parts_given.by_distance[i], learned = result.unseen_parts_learned.by_distance[i];
