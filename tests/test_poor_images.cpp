@@ -2,7 +2,6 @@
 
 #include "edge_images.hpp"
 #include "frontends.hpp"
-#include "rig/poor_images.hpp"
 #include "rig/rig_monitor.hpp"
 
 using namespace quadedge;

@@ -6,8 +6,6 @@
 namespace quadedge {
 
 /// Evidence from one frame, see doc/method.md section 7. NaN if a quantity could not be measured.
-/// "Across" is the distance of a right point from its epipolar line [px of the right image]; for a rectified rig, how
-/// much lower it lies than expected.
 struct RigEvidence {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -15,10 +13,7 @@ struct RigEvidence {
 
   // From patches around stereo edges, aligned in both image directions:
   double epipolar_residual = kUnknown;  ///< median distance from the line [px]
-  double epipolar_offset = kUnknown;    ///< signed distance in the middle of the image [px]; the slopes below add to it
-  double epipolar_slope_x = kUnknown, epipolar_slope_y = kUnknown;  ///< change over the left image's width, height [px]
-  int epipolar_samples = 0;
-  double epipolar_correction = 0;  ///< largest distance from the lines that the stereo search allowed for [px]
+  double epipolar_correction = 0;       ///< largest distance from the lines that the stereo search allowed for [px]
 
   // From a wide search around the epipolar lines, which is done in some frames only:
   double found_ratio = kUnknown;  ///< fraction of the corners found in the right image and, from there, in the left

@@ -161,8 +161,6 @@ void bind_evidence(nb::module_& module) {
       .def_ro("matched_ratio", &RigEvidence::matched_ratio, "Share of the left edges that have a stereo match, 0 to 1.")
       .def_ro("epipolar_residual", &RigEvidence::epipolar_residual,
               "Median distance of matched patches from their epipolar lines [px].")
-      .def_ro("epipolar_offset", &RigEvidence::epipolar_offset,
-              "Signed distance from the epipolar line at the image centre [px].")
       .def_ro("epipolar_correction", &RigEvidence::epipolar_correction,
               "Largest distance from the epipolar lines that the stereo search allowed for [px].")
       .def_ro("searched_residual", &RigEvidence::searched_residual,

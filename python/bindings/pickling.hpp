@@ -37,8 +37,7 @@ inline auto members(FrameCounts& self) {
                   self.quads, self.inliers);
 }
 inline auto members(RigEvidence& self) {
-  return std::tie(self.matched_ratio, self.epipolar_residual, self.epipolar_offset, self.epipolar_slope_x,
-                  self.epipolar_slope_y, self.epipolar_samples, self.epipolar_correction, self.found_ratio,
+  return std::tie(self.matched_ratio, self.epipolar_residual, self.epipolar_correction, self.found_ratio,
                   self.searched_residual, self.on_line_ratio, self.negative_ratio, self.beyond_ratio);
 }
 inline auto members(StageTime& self) { return std::tie(self.stage, self.ms); }

@@ -303,10 +303,9 @@ Verdict judge(const Sequence& sequence, const std::string& device_name, bool pri
     if (print_evidence) {
       const RigEvidence& rig = result.diagnostics.rig_evidence;
       std::printf(
-          "  %zu %-18s matched %.3f residual %.2f (%+.2f %+.2f x %+.2f y; %d) found %.2f line %.2f neg %.2f beyond "
+          "  %zu %-18s matched %.3f residual %.2f found %.2f line %.2f neg %.2f beyond "
           "%.2f inl %d/%d moving %.2f%s %s %s\n",
-          i, to_string(result.status), rig.matched_ratio, rig.epipolar_residual, rig.epipolar_offset,
-          rig.epipolar_slope_x, rig.epipolar_slope_y, rig.epipolar_samples, rig.found_ratio, rig.on_line_ratio,
+          i, to_string(result.status), rig.matched_ratio, rig.epipolar_residual, rig.found_ratio, rig.on_line_ratio,
           rig.negative_ratio, rig.beyond_ratio, result.counts.inliers, result.counts.quads,
           result.diagnostics.moving_ratio, result.ambiguous_motion ? " AMBIGUOUS" : "", result.message.c_str(),
           warning.c_str());

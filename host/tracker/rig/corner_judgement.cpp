@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "common/printed.hpp"
-#include "rig/poor_images.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
@@ -37,10 +36,8 @@ void add_search_results(CornerAnswer& answer, const StereoRig& rig, const RigEst
   if (search.searched == 0) return;
   evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
   evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
-  int aligned = 0, on_line = 0, unique = 0, all_negative = 0, negative = 0, beyond = 0;
+  int unique = 0, all_negative = 0, negative = 0, beyond = 0;
   for (const CornerMatch& match : search.found) {
-    aligned += match.is_aligned ? 1 : 0;
-    on_line += match.is_aligned && std::abs(match.across) < kOnLine ? 1 : 0;
     const int is_negative = disparity_of(match, rig, known) < -1 - 2 * match.sigma ? 1 : 0;
     all_negative += is_negative;
     if (!match.is_unique) continue;
@@ -48,7 +45,7 @@ void add_search_results(CornerAnswer& answer, const StereoRig& rig, const RigEst
     negative += is_negative;
     beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
   }
-  if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
+  if (search.aligned > 0) evidence.on_line_ratio = static_cast<double>(search.on_line) / search.aligned;
   if (!search.found.empty()) {
     answer.unique_ratio = static_cast<double>(unique) / static_cast<double>(search.found.size());
     answer.negative_ratio = static_cast<double>(all_negative) / static_cast<double>(search.found.size());
@@ -56,6 +53,22 @@ void add_search_results(CornerAnswer& answer, const StereoRig& rig, const RigEst
   if (unique < kMinMatches) return;
   evidence.negative_ratio = static_cast<double>(negative) / unique;
   evidence.beyond_ratio = static_cast<double>(beyond) / unique;
+}
+
+bool is_uneven(const CornerSearch& search) {
+  return std::max(search.brightness, 1 / std::max(search.brightness, 1e-3)) > kUnevenBrightness;
+}
+
+/// Why corners leave their lines, if the images are to blame, saturated or unequally exposed, in a sentence; else
+/// empty. \param seen what was found, between the figure and the cause
+std::string poor_images(const CornerSearch& search, const std::string& seen) {
+  const double saturated = static_cast<double>(search.saturated) / std::max(1, search.searched + search.saturated);
+  if (saturated > kSaturatedRatio)
+    return printed("%.0f %% of the corners lie beside saturated pixels", 100 * saturated) + seen +
+           ": is the exposure too long?";
+  if (!is_uneven(search)) return {};
+  return printed("the right image is %.1f times as bright as the left one", search.brightness) + seen +
+         ": do both cameras have the same exposure and gain?";
 }
 
 /// Whether so few corners are found that transformed images should be tried.
@@ -67,15 +80,14 @@ bool finds_few_corners(const CornerSearch& search, const RigEvidence& evidence) 
 /// Fraction of the aligned corners that lie on their lines, although the fit to all puts these corners off them. Where
 /// curves cross one another, corners are no points of the scene and agree on a distance that is none of the rig's.
 double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, const PinholeCamera& left) {
-  int aligned = 0, contradicting = 0;
+  int contradicting = 0;
   for (const CornerMatch& match : search.found) {
     if (!match.is_aligned) continue;
-    ++aligned;
     const double fitted = fit.offset + fit.slope_x * (match.left.x() / left.width - 0.5) +
                           fit.slope_y * (match.left.y() / left.height - 0.5);
     contradicting += std::abs(match.across) < kOnLine && std::abs(fitted) > kOffLine ? 1 : 0;
   }
-  return aligned > 0 ? static_cast<double>(contradicting) / aligned : 0;
+  return static_cast<double>(contradicting) / std::max(1, search.aligned);
 }
 
 std::string text_of(ImageTurn turn) {
@@ -136,10 +148,10 @@ std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evi
     return std::vector<RigFinding>{{{WarningKind::doubtful_calibration, text}, true}};
   };
   if (finds_few_corners(search, evidence)) {
-    if (const std::string poor =
-            hides_corners(search) && turn == ImageTurn::none && !(search.negative > kMajority * search.searched)
-                ? poor_images(search, "; few corners are found in both images")
-                : "";
+    if (const std::string poor = is_uneven(search) && search.more_saturated > kUnevenSaturation &&
+                                         turn == ImageTurn::none && !(search.negative > kMajority * search.searched)
+                                     ? poor_images(search, "; few corners are found in both images")
+                                     : "";
         !poor.empty())
       return {{{WarningKind::poor_images, poor}}};
     // Few corners have a partner where something comes near the lenses, but chance puts none on their lines.

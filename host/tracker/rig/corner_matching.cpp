@@ -155,7 +155,7 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
   const Eigen::Matrix2d covariance =
       sums.cost / (kAlignedSide * kAlignedSide - 2) * steps * sums.normal.inverse() * steps.transpose();
   const double sigma = std::sqrt(epipolar->normal.dot(covariance * epipolar->normal));
-  if (1 - sums.cost / 2 < kMinAlignedCorrelation || sigma > kMaxSigma) return std::nullopt;
+  if (1 - sums.cost / 2 < kMinCorrelation || sigma > kMaxSigma) return std::nullopt;
   const Eigen::Vector2d from_infinity = position - epipolar->infinity;
   const double along = from_infinity.dot(epipolar->direction);
   return CornerMatch{corner_at,
@@ -165,7 +165,6 @@ std::optional<CornerMatch> CornerMatcher::refine(const PinholeView& left, const 
                      true,
                      epipolar->normal,
                      epipolar->inverse_depth(along, t_),
-                     -1,
                      position};
 }
 
@@ -178,10 +177,11 @@ void CornerMatcher::align(const StereoFrame& frame, const StereoEdges& edges, st
     const std::size_t i = first + k * step;
     const auto match = refine(left, right, {edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]});
     matches[k] = match.value_or(CornerMatch());
-    matches[k].edge = match ? static_cast<int>(i) : -1;
+    matches[k].is_aligned = match.has_value();
   });
-  matches.erase(std::remove_if(matches.begin(), matches.end(), [](const CornerMatch& match) { return match.edge < 0; }),
-                matches.end());
+  matches.erase(
+      std::remove_if(matches.begin(), matches.end(), [](const CornerMatch& match) { return !match.is_aligned; }),
+      matches.end());
 }
 
 /// Reduced images as the left camera would see a scene at infinity, so that only disparity remains.
@@ -258,7 +258,6 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
                                   false,
                                   epipolar->normal,
                                   0,
-                                  -1,
                                   *position};
     outcome.found->is_unique = there->is_unique && back->is_unique;
     if (last == nullptr) return outcome;
@@ -285,7 +284,10 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
     result.saturated += outcome.is_saturated ? 1 : 0;
     result.searched += outcome.has_line && !outcome.is_saturated ? 1 : 0;
     result.negative += outcome.is_negative ? 1 : 0;
-    if (outcome.found) result.found.push_back(*outcome.found);
+    if (!outcome.found) continue;
+    result.aligned += outcome.found->is_aligned ? 1 : 0;
+    result.on_line += outcome.found->is_aligned && std::abs(outcome.found->across) < kOnLine ? 1 : 0;
+    result.found.push_back(*outcome.found);
   }
   result.left_view = std::move(views.left);
   return result;
@@ -293,14 +295,12 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
 
 EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height) {
   EpipolarFit fit;
-  if (matches.size() < kMinFitCorners) return fit;
+  if (static_cast<int>(matches.size()) < kMinMatches) return fit;
   fit.samples = static_cast<int>(matches.size());
-  thread_local std::vector<RobustFit<3>::Row> rows;  // kept for their memory, as is `robust`
-  thread_local RobustFit<3> robust;
-  rows.clear();
+  std::vector<RobustFit<3>::Row> rows;
   for (const auto& match : matches)
     rows.push_back({match.across, {1, match.left.x() / width - 0.5, match.left.y() / height - 0.5}});
-  robust.terms.setZero();
+  RobustFit<3> robust;
   robust.measure(rows);
   fit.residual = robust.scatter;
   robust.fit(rows, kMinScale);

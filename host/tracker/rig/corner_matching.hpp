@@ -26,7 +26,6 @@ struct CornerMatch {
   bool is_aligned = true;  ///< whether it was aligned with sub-pixel accuracy, not only found at the coarse resolution
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of increasing `across`
   double inverse_depth = 0;                           ///< in the left camera, by `along` [1/m]
-  int edge = -1;                                      ///< index of the stereo edge, if it is one
   Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< where it was found [px]
   bool is_unique = true;                              ///< whether no other place was found that looks alike
   std::optional<Eigen::Vector2d> motion =
@@ -40,6 +39,7 @@ enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
 struct CornerSearch {
   int searched = 0;                ///< corners searched for
   std::vector<CornerMatch> found;  ///< found in the right image and, from there, again in the left one
+  int aligned = 0, on_line = 0;    ///< of these: with sub-pixel accuracy, and then within kOnLine of their line
   int saturated = 0;               ///< further corners, beside saturated pixels, which are none of the scene's
   double brightness = 1;           ///< mean grey level of the right view over that of the left one
   double more_saturated = 0;       ///< difference between the fractions of saturated pixels of the views

@@ -10,26 +10,14 @@
 namespace quadedge::rig {
 namespace {
 
-/// Of the corners of a left image, those found in a right one.
-struct OnLines {
-  int searched = 0, aligned = 0, on_line = 0;
+/// Whether images are of one moment, as far as their corners say.
+bool fits(const CornerSearch& search, double least) {
+  return search.aligned >= kMinMatches && search.on_line > least * search.aligned &&
+         search.on_line > kFittingFound * search.searched;
+}
 
-  /// Whether the images are of one moment, as far as their corners say.
-  bool fits(double least) const {
-    return aligned >= kMinMatches && on_line > least * aligned && on_line > kFittingFound * searched;
-  }
-  double ratio() const { return searched > 0 ? static_cast<double>(on_line) / searched : 0; }
-};
-
-OnLines count(const CornerMatcher& matcher, const Image& left, const Image& right, double max_disparity) {
-  const CornerSearch search = matcher.search({0, left.view(), right.view()}, max_disparity);
-  OnLines corners{search.searched};
-  for (const CornerMatch& match : search.found) {
-    if (!match.is_aligned) continue;
-    ++corners.aligned;
-    corners.on_line += std::abs(match.across) < kOnLine ? 1 : 0;
-  }
-  return corners;
+double on_line_ratio(const CornerSearch& search) {
+  return search.searched > 0 ? static_cast<double>(search.on_line) / search.searched : 0;
 }
 
 }  // namespace
@@ -37,26 +25,28 @@ OnLines count(const CornerMatcher& matcher, const Image& left, const Image& righ
 void ImageDelaySearch::add(const StereoRig& rig, const Image& left, const Image& right, double max_disparity,
                            bool looks) {
   const CornerMatcher matcher(rig);
-  const OnLines here = looks ? count(matcher, left, right, max_disparity) : OnLines{};
-  if (looks && !here.fits(kFittingOnLine)) {
+  const auto compare = [&](const Image& one, const Image& other) {
+    return matcher.search({0, one.view(), other.view()}, max_disparity);
+  };
+  const CornerSearch here = looks ? compare(left, right) : CornerSearch{};
+  if (looks && !fits(here, kSoundOnLine)) {
     doubted_ += kept_.size() == kMost ? 1 : 0;
     int best = 0;
-    OnLines there;
+    CornerSearch there;
     for (int size = 1; size <= static_cast<int>(kept_.size()); ++size) {
       const auto& [left_before, right_before] = kept_[static_cast<std::size_t>(size - 1)];
       for (const int delay : {size, -size}) {
-        const OnLines corners = delay > 0 ? count(matcher, left_before, right, max_disparity)
-                                          : count(matcher, left, right_before, max_disparity);
-        if (!corners.fits(kPartnerOnLine) || corners.on_line <= there.on_line) continue;
-        there = corners;
+        CornerSearch corners = delay > 0 ? compare(left_before, right) : compare(left, right_before);
+        if (!fits(corners, kPartnerOnLine) || corners.on_line <= there.on_line) continue;
+        there = std::move(corners);
         best = delay;
       }
     }
     if (best != 0 && here.on_line <= kLeftLines * there.on_line) {
       Votes& votes = votes_[best];
       ++votes.pairs;
-      votes.on_line += there.ratio();
-      votes.on_line_here += here.ratio();
+      votes.on_line += on_line_ratio(there);
+      votes.on_line_here += on_line_ratio(here);
     }
   }
   kept_.emplace_front(left, right);

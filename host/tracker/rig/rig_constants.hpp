@@ -8,7 +8,7 @@ namespace quadedge::rig {
 
 // Corners (patch_search.cpp).
 
-/// Correlation of two patches from which they count as a match.
+/// Correlation of two patches from which they count as a match, also of aligned ones.
 constexpr double kMinCorrelation = 0.8;
 /// A match is unique if its correlation exceeds all others in the search area by this.
 constexpr float kUniqueMargin = 0.03F;
@@ -22,7 +22,6 @@ constexpr double kMinCorner = 4;
 // Their refined matches (corner_matching.cpp).
 
 constexpr int kAlignedSpots = 240;
-constexpr double kMinAlignedCorrelation = 0.8;
 constexpr float kSaturated = 254.5F;  ///< grey level from which a pixel is saturated
 /// A refinement takes at most this many steps, ends when a step is shorter than kSettledShift, and is dropped when it
 /// leaves kMaxShift around its start [px].
@@ -39,7 +38,6 @@ constexpr double kCoarseWidth = 320;
 
 // The fit of their distances from the lines (corner_matching.cpp).
 
-constexpr std::size_t kMinFitCorners = 12;
 constexpr double kMinScale = 0.02;  ///< px
 
 // What all frames show of the rows (row_model.cpp).
@@ -79,7 +77,8 @@ constexpr double kReliableMatchedRatio = 0.65;
 /// The fit is not believed if more of the edges than the last number are matched and this fraction of the corners lies
 /// within kOnLine of the lines where the fit says kOffLine or more [px].
 constexpr double kOnLine = 1, kOffLine = 2, kContradictingRatio = 0.1, kCertainMatchedRatio = 0.75;
-/// Fraction of aligned corners on their lines from which a calibration fits, however few are found; sound: 0.77.
+/// Fraction of aligned corners on their lines from which images fit the calibration and are of one moment, however few
+/// are found; sound recordings reach 0.77, neighbours in time 0.5 where the image moves.
 constexpr double kSoundOnLine = 0.7;
 /// Searches over which the ratio of negative disparities is averaged, at least.
 constexpr int kNegativeSearches = 3;
@@ -108,15 +107,15 @@ constexpr double kLeastJumpScale = 0.05;  ///< of a disparity in the robust fit 
 
 // Right images of another moment (image_delay.cpp).
 
-/// Images are of one moment if more than the first ratio of their aligned corners lies on the lines, and more than the
-/// second of those searched: sound recordings reach 0.77 and 0.4, neighbours in time 0.5 and 0.2 where the image moves.
-constexpr double kFittingOnLine = 0.7, kFittingFound = 0.3;
-/// The first of these for partners that are looked for, whose rows may be off by as much as a rectification leaves.
+/// Of the corners searched, on their lines, for images of one moment: sound recordings reach 0.4, neighbours in time
+/// 0.2.
+constexpr double kFittingFound = 0.3;
+/// kSoundOnLine of partners that are looked for, whose rows may be off by as much as a rectification leaves.
 constexpr double kPartnerOnLine = 0.6;
 /// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
 constexpr double kLeftLines = 0.6;
 
-// Images that are bad (poor_images.cpp).
+// Images that are bad (corner_judgement.cpp).
 
 /// Corners beside saturated pixels over all, from which images are called saturated.
 constexpr double kSaturatedRatio = 0.3;
@@ -180,7 +179,7 @@ constexpr double kCombOwnGradient = 0.1;
 /// recordings from whose frames interlaced ones were made 0.2 to 0.9.
 constexpr double kInterlacedRatio = 0.15;
 
-// The time between the two images (rig_monitor.cpp, synchronisation.cpp).
+// The time between the two images (rig_monitor.cpp, row_model.cpp).
 
 constexpr double kTimeMemory = 20;  ///< frames
 constexpr int kMinSamples = 60;
@@ -193,9 +192,7 @@ constexpr double kMinTimeOffset = 0.3;  ///< frame intervals
 constexpr double kWrongPartner = 0.5;
 /// A camera that is later than this shows another motion, to which distances are not proportional [frame intervals].
 constexpr double kMaxTimeOffset = 8;
-/// Aligned corners on their lines below which images may show different moments, and frames in a row that are then
-/// searched for the time between them.
-constexpr double kDoubtfulOnLine = 0.7;
+/// Frames in a row that are searched for the time between the images, if they may show different moments.
 constexpr int kTimeSearches = 5;
 /// Median distance from the fit from which it explains nothing [px].
 constexpr double kHeldScatter = 0.5;

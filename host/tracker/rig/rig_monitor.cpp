@@ -70,7 +70,8 @@ Warning late_camera(double frames) {
 
 }  // namespace
 
-RigMonitor::RigMonitor(const StereoRig& rig, bool auto_mask) : rig_(rig), auto_mask_(auto_mask), corner_matcher_(rig) {}
+RigMonitor::RigMonitor(const StereoRig& rig, bool auto_mask)
+    : rig_(rig), auto_mask_(auto_mask), corner_matcher_(rig), times_(rig.right, kTimeMemory) {}
 
 std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
@@ -117,22 +118,17 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
   corner_matcher_.align(frame, edges, corner_matches_);
   report.matches = &corner_matches_;
-  const EpipolarFit fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height);
-  if (fit.samples > 0) {
-    evidence.epipolar_residual = fit.residual;
-    evidence.epipolar_offset = fit.offset;
-    evidence.epipolar_slope_x = fit.slope_x;
-    evidence.epipolar_slope_y = fit.slope_y;
-    evidence.epipolar_samples = fit.samples;
-  }
+  std::vector<double> distances;
+  for (const CornerMatch& match : corner_matches_) distances.push_back(std::abs(match.across));
+  if (static_cast<int>(distances.size()) >= kMinMatches) evidence.epipolar_residual = upper_median(distances);
   ++frames_since_search_;
   const auto repeated = find_repeated_images(frame);
   const bool is_frozen = repeated && repeated->is_mismatch;
   if (has_worsened(evidence)) {
     time_searches_ = 0;
-    if (synchronisation_.time_offset_frames() == 0) synchronisation_ = {};
+    if (times_.delay() == 0) forget_motions();
   }
-  const bool seeks_time = doubts_time(evidence) && time_searches_ < kTimeSearches && !synchronisation_.is_settled();
+  const bool seeks_time = doubts_time(evidence) && time_searches_ < kTimeSearches && !times_.would_show_delay();
   if (!is_frozen && left_edges > 0 && (seeks_time || needs_search(evidence))) {
     time_searches_ = seeks_time ? time_searches_ + 1 : 0;
     search(frame, max_disparity, rig, hidden, report);
@@ -152,7 +148,7 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
 
 /// Whether the images may show different moments.
 bool RigMonitor::doubts_time(const RigEvidence& evidence) const {
-  return (searched_ && searched_->on_line_ratio < kDoubtfulOnLine) || evidence.epipolar_residual > kDoubtfulResidual;
+  return (searched_ && searched_->on_line_ratio < kSoundOnLine) || evidence.epipolar_residual > kDoubtfulResidual;
 }
 
 /// Looks for corners, for displacements since the last frame, too, if that was searched; they show whether a camera is
@@ -187,18 +183,17 @@ void RigMonitor::search(const StereoFrame& frame, double max_disparity, const Ri
 /// corners are no points of the scene, and move with the camera as they do between the cameras.
 void RigMonitor::judge_time(const std::vector<CornerMatch>& found, RigReport& report) {
   if (report.evidence.matched_ratio > kCertainMatchedRatio) return;
-  std::vector<Synchronisation::Fit::Row> rows;
+  std::vector<CornerMatch> moved;
   std::vector<double> motions;
   for (const CornerMatch& match : found) {
     if (!match.is_aligned || !match.is_unique || !match.motion) continue;
     motions.push_back(match.motion->norm());
-    rows.push_back(Synchronisation::row(match.left.x() / rig_.left.width - 0.5, match.left.y() / rig_.left.height - 0.5,
-                                        match.across, match.motion->dot(match.normal)));
+    moved.push_back(match);
   }
   const double motion = motions.empty() ? RigEvidence::kUnknown : upper_median(motions);
-  if (motion > kMinImageMotion) synchronisation_.add(rows);
-  const double late = synchronisation_.time_offset_frames();
-  if (late == 0 || synchronisation_.is_contradicted_by(rows)) return;
+  if (motion > kMinImageMotion) times_.add(moved);
+  const double late = times_.delay();
+  if (late == 0 || times_.is_delay_contradicted_by(moved)) return;
   const bool is_off = std::isnan(motion) ? report.evidence.searched_residual > kDoubtfulResidual
                                          : std::abs(late) * motion > kDoubtfulResidual;
   const bool is_delayed = std::abs(late) > kWrongPartner && is_off;
@@ -209,18 +204,16 @@ void RigMonitor::judge_time(const std::vector<CornerMatch>& found, RigReport& re
 std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& current_from_last) {
   if (searched_ && doubts_time(*searched_)) return std::nullopt;  // edges then lie where matches were looked for
   const Eigen::Isometry3d last_from_current = current_from_last.inverse();
-  rows_.clear();
-  for (const CornerMatch& match : corner_matches_) {
+  std::vector<CornerMatch>& matches = corner_matches_;
+  for (CornerMatch& match : matches) {
     const Eigen::Vector3d last =
         last_from_current.linear() * rig_.left.ray(match.left) + last_from_current.translation() * match.inverse_depth;
-    if (!(last.z() > 0)) continue;
-    const Eigen::Vector2d motion = match.left - rig_.left.project(last);
-    rows_.push_back(Synchronisation::row(match.left.x() / rig_.left.width - 0.5,
-                                         match.left.y() / rig_.left.height - 0.5, match.across,
-                                         motion.dot(match.normal)));
+    if (last.z() > 0) match.motion = match.left - rig_.left.project(last);
   }
-  synchronisation_.add(rows_);
-  const double time_offset = synchronisation_.time_offset_frames();
+  const auto stands = [](const CornerMatch& match) { return !match.motion; };
+  matches.erase(std::remove_if(matches.begin(), matches.end(), stands), matches.end());
+  times_.add(matches);
+  const double time_offset = times_.delay();
   if (time_offset == 0) return std::nullopt;
   return RigFinding{late_camera(time_offset)};
 }

@@ -13,8 +13,8 @@
 #include "quadedge/rig_estimate.hpp"
 #include "rig/corner_matching.hpp"
 #include "rig/rig_finding.hpp"
+#include "rig/row_model.hpp"
 #include "rig/static_region.hpp"
-#include "rig/synchronisation.hpp"
 
 namespace quadedge::rig {
 
@@ -36,7 +36,7 @@ class RigMonitor {
   /// Adds the image motion of the frame passed to judge() since the last one; reports a camera that seems to lag.
   std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);
   /// The distances from the lines that were seen so far are those of another rig.
-  void forget_motions() { synchronisation_ = {}; }
+  void forget_motions() { times_ = RowModel(rig_.right, kTimeMemory); }
 
   /// Checks a single frame without edges, as `quadedge check` does. \param max_disparity of the cascade [px]
   static RigReport examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity);
@@ -57,8 +57,7 @@ class RigMonitor {
   const StereoRig& rig_;
   bool auto_mask_;
   CornerMatcher corner_matcher_;
-  Synchronisation synchronisation_;
-  std::vector<Synchronisation::Fit::Row> rows_;  ///< of observe_motion(), kept for its memory
+  RowModel times_;  ///< of matches with a motion
   StaticRegionDetector static_region_;
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched

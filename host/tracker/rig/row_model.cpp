@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "rig/rig_constants.hpp"
 
@@ -13,7 +14,8 @@ void RowModel::read(const std::vector<CornerMatch>& matches) {
   for (const CornerMatch& match : matches) {
     const double u = match.right.x() / right_.width - 0.5, v = match.right.y() / right_.height - 0.5;
     Terms terms;
-    terms << 1, u, v, u * u - kMeanSquare, u * v, v * v - kMeanSquare;
+    terms << 1, u, v, u * u - kMeanSquare, u * v, v * v - kMeanSquare,
+        match.motion ? -match.motion->dot(match.normal) : 0;
     rows_.push_back({match.across, terms});
   }
 }
@@ -25,17 +27,17 @@ double RowModel::scatter(const std::vector<CornerMatch>& matches) {
 }
 
 void RowModel::add(const std::vector<CornerMatch>& matches) {
-  if (matches.size() < kMinFitCorners) return;
-  constexpr double kKept = 1 - 1.0 / kRowMemory;
+  if (static_cast<int>(matches.size()) < kMinMatches) return;
   read(matches);
-  sums_.normal = kKept * sums_.normal + 1e-3 * Normal::Identity();
-  sums_.right_side *= kKept;
+  sums_.normal = kept_ * sums_.normal + 1e-3 * Normal::Identity();
+  sums_.right_side *= kept_;
   fit_.fit(rows_, kMinScale, sums_.normal, sums_.right_side);
   sums_.normal += fit_.normal;
   sums_.right_side += fit_.right_side;
-  sums_.shared *= kKept * kKept;
+  sums_.shared *= kept_ * kept_;
   if (sums_.frames > 0) sums_.shared += fit_.gradient * fit_.gradient.transpose();
-  sums_.frames = kKept * sums_.frames + 1;
+  sums_.frames = kept_ * sums_.frames + 1;
+  sums_.matches = kept_ * sums_.matches + static_cast<double>(matches.size());
   const double deviation = kDeviationOfMedian * fit_.scatter;
   sums_.variance += (deviation * deviation - sums_.variance) / sums_.frames;
   Fit none;
@@ -72,6 +74,26 @@ RowModel::Terms RowModel::certain_terms() const {
 
 double RowModel::unexplained() const {
   return sums_.whole_variance > 0 ? std::sqrt(sums_.variance / sums_.whole_variance) : 1;
+}
+
+double RowModel::delay_sigma() const {
+  if (sums_.matches < kMinSamples) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::fmax(kMinScale * kMinScale, sums_.variance) *
+                   sums_.normal.ldlt().solve(Terms::Unit(kDelay))[kDelay]);
+}
+
+double RowModel::delay() const {
+  const double delay = fit_.terms[kDelay], size = std::abs(delay);
+  return size > kMinTimeOffset && size < kMaxTimeOffset && size > kMinTimeSigmas * delay_sigma() ? delay : 0;
+}
+
+bool RowModel::would_show_delay() const { return kMinTimeSigmas * delay_sigma() < kMinTimeOffset; }
+
+bool RowModel::is_delay_contradicted_by(const std::vector<CornerMatch>& matches) const {
+  RowModel without = *this;
+  const double with = without.scatter(matches);
+  without.fit_.terms[kDelay] = 0;
+  return without.scatter(matches) < kLeftLines * with;
 }
 
 RectificationError RowModel::error() const {
