@@ -72,11 +72,13 @@ DEFINE_LATTICE(float, int, )
 DEFINE_LATTICE(float16, int16, 16)
 #endif
 
-// spacing[0] = distance of the lattice's lines at which the image with more edges has about `budget` of them [px]; 0:
-// all maxima are kept. The tally starts anew. One work-item.
-kernel void edge_selection_spacing(const int budget, global int* tally, global float* spacing) {
+// spacing[0] = distance of the lattice's lines at which the image with more edges has about `budget` of them, but no
+// larger than `most` unless it then has kDenseBudget times that number [px]; 0: all maxima are kept. The tally starts
+// anew. One work-item.
+kernel void edge_selection_spacing(const int budget, const float most, global int* tally, global float* spacing) {
   if (get_global_id(0) > 0) return;
-  const float wanted = (float)max(tally[0], tally[1]) / ((float)kSelectionUnit / kSelectionSample * (float)budget);
+  const float even = (float)max(tally[0], tally[1]) / ((float)kSelectionUnit / kSelectionSample * (float)budget);
+  const float wanted = max(min(even, most), even / kDenseBudget);
   spacing[0] = wanted > kClosestSelection ? rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0f;
   tally[0] = tally[1] = 0;
 }

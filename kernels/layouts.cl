@@ -182,6 +182,7 @@ enum {
 FLOAT_CONSTANT kSearchedWidth = 1.25f;    // of the maxima around a line that the searched image keeps, in steps
 FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px: a maximum more or less does not change it
 FLOAT_CONSTANT kClosestSelection = 1.0f;  // px; maxima of a curve are hardly closer
+FLOAT_CONSTANT kDenseBudget = 1.75f;      // times the budget has an image in which edges would be too far apart
 
 // edge_selection.cl.
 STRUCTURE(SelectionArguments) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/edge_detection.hpp"
@@ -110,7 +111,9 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
   EdgesConfig config;
   config.margin = 2;
   config.budget = 75;
-  for (const auto& rig : {rectified_rig(width, height), general_rig(width, height)}) {
+  for (const auto& [rig, most] :
+       {std::pair(rectified_rig(width, height), 0.0), std::pair(general_rig(width, height), 2.0)}) {
+    config.max_spacing = most;
     const SelectionArguments left = selection_arguments(rig, Side::left), right = selection_arguments(rig, Side::right);
     for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
       stages::EdgeDetection in_left(context, width, height, config, variants),
@@ -126,7 +129,7 @@ TEST_CASE("edge selection: devices keep exactly the same maxima as the reference
         return read(detection.maxima(), width, height);
       };
       const std::vector<DeviceMaxima> all = {find(in_left, 1), find(in_right, 2)};
-      const float spacing = reference::selection_spacing(left, all[0].maxima, right, all[1].maxima, config.budget);
+      const float spacing = reference::selection_spacing(left, all[0].maxima, right, all[1].maxima, config);
       REQUIRE(spacing > 0.6F);
       const auto kept_left = reference::kept_by_selection(left, all[0].maxima, spacing),
                  kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
@@ -169,6 +172,29 @@ TEST_CASE("edge selection: rows that lie beside the calibrated ones keep their n
       CHECK(number(right, {line.x, line.y}) == Approx(number(left, p)).margin(0.1));
     }
   }
+}
+
+TEST_CASE("edge selection: dense textures have more than the budget, at most 1.75 times as many edges", "[edges]") {
+  const SelectionArguments arguments = selection_arguments(rectified_rig(400, 400), Side::left);
+  reference::GradientMaxima maxima;
+  for (int x = 20; x < 380; x += 4) {
+    const auto curve = straight_curve(90 * kDegree, x, 20.71, 360);
+    maxima.x.insert(maxima.x.end(), curve.x.begin(), curve.x.end());
+    maxima.y.insert(maxima.y.end(), curve.y.begin(), curve.y.end());
+    maxima.gradient_x.insert(maxima.gradient_x.end(), curve.gradient_x.begin(), curve.gradient_x.end());
+    maxima.gradient_y.insert(maxima.gradient_y.end(), curve.gradient_y.begin(), curve.gradient_y.end());
+    maxima.row.insert(maxima.row.end(), curve.row.begin(), curve.row.end());
+  }
+  EdgesConfig config;
+  config.budget = 4000;  // of 90 curves of 360 px: 8.1 px apart
+  const auto spacing = [&](double most) {
+    config.max_spacing = most;
+    return static_cast<double>(reference::selection_spacing(arguments, maxima, arguments, maxima, config));
+  };
+  CHECK(spacing(0) == Approx(90 * 360 / 4000.0).epsilon(0.02));
+  CHECK(spacing(9) == spacing(0));
+  CHECK(spacing(6) == 6);
+  CHECK(spacing(2) == Approx(spacing(0) / 1.75).epsilon(0.01));
 }
 
 TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly spaced at every angle", "[edges]") {

@@ -29,14 +29,14 @@ TEST_CASE("presets: the default preset equals the program's defaults", "[cli]") 
 
 TEST_CASE("presets: --preset applies its file; --config and the command line override it", "[cli][device]") {
   CHECK(effective({"--preset", "dense"}).edges.budget == 0);
-  CHECK(effective({"--preset", "fast"}).edges.budget == 7000);
+  CHECK(effective({"--preset", "fast"}).edges.budget == 5000);
   CHECK(effective({"--preset", "dense", "--edges.budget", "9000"}).edges.budget == 9000);
   const TemporaryFolder folder;
   dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 9000\n");
   dataset_files::write_text(folder / "other.toml", "[stereo]\nncc_min = 0.5\n");
   CHECK(effective({"--preset", "fast", "--config", folder / "mine.toml"}).edges.budget == 9000);
   const Config both = effective({"--preset", "fast", "--config", folder / "other.toml"});
-  CHECK(both.edges.budget == 7000);
+  CHECK(both.edges.budget == 5000);
   CHECK(both.stereo.ncc_min == 0.5);
   check_error({"run", small_sequence(), "-o", folder / "out", "--preset", "fastest"}, 2, {"--preset", "fastest"});
   CHECK_THROWS_AS(data::read_preset("quick"), UsageError);

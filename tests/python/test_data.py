@@ -109,7 +109,7 @@ def test_configuration():
         quadedge.configuration("fastest")
     assert quadedge.presets() == ["fast", "default", "dense", "paper"]
     constants = quadedge.configuration("fast", {"stereo.max_disparity": 100, "pose.refine": False})
-    assert constants["edges.budget"] == 7000 and constants["stereo.max_disparity"] == 100
+    assert constants["edges.budget"] == 5000 and constants["stereo.max_disparity"] == 100
     assert constants["pose.refine"] is False and constants["seed"] == quadedge.configuration()["seed"]
 
 

@@ -181,6 +181,7 @@ void EdgeMask::run(EdgeMaxima& maxima) {
 EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const EdgeMaxima& maxima)
     : context_(context),
       budget_(config.budget),
+      most_(largest_spacing(config)),
       local_size_(context.is_cpu() ? 1 : 64),
       weighing_group_(std::min<std::size_t>(64, context.limits().group_items)) {
   spacing_.write(context, {0.0F});
@@ -226,7 +227,7 @@ void EdgeSelection::run(const SelectionArguments& in_left, const SelectionArgume
   context_.begin_stage("edge_selection");
   weigh(in_left, left, 0);
   weigh(in_right, right, 1);
-  space_({1, 1}, budget_, tally_, spacing_);
+  space_({1, 1}, budget_, most_, tally_, spacing_);
   choose(in_left, left);
   choose(in_right, right);
 }

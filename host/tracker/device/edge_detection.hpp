@@ -131,7 +131,7 @@ class EdgeMask {
 };
 
 /// Stage 2c: which maxima become edges.
-/// Reduces the maxima of a stereo pair to about edges.budget per image: those where curves cross evenly spaced epipolar
+/// Reduces the maxima of a stereo pair to about edges.budget per image, or more (edges.max_spacing): those where curves cross evenly spaced epipolar
 /// lines. The spacing stays on the device, so the host does not wait.
 class EdgeSelection {
  public:
@@ -153,6 +153,7 @@ class EdgeSelection {
 
   opencl::Context& context_;
   cl_int budget_;
+  cl_float most_;
   std::size_t local_size_, weighing_group_;
   opencl::Buffer<cl_int> tally_;  ///< weights of the left and the right image
   opencl::Buffer<cl_float> spacing_;
@@ -163,7 +164,7 @@ class EdgeSelection {
   opencl::Kernel<void(SelectionArguments args, const cl_float* winners, const cl_uchar* flags, cl_int image,
                       cl_int* tally)>
       weigh_pixels_;
-  opencl::Kernel<void(cl_int budget, cl_int* tally, cl_float* spacing)> space_;
+  opencl::Kernel<void(cl_int budget, cl_float most, cl_int* tally, cl_float* spacing)> space_;
   opencl::Kernel<void(SelectionArguments args, const cl_float* spacing_of_frame, cl_float* winners, cl_int* counts)>
       choose_rows_;
   opencl::Kernel<void(SelectionArguments args, const cl_float* spacing_of_frame, const cl_float* winners,

@@ -72,7 +72,7 @@ void ReferenceFrontend::detect(FrameEdges& current) {
     const SelectionArguments in_left = selection_arguments(calibration_, Side::left),
                              in_right = selection_arguments(calibration_, Side::right, rows().error());
     const reference::GradientMaxima left_maxima = maxima_of(left), right_maxima = maxima_of(right);
-    spacing = reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges.budget);
+    spacing = reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges);
     left = select_edges(left, kept_by_selection(in_left, left_maxima, spacing));
     right = select_edges(right, kept_by_selection(in_right, right_maxima, spacing));
   }

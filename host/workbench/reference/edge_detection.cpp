@@ -415,9 +415,12 @@ GradientMaxima maxima_of(const ReferenceEdges& edges) {
 }
 
 float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
-                        const SelectionArguments& right_arguments, const GradientMaxima& right, int budget) {
+                        const SelectionArguments& right_arguments, const GradientMaxima& right,
+                        const EdgesConfig& config) {
   const double most = std::max(weight_of_all(left_arguments, left), weight_of_all(right_arguments, right));
-  const float wanted = static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(budget));
+  const float even =
+      static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(config.budget));
+  const float wanted = std::max(std::min(even, largest_spacing(config)), even / kDenseBudget);
   return wanted > kClosestSelection ? std::rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0F;
 }
 

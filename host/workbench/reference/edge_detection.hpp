@@ -123,10 +123,9 @@ struct GradientMaxima {
 };
 GradientMaxima maxima_of(const ReferenceEdges& edges);
 
-/// Distance of the lattice's lines at which the image with more edges has about `budget` of them [px]; 0: all maxima of
-/// both images are kept.
+/// Distance of the lattice's lines by edges.budget and edges.max_spacing [px]; 0: all maxima of both images are kept.
 float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
-                        const SelectionArguments& right_arguments, const GradientMaxima& right, int budget);
+                        const SelectionArguments& right_arguments, const GradientMaxima& right, const EdgesConfig& config);
 
 /// Which maxima of an image become edges, one flag each.
 std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments, const GradientMaxima& maxima,
