@@ -1,15 +1,8 @@
 #pragma once
 /// \file background_program.hpp  The quadedge program as a background process that can be sent signals.
 
-#include <chrono>
 #include <csignal>
 #include <fcntl.h>
-#include <functional>
-#include <string>
-#include <sys/wait.h>
-#include <thread>
-#include <unistd.h>
-#include <vector>
 
 #include "program.hpp"
 

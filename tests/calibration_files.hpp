@@ -1,17 +1,12 @@
 #pragma once
 /// \file calibration_files.hpp  The same stereo rig in every calibration file format, written for tests.
 
-#include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/persistence.hpp>
-#include <sstream>
-#include <string>
 
 #include "dataset_files.hpp"
 
 namespace calibration_files {
-
-using dataset_files::write_text;
 
 /// A rig like EuRoC's: numbers with few digits, so that every format holds them exactly, except for the pose.
 struct Rig {

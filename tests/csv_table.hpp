@@ -1,12 +1,6 @@
 #pragma once
 /// \file csv_table.hpp  Reads CSV files of results by column name.
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "program.hpp"
 
 /// The fields of one line, which may be quoted.

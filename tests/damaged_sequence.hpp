@@ -1,11 +1,6 @@
 #pragma once
 /// \file damaged_sequence.hpp  A copy of the small rendered sequence for tests of bad input.
 
-#include <algorithm>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "program.hpp"
 
 /// A copy of the small sequence that a test may damage.

@@ -1,21 +1,13 @@
 #pragma once
 /// \file dataset_files.hpp  Small made-up recordings for tests, and the path of the real data.
 
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <string>
 
-#include "text_files.hpp"
+#include "testing.hpp"
 
 namespace dataset_files {
 
-inline void write_text(const std::string& path, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-}
+using ::write_text;
 
 /// An image with a different value at every position, so that flips and shifts show.
 inline cv::Mat pattern(int width, int height, int type = CV_8UC1) {

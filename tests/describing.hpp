@@ -1,14 +1,8 @@
 #pragma once
 /// \file describing.hpp  Random edges and images on devices, shared by the tests of side patches and SIFT descriptors.
 
-#include <random>
-#include <string>
-#include <vector>
-
 #include "device/edge_descriptions.hpp"
 #include "device/variants.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/image.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "stage_rows.hpp"
 

@@ -1,14 +1,7 @@
 #pragma once
 /// \file edge_images.hpp  Test images: noise, and 8-bit edges at known positions, by the coverage of pixels.
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <vector>
-
-#include "quadedge/image.hpp"
+#include "testing.hpp"
 
 /// An image with these pixel values, by columns of each row in order.
 inline quadedge::Image filled_image(int width, int height, int max_value,

@@ -1,13 +1,9 @@
 #pragma once
 /// \file edge_structure.hpp  Properties of every set of edges that the reference detects, shared by tests.
 
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "common/filter_limits.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/config.hpp"
 #include "reference/edge_detection.hpp"
+#include "testing.hpp"
 
 /// The threshold of tests without a threshold stage: the fixed one, or the one for images of normal contrast.
 inline double threshold_of(const quadedge::EdgesConfig& config) {

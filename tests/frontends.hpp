@@ -1,16 +1,8 @@
 #pragma once
 /// \file frontends.hpp  Small rendered scenes and runs of the whole frontend on them.
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "benchmark/compare_frontends.hpp"
 #include "matching.hpp"
-#include "quadedge/synthetic.hpp"
 
 namespace matching {
 
@@ -23,16 +15,11 @@ struct RenderedScene {
 
   RenderedScene(const std::string& name, int width, int height, int frames, int step = 1, int bits = 8,
                 double contrast = 1) {
-    SyntheticOptions options;
+    auto options = rendering(width, height, 0.575 * width, 1 + (frames - 1) * step, 3);
     options.bits = bits;
     options.contrast = contrast;
     options.scene = name;
-    options.width = width;
-    options.height = height;
-    options.focal = 0.575 * width;
     options.baseline = 0.15;
-    options.frames = 1 + (frames - 1) * step;
-    options.supersampling = 3;
     const SyntheticSequence sequence(options);
     rig = sequence.rig();
     config.stereo.max_disparity = sequence.rig().max_disparity;

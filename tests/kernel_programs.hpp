@@ -2,11 +2,10 @@
 /// \file kernel_programs.hpp  Programs that tests write around the kernels' own functions.
 
 #include <CL/opencl.hpp>
-#include <string>
-#include <vector>
 
 #include "device/context.hpp"
 #include "device/kernel_sources.hpp"
+#include "testing.hpp"
 
 /// Builds `source` behind common.cl, layouts.cl and `files`.
 inline cl::Program build_program(quadedge::opencl::Context& context, const std::vector<std::string>& files,

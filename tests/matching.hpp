@@ -1,23 +1,11 @@
 #pragma once
 /// \file matching.hpp  Made-up edges, candidate lists and device runs shared by the tests of the matching stages.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "device/candidates.hpp"
 #include "device/device_edges.hpp"
 #include "device/images.hpp"
 #include "device/stereo_matching.hpp"
 #include "device/variants.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/edges.hpp"
-#include "quadedge/image.hpp"
 #include "reference/candidates.hpp"
 #include "stage_rows.hpp"
 

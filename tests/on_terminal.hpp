@@ -2,11 +2,7 @@
 /// \file on_terminal.hpp  Runs the quadedge program on a terminal.
 
 #include <pty.h>
-#include <string>
 #include <sys/ioctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-#include <vector>
 
 #include "program.hpp"
 

@@ -1,14 +1,7 @@
 #pragma once
 /// \file own_camera.hpp  Sources of a user's own camera for tests: images in folders, in a video, in a pipe.
 
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <string>
-#include <vector>
-
 #include "program.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/stereo_source.hpp"
 
 namespace own_camera {
 
@@ -61,10 +54,6 @@ inline std::string pgm_stream_of_small() {
   for (const auto& frame : small_dataset().frames)
     text += pgm(quadedge::read_grey_image(frame.left)) + pgm(quadedge::read_grey_image(frame.right));
   return text;
-}
-
-inline void write_bytes(const std::string& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
 }
 
 /// Encodes a video from a file of concatenated PGM images with ffmpeg. `options`: of the output.

@@ -1,16 +1,14 @@
 #pragma once
 /// \file program.hpp  Runs the quadedge program as a user does.
 
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <sys/wait.h>
-#include <vector>
+#include "testing.hpp"
 
-#include "temporary_folder.hpp"
-#include "text_files.hpp"
+/// The words of a command line.
+using Words = std::vector<std::string>;
+inline Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 /// Result of a run of the program.
 struct ProgramResult {
@@ -45,7 +43,7 @@ inline std::string program_path() {
 
 /// Runs `quadedge ARGUMENTS` through the shell, with `environment` in front, for example "QUADEDGE_DEVICE=gpu". Quotes
 /// the arguments.
-inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
+inline ProgramResult run_program(const Words& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
   std::string command =
       "cd '" + folder.path() + "' && " + environment_of_tests() + " " + environment + " '" + program_path() + "'";
@@ -61,18 +59,18 @@ inline ProgramResult run_program(const std::vector<std::string>& arguments, cons
 }
 
 /// The same where it has to succeed.
-inline ProgramResult run_well(const std::vector<std::string>& arguments, const std::string& environment = "") {
+inline ProgramResult run_well(const Words& arguments, const std::string& environment = "") {
   ProgramResult result = run_program(arguments, environment);
-  INFO(Catch::StringMaker<std::vector<std::string>>::convert(arguments) << "\n" << result.err);
+  INFO(Catch::StringMaker<Words>::convert(arguments) << "\n" << result.err);
   REQUIRE(result.code == 0);
   return result;
 }
 
 /// The same where it has to end with `code` and an error message that has all these words.
-inline ProgramResult check_error(const std::vector<std::string>& arguments, int code,
-                                 const std::vector<std::string>& words = {}, const std::string& environment = "") {
+inline ProgramResult check_error(const Words& arguments, int code, const Words& words = {},
+                                 const std::string& environment = "") {
   ProgramResult result = run_program(arguments, environment);
-  INFO(Catch::StringMaker<std::vector<std::string>>::convert(arguments));
+  INFO(Catch::StringMaker<Words>::convert(arguments));
   CHECK(result.code == code);
   for (const std::string& word : words) CHECK_THAT(result.err, Catch::Contains(word));
   return result;

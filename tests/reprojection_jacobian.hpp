@@ -2,10 +2,8 @@
 /// \file reprojection_jacobian.hpp  The full Jacobian of a reprojection residual, with which tests build the normal
 /// equations that host/tracker/motion/ computes lane by lane.
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
 #include "motion/residuals.hpp"
+#include "testing.hpp"
 
 namespace quadedge::pose {
 

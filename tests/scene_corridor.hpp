@@ -1,11 +1,9 @@
 #pragma once
 /// \file scene_corridor.hpp  The scene "corridor" for the tests of places: bays with equal walls, doors and lamps.
-#include <memory>
-
-#include "quadedge/camera.hpp"
 #include "scenes/hash.hpp"
 #include "scenes/reflectance.hpp"
 #include "scenes/scenes.hpp"
+#include "testing.hpp"
 
 namespace quadedge::synthetic::corridor {
 

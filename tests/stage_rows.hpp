@@ -2,15 +2,7 @@
 /// \file stage_rows.hpp  The harness of the tests of stages: every variant on every device, twice, beside the plain
 /// C++.
 
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "devices.hpp"
-#include "quadedge/edges.hpp"
+#include "testing.hpp"
 
 /// How far a stage's values may lie from those of the plain C++; by default they are equal.
 struct Within {

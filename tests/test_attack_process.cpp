@@ -2,9 +2,6 @@
 /// program ($QUADEDGE) while something is missing, closed or full, and the expected outcome. To add an attack, add a
 /// row.
 
-#include <catch2/catch.hpp>
-#include <sys/wait.h>
-
 #include "program.hpp"
 
 using Catch::Matchers::Contains;

@@ -1,13 +1,7 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
 #include <opencv2/calib3d.hpp>
 
 #include "dataset_files.hpp"
 #include "geometry/lens_mapping.hpp"
-#include "quadedge/calibration.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -31,7 +25,7 @@ std::size_t hidden_pixels(const PixelMask& mask) {
 
 }  // namespace
 
-TEST_CASE("calibrated rig: the table equals OpenCV's for both models that OpenCV has", "[lens]") {
+TEST_CASE("calibrated rig: the table equals OpenCV's for both models that OpenCV has") {
   const cv::Matx33d k(100, 0, 79.5, 0, 101, 60.25, 0, 0, 1);
   const auto compare = [](const UndistortionTable& table, const cv::Mat& x, const cv::Mat& y) {
     REQUIRE(table.source_x.size() == 160u * 120u);
@@ -52,7 +46,7 @@ TEST_CASE("calibrated rig: the table equals OpenCV's for both models that OpenCV
   compare(make_rig(calibration_of(LensModel::equidistant, fisheye)).right_undistortion, x, y);
 }
 
-TEST_CASE("calibrated rig: images of pinhole cameras stay unchanged", "[lens]") {
+TEST_CASE("calibrated rig: images of pinhole cameras stay unchanged") {
   const StereoRig rig = make_rig(calibration_of(LensModel::radial_tangential, {0, 0, 0, 0}));
   CHECK(rig.left_undistortion.empty());
   CHECK(rig.left_mask.empty());
@@ -60,8 +54,7 @@ TEST_CASE("calibrated rig: images of pinhole cameras stay unchanged", "[lens]") 
   CHECK(rig.disparity_range() == Approx(100 * 0.1 / 0.5));
 }
 
-TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or has the requested field of view",
-          "[lens]") {
+TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or has the requested field of view") {
   CHECK(make_rig(calibration_of(LensModel::double_sphere, {-0.2, 0.5})).left.fx == Approx(125));
   // 160 px at 30 px per radian would be 139 degrees.
   StereoCalibration wide = calibration_of(LensModel::equidistant, {0, 0, 0, 0});
@@ -81,7 +74,7 @@ TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or
   CHECK_THROWS_WITH(make_rig(wide), Contains("rig.yaml") && Contains("size"));
 }
 
-TEST_CASE("calibrated rig: the mask hides exactly the area outside the recorded image", "[lens]") {
+TEST_CASE("calibrated rig: the mask hides exactly the area outside the recorded image") {
   // Pincushion: the pinhole view extends beyond the recorded image.
   for (const auto& calibration : {calibration_of(LensModel::radial_tangential, {0.3, 0, 0, 0}),
                                   calibration_of(LensModel::radial_tangential, {-0.6, 0, 0, 0})}) {
@@ -104,7 +97,7 @@ TEST_CASE("calibrated rig: the mask hides exactly the area outside the recorded 
   }
 }
 
-TEST_CASE("calibrated rig: a user's mask is mapped to the pinhole image", "[lens]") {
+TEST_CASE("calibrated rig: a user's mask is mapped to the pinhole image") {
   const TemporaryFolder folder;
   cv::Mat drawn(120, 160, CV_8UC1, cv::Scalar(255));
   drawn(cv::Rect(0, 100, 160, 20)) = 0;  // a car's bonnet

@@ -1,14 +1,9 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 
 #include "data/yaml_file.hpp"
 #include "dataset_files.hpp"
 #include "program.hpp"
-#include "quadedge/calibration.hpp"
-#include "quadedge/error.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -33,12 +28,12 @@ bool is_same_lens(const Lens& one, const Lens& other, std::vector<double> expect
 
 }  // namespace
 
-TEST_CASE("calibration export: every format gives back the rig that was written", "[calibration]") {
+TEST_CASE("calibration export: every format gives back the rig that was written") {
   const TemporaryFolder folder;
   struct Case {
     LensModel model;
     std::vector<double> left, right;
-    std::vector<std::string> formats;
+    Words formats;
   };
   const std::vector<Case> cases = {
       {LensModel::radial_tangential, {}, {}, {"native", "kalibr", "opencv", "ros"}},
@@ -84,7 +79,7 @@ TEST_CASE("calibration export: every format gives back the rig that was written"
   }
 }
 
-TEST_CASE("calibration export: OpenCV reads the matrices, and ROS's R and P rectify", "[calibration]") {
+TEST_CASE("calibration export: OpenCV reads the matrices, and ROS's R and P rectify") {
   const TemporaryFolder folder;
   const StereoCalibration given =
       calibration_of(LensModel::radial_tangential, {-0.35, 0.17, 2e-3, 1e-3, -0.05}, {-0.34, 0.16, 1e-3, 7e-4, -0.06});
@@ -116,7 +111,7 @@ TEST_CASE("calibration export: OpenCV reads the matrices, and ROS's R and P rect
   CHECK(p2[3] == Approx(-p2[0] * given.right_from_left.translation().norm()));
 }
 
-TEST_CASE("calibration export: what a format cannot hold is refused", "[calibration]") {
+TEST_CASE("calibration export: what a format cannot hold is refused") {
   const TemporaryFolder folder;
   const StereoCalibration with_k3 =
       calibration_of(LensModel::radial_tangential, {-0.35, 0.17, 2e-3, 1e-3, -0.05}, {-0.3, 0.1, 0, 0, 0});
@@ -142,10 +137,9 @@ TEST_CASE("calibration export: what a format cannot hold is refused", "[calibrat
 TEST_CASE("cli: check and calibrate write calibrations for other programs", "[cli]") {
   const TemporaryFolder folder;
   const std::string both = (folder / "left.yaml") + "," + (folder / "right.yaml");
-  const std::vector<std::string> check = {
-      "check",    small_sequence(),      "--quiet",  "--write-calibration", folder / "own.yaml",
-      "--kalibr", folder / "chain.yaml", "--opencv", folder / "stereo.yml", "--ros",
-      both};
+  const Words check = {"check",    small_sequence(),      "--quiet",  "--write-calibration", folder / "own.yaml",
+                       "--kalibr", folder / "chain.yaml", "--opencv", folder / "stereo.yml", "--ros",
+                       both};
   run_well(check);
   check_error(check, 2);  // without --force
   for (const std::string& files : {folder / "chain.yaml", folder / "stereo.yml", both}) {
@@ -159,7 +153,7 @@ TEST_CASE("cli: check and calibrate write calibrations for other programs", "[cl
     text.replace(text.find(side + "model: radtan"), side.size() + 13, side + "model: fov");
     text.replace(text.find(side + "coefficients: []"), side.size() + 16, side + "coefficients: [0.1]");
   }
-  dataset_files::write_text(folder / "fov.yaml", text);
+  write_text(folder / "fov.yaml", text);
   const auto refused = check_error({"check", small_sequence(), "--calibration", folder / "fov.yaml", "--opencv",
                                     folder / "fov.yml", "--kalibr", folder / "fov_chain.yaml"},
                                    2, {"fov.yml: format opencv: the left lens is fov with 1 parameter"});

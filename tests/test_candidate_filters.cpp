@@ -1,5 +1,3 @@
-#include <numeric>
-
 #include "device/candidates.hpp"
 #include "matching.hpp"
 #include "reference/edge_descriptions.hpp"
@@ -104,7 +102,7 @@ void check_states(const reference::Candidates& lists, const Verdicts& edges, con
 }  // namespace
 
 TEST_CASE("candidate filters: thresholds and nearly-best filters reject what a hand calculation rejects",
-          "[filters][matching][device][oclgrind]") {
+          "[device][oclgrind]") {
   Verdicts edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.96875, 100), edges.add(0.90625, 60), edges.add(0.59375, 50), edges.add(0.75, 201),
@@ -119,7 +117,7 @@ TEST_CASE("candidate filters: thresholds and nearly-best filters reject what a h
   check_states(lists, edges, limits_of(0.6f, 0, 0.9f, 0.5f), {0, 0, kNcc, 6, kNcc, 6, 0});
 }
 
-TEST_CASE("candidate filters: values on a threshold and ties pass", "[filters][matching][device][oclgrind]") {
+TEST_CASE("candidate filters: values on a threshold and ties pass", "[device][oclgrind]") {
   Verdicts edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.5, 200), edges.add(0.5, 200), edges.add(1, 100), edges.add(1, 100, true)};
@@ -130,8 +128,7 @@ TEST_CASE("candidate filters: values on a threshold and ties pass", "[filters][m
   CHECK(scores.sift == std::vector<float>{200, 200, 100, 100});
 }
 
-TEST_CASE("candidate filters: rows are independent, including empty rows and every second edge",
-          "[filters][matching][device][oclgrind]") {
+TEST_CASE("candidate filters: rows are independent, including empty rows and every second edge", "[device][oclgrind]") {
   Verdicts edges(5);
   // Edge 2 has the negated patch of the others, so what resembles them does not resemble it. Rows 0, 1, 2 belong to
   // edges 0, 2, 4.
@@ -148,7 +145,7 @@ TEST_CASE("candidate filters: rows are independent, including empty rows and eve
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.4f), {});
 }
 
-TEST_CASE("candidate filters: devices agree with the reference on random descriptions", "[filters][matching][device]") {
+TEST_CASE("candidate filters: devices agree with the reference on random descriptions", "[device]") {
   Random random(5);
   const auto describe = [&](int count) {
     reference::EdgeDescriptions set;

@@ -1,9 +1,4 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <map>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 
 #include "calibration_files.hpp"
 #include "program.hpp"
@@ -11,12 +6,12 @@
 using Catch::Matchers::Contains;
 using dataset_files::real_data;
 
-TEST_CASE("cli: the flight has the same trajectory with every calibration format", "[cli][calibration][data][device]") {
+TEST_CASE("cli: the flight has the same trajectory with every calibration format", "[cli][device]") {
   const std::string flight = real_data("euroc_mh_01_easy"), kalibr = real_data("calibrations");
   if (flight.empty() || kalibr.empty()) return;
   const TemporaryFolder folder;
   const std::string sensors = flight + "/mav0/cam0/sensor.yaml," + flight + "/mav0/cam1/sensor.yaml";
-  const std::vector<std::string> check = {"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"};
+  const Words check = {"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"};
   run_well(check);
   check_error(check, 2, {"--force"});
   calibration_files::Rig rig;
@@ -32,14 +27,11 @@ TEST_CASE("cli: the flight has the same trajectory with every calibration format
   rig.body_from_right = body_from("cam1");
   calibration_files::write_opencv(rig, folder / "stereo.yml");
   const auto infos = calibration_files::ros_camera_infos(rig);
-  dataset_files::write_text(folder / "left.yaml", infos.first);
-  dataset_files::write_text(folder / "right.yaml", infos.second);
-  const std::vector<std::string> run = {"run", flight, "--frames", "0:8", "--quiet", "-o"};
+  write_text(folder / "left.yaml", infos.first);
+  write_text(folder / "right.yaml", infos.second);
+  const Words run = {"run", flight, "--frames", "0:8", "--quiet", "-o"};
   const auto trajectory = [&](const std::string& name, const std::string& calibration) {
-    std::vector<std::string> arguments = run;
-    arguments.push_back(folder / name);
-    if (!calibration.empty()) arguments.insert(arguments.end(), {"--calibration", calibration});
-    run_well(arguments);
+    run_well(run + Words{folder / name} + (calibration.empty() ? Words() : Words{"--calibration", calibration}));
     return read_text(folder / (name + "/poses.csv"));
   };
   const std::string expected = trajectory("layout", "");
@@ -50,16 +42,15 @@ TEST_CASE("cli: the flight has the same trajectory with every calibration format
   CHECK(trajectory("native", folder / "native.yaml") == expected);
 }
 
-TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with its exit code", "[cli][calibration]") {
+TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with its exit code", "[cli]") {
   const TemporaryFolder folder;
   const std::string flight = dataset_files::write_euroc(folder / "flight");
-  const auto fails = [&](std::vector<std::string> arguments, int code, const std::string& found) {
-    arguments.insert(arguments.begin(), {"run", flight, "-o", folder / "out"});
-    check_error(arguments, code, {found});
+  const auto fails = [&](const Words& arguments, int code, const std::string& found) {
+    check_error(Words{"run", flight, "-o", folder / "out"} + arguments, code, {found});
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
   };
   const calibration_files::Rig rig;
-  dataset_files::write_text(folder / "chain.yaml", calibration_files::kalibr_chain(rig, "T_imu_cam"));
+  write_text(folder / "chain.yaml", calibration_files::kalibr_chain(rig, "T_imu_cam"));
   fails({"--calibration", folder / "chain.yaml"}, 3, "752 x 480");
   fails({"--calibration", folder / "absent.yaml"}, 3, "absent.yaml");
   fails({"--fov", "190"}, 2, "--fov");
@@ -75,7 +66,7 @@ TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with
              Contains("left_coefficients: []") && Contains("translation: [-0.5, 0, 0]"));
 }
 
-TEST_CASE("cli: KITTI's rectified images beside the cameras as they record are proposed as rectified", "[cli][data]") {
+TEST_CASE("cli: KITTI's rectified images beside the cameras as they record are proposed as rectified", "[cli]") {
   const std::string drive = real_data("kitti_raw_layout");
   if (drive.empty()) return;
   const TemporaryFolder folder;
@@ -88,18 +79,17 @@ TEST_CASE("cli: KITTI's rectified images beside the cameras as they record are p
     if (colon != std::string::npos) numbers[line.substr(0, colon)] = line.substr(colon + 2);
   }
   for (const std::string camera : {"00", "01"}) {
-    dataset_files::write_text(folder / camera, "height: 375\nwidth: 1242\ndistortion_model: plumb_bob\nD: [" +
-                                                   numbers["D_" + camera] + "]\nK: [" + numbers["K_" + camera] +
-                                                   "]\nR: [" + numbers["R_rect_" + camera] + "]\nP: [" +
-                                                   numbers["P_rect_" + camera] + "]\n");
+    write_text(folder / camera, "height: 375\nwidth: 1242\ndistortion_model: plumb_bob\nD: [" + numbers["D_" + camera] +
+                                    "]\nK: [" + numbers["K_" + camera] + "]\nR: [" + numbers["R_rect_" + camera] +
+                                    "]\nP: [" + numbers["P_rect_" + camera] + "]\n");
   }
   const std::string images = date + "2011_09_26_drive_0001_sync/image_";
-  std::vector<std::string> check = {"check",   "--left",           images + "00/data",
-                                    "--right", images + "01/data", "--fps",
-                                    "10",      "--calibration",    (folder / "00") + "," + (folder / "01")};
+  Words check = {"check",   "--left",           images + "00/data",
+                 "--right", images + "01/data", "--fps",
+                 "10",      "--calibration",    (folder / "00") + "," + (folder / "01")};
   CHECK_THAT(run_program(check).out, Contains("--rectified takes P"));
-  check.emplace_back("--rectified");
-  CHECK_THAT(run_program(check).out, !Contains("--rectified takes P") && !Contains("do not fit"));
+  CHECK_THAT(run_program(check + Words{"--rectified"}).out,
+             !Contains("--rectified takes P") && !Contains("do not fit"));
 }
 
 TEST_CASE("check: few corners with a partner say nothing against a calibration whose lines they lie on", "[cli]") {

@@ -1,6 +1,3 @@
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "damaged_sequence.hpp"
@@ -9,7 +6,6 @@
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-using dataset_files::write_text;
 namespace fs = std::filesystem;
 
 TEST_CASE("synth: writes a sequence that passes check", "[cli]") {
@@ -19,12 +15,10 @@ TEST_CASE("synth: writes a sequence that passes check", "[cli]") {
 
 TEST_CASE("synth: refuses an existing folder without --force", "[cli]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> synth = {"synth", folder / "s", "--frames", "1", "--size", "160x100", "--quiet"};
+  const Words synth = {"synth", folder / "s", "--frames", "1", "--size", "160x100", "--quiet"};
   run_well(synth);
   check_error(synth, 2, {"--force"});
-  auto forced = synth;
-  forced.push_back("--force");
-  run_well(forced);
+  run_well(synth + Words{"--force"});
 }
 
 TEST_CASE("check: a damaged image hides nothing of what the others say of the calibration", "[cli]") {
@@ -48,8 +42,8 @@ TEST_CASE("evaluate trajectory: known errors are printed for both alignments", "
     estimate << k << " 0 0 " << 1.01 * k << " 0 0 0 1\n";
   }
   truth.close(), estimate.close();
-  const std::vector<std::string> evaluate = {"evaluate",           "trajectory", folder / "estimate.txt",
-                                             folder / "truth.txt", "--json",     folder / "e.json"};
+  const Words evaluate = {"evaluate",           "trajectory", folder / "estimate.txt",
+                          folder / "truth.txt", "--json",     folder / "e.json"};
   const auto result = run_well(evaluate);
   CHECK_THAT(result.out, Contains("origin-aligned") && Contains("SE(3)-aligned"));
   CHECK_THAT(result.out, Contains("APE translation [m]       0.0200000    0.0141421    0.0244949    0.0400000"));
@@ -102,13 +96,12 @@ TEST_CASE("evaluate trajectory: the rows of lost frames beside frames.csv are no
   write_text(folder / "truth.txt", truth);
   write_text(folder / "run/trajectory_kitti.txt", rows);
   write_text(folder / "run/frames.csv", frames);
-  const std::vector<std::string> evaluate = {"evaluate", "trajectory", folder / "run/trajectory_kitti.txt",
-                                             folder / "truth.txt", "--steps"};
+  const Words evaluate = {"evaluate", "trajectory", folder / "run/trajectory_kitti.txt", folder / "truth.txt",
+                          "--steps"};
   CHECK_THAT(run_well(evaluate).out, Contains("5 of 5 estimated poses") && Contains("3 right, 0 wrong, 2 lost of 5") &&
                                          Contains("RPE translation [m]       0.0000000"));
-  auto later = evaluate;
-  later.insert(later.end(), {"--from-frame", "3"});
-  CHECK_THAT(run_well(later).out, Contains("3 of 5 estimated poses") && Contains("2 right, 0 wrong, 0 lost of 2"));
+  CHECK_THAT(run_well(evaluate + Words{"--from-frame", "3"}).out,
+             Contains("3 of 5 estimated poses") && Contains("2 right, 0 wrong, 0 lost of 2"));
   write_text(folder / "run/frames.csv", frames.substr(0, frames.rfind("5,0")));
   check_error(evaluate, 3, {"frames.csv", "5 frames", "6 as in"});
 }
@@ -148,8 +141,7 @@ TEST_CASE("evaluate trajectory: EuRoC's data.csv has poses of the body, of which
              "1000000000,0,0,0,1,0,0,0\n2000000000,0,0,0,0.70710678,0,0,0.70710678\n3000000000,0,0,0,0,0,0,1\n");
   write_text(folder / "left.txt",  // axes x: right, y: down, z: ahead
              "1 1 0 0 -0.5 0.5 -0.5 0.5\n2 0 1 0 -0.70710678 0 0 0.70710678\n3 -1 0 0 -0.5 -0.5 0.5 0.5\n");
-  const std::vector<std::string> evaluate = {"evaluate", "trajectory", folder / "left.txt",
-                                             folder / "mav0/mocap0/data.csv"};
+  const Words evaluate = {"evaluate", "trajectory", folder / "left.txt", folder / "mav0/mocap0/data.csv"};
   check_error(evaluate, 3, {"data.csv", "poses of the body", "cam0/sensor.yaml", "T_BS"});
   write_text(folder / "mav0/cam0/sensor.yaml",
              "T_BS:\n  cols: 4\n  rows: 4\n  data: [0, 0, 1, 1, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1]\n");

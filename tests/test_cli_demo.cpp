@@ -1,6 +1,3 @@
-#include <catch2/catch.hpp>
-#include <filesystem>
-
 #include "background_program.hpp"
 
 using Catch::Matchers::Contains;
@@ -44,7 +41,7 @@ TEST_CASE("demo: two demos that render the same images at the same time do not i
   const TemporaryFolder folder;
   const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
   const auto demo = [&](const std::string& out) {
-    return std::vector<std::string>{"demo", "-o", folder / out, "--frames", "4", "--size", "320x200"};
+    return Words{"demo", "-o", folder / out, "--frames", "4", "--size", "320x200"};
   };
   BackgroundProgram one(demo("one"), folder / "log_one", environment);
   BackgroundProgram other(demo("other"), folder / "log_other", environment);

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -25,7 +23,7 @@ TEST_CASE("run, evaluate: an unknown motion divides the trajectory into segments
     run_well({"synth", folder / scene, "--scene", scene, "--frames", "6", "--size", "320x200", "--quiet"});
   for (const std::string camera : {"/rgb", "/rgb2"}) {
     const auto images = [&](const std::string& scene) {
-      std::vector<std::string> files;
+      Words files;
       for (const auto& entry : std::filesystem::directory_iterator((folder / scene) + camera))
         files.push_back(entry.path().string());
       std::sort(files.begin(), files.end());
@@ -37,7 +35,7 @@ TEST_CASE("run, evaluate: an unknown motion divides the trajectory into segments
       std::filesystem::copy_file(cables[i], room[i], std::filesystem::copy_options::overwrite_existing);
   }
   const auto run = run_well({"run", folder / "room", "-o", folder / "out", "--stereo.max_disparity", "60"});
-  CHECK(csv_column(folder / "out/frames.csv", "segment") == std::vector<std::string>{"0", "0", "0", "0", "1", "1"});
+  CHECK(csv_column(folder / "out/frames.csv", "segment") == Words{"0", "0", "0", "0", "1", "1"});
   CHECK_THAT(run.err, Contains("warning: frame 4: the motion between frames 1 and 4 is unknown"));
   CHECK_THAT(run.out, Contains("broken     2 segments: an unknown motion lies between frames 1 and 4"));
   const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
@@ -85,15 +83,4 @@ TEST_CASE("run: with too few tracked frames it ends with code 5 after writing ev
   }
   for (const auto& out : {loud.out, quiet.out}) CHECK_THAT(out, Contains("lost       3 too few edges"));
   run_well({"run", sequence.path(), "-o", folder / "loud", "--force", "--min-tracked", "25"});
-}
-
-TEST_CASE("edges: a kernel that does not build ends with code 4 and names its file and line", "[cli][device]") {
-  const TemporaryFolder folder;
-  std::filesystem::copy(QUADEDGE_KERNELS, folder / "kernels");
-  std::ofstream(folder / "kernels/common.cl") << "int broken(int a) {\n  return undeclared;\n}\n";
-  const DamagedSequence sequence;
-  const std::vector<std::string> edges = {"edges", sequence.image("rgb", 0).string(), "--kernels", folder / "kernels"};
-  check_error(edges, 4, {"common.cl:2"});
-  std::filesystem::remove(folder / "kernels/common.cl");
-  check_error(edges, 3, {"common.cl"});
 }

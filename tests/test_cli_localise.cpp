@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -30,8 +28,8 @@ TEST_CASE("localise: the frames of a map are found in it", "[cli][device]") {
   CHECK(fs::exists(map.folder / "out/trajectory_map.txt"));  // --save-map implies --loops
   for (const bool follow : {false, true}) {
     const TemporaryFolder folder;
-    std::vector<std::string> arguments = {"localise", map.file(), small_sequence(), "-o", folder / "out", "--quiet"};
-    if (follow) arguments.emplace_back("--follow");
+    const Words arguments = Words{"localise", map.file(), small_sequence(), "-o", folder / "out", "--quiet"} +
+                            (follow ? Words{"--follow"} : Words());
     CHECK_THAT(run_well(arguments).out, Contains("located    4 of 4 frames") && Contains("SE(3)-aligned"));
     CHECK(read_lines(folder / "out/trajectory.txt").size() == 5);
     const auto rows = read_lines(folder / "out/locations.csv");
@@ -50,10 +48,8 @@ TEST_CASE("localise: errors have the documented exit codes", "[cli][device]") {
   const SharedMap& map = shared_map();
   REQUIRE(map.result.code == 0);
   const TemporaryFolder folder;
-  const auto refused = [&](std::vector<std::string> arguments, int code, const std::string& words) {
-    arguments.insert(arguments.begin(), "localise");
-    arguments.insert(arguments.end(), {"-o", folder / "out", "--quiet"});
-    check_error(arguments, code, {words});
+  const auto refused = [&](const Words& arguments, int code, const std::string& words) {
+    check_error(Words{"localise"} + arguments + Words{"-o", folder / "out", "--quiet"}, code, {words});
   };
   refused({small_sequence() + "/absent.map", small_sequence()}, 3, "absent.map");
   refused({map.folder / "out/report.json", small_sequence()}, 3, "report.json: found a file of another kind");

@@ -1,8 +1,4 @@
-#include <catch2/catch.hpp>
-#include <fstream>
-
 #include "on_terminal.hpp"
-#include "temporary_folder.hpp"
 
 using Catch::Matchers::Contains;
 
@@ -20,8 +16,8 @@ TEST_CASE("command line: every command's help shows examples, and lists the scen
 
 TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> run = {"run", small_sequence(), "--device", "reference",   "--frames",
-                                        "0:1", "--force",        "-o",       folder / "out"};
+  const Words run = {"run", small_sequence(), "--device", "reference",   "--frames",
+                     "0:1", "--force",        "-o",       folder / "out"};
   CHECK_THAT(run_on_terminal(run, 80, "TERM=xterm"), Contains("\x1b[K") && Contains("frame 1/1"));
   for (const char* environment : {"TERM=dumb", "-u TERM"})
     CHECK_THAT(run_on_terminal(run, 80, environment), !Contains("\x1b") && Contains("frame 1/1"));
@@ -50,22 +46,30 @@ TEST_CASE("command line: invalid use ends with code 2 and names the error", "[cl
   check_error({"demo", "--size", "320x200x3"}, 2);
   check_error({"demo", "--variant", "cooking=fast"}, 2, {"cooking", "undistortion"});
   check_error({"demo", "--variant", "undistortion"}, 2);
+  for (const Words& bench : {Words{"--frames", "0"},
+                             {"--warm-up", "-1"},
+                             {"--edges", "-2"},
+                             {"--noise", "-1"},
+                             {"--compare", "old.json"},
+                             {"somewhere", "--size", "64x48"}})
+    check_error(Words{"bench"} + bench, 2);
+  for (const Words& compare :
+       {Words{"--stage", "none"}, {"--repetitions", "0"}, {"--edges", "-1"}, {"--device", "reference"}})
+    check_error(Words{"compare"} + compare, 2);
 }
 
-TEST_CASE("configuration file: unknown keys, bad values and missing files end with code 2 and name the key", "[cli]") {
+TEST_CASE("configuration file: what is wrong in it ends with code 2 and names file, line and key", "[cli]") {
   const TemporaryFolder folder;
-  const auto check_refused = [&](const std::string& text, const std::vector<std::string>& words) {
+  const Words edges = {"edges", "x.png", "--config"};
+  for (const auto& [text, words] :
+       {std::pair<std::string, Words>{"[stereo]\nncc_minimum = 0.7\n", {"stereo.ncc_minimum"}},
+        {"IMAGE = \"other.png\"\n", {}},
+        {"force = 1\n", {"config.toml:1: force: expected true or false, found 1"}}}) {
     std::ofstream(folder / "config.toml") << text;
-    check_error({"edges", "x.png", "--config", folder / "config.toml"}, 2, words);
-  };
-  check_refused("[stereo]\nncc_minimum = 0.7\n", {"stereo.ncc_minimum", "config.toml"});
-  check_refused("sigma = 2\n", {"\"sigma\""});
-  check_refused("IMAGE = \"other.png\"\n", {});
-  check_refused("[edges]\nsigma = \"wide\"\n", {"edges.sigma", "wide"});
-  check_refused("seed = 3\n[edges]\nsigma = 2\n[edges]\nsigma = 3\n", {"config.toml:4:", "'edges'"});
-  check_refused("force = 1\n", {"config.toml:1: force: expected true or false, found 1"});
-  check_error({"edges", "x.png", "--config", folder / "absent.toml"}, 2, {"absent.toml"});
-  check_error({"edges", "x.png", "--config", folder.path()}, 2);
+    check_error(edges + Words{folder / "config.toml"}, 2, words + Words{"config.toml"});
+  }
+  check_error(edges + Words{folder / "absent.toml"}, 2, {"absent.toml"});
+  check_error(edges + Words{folder.path()}, 2);
 }
 
 TEST_CASE("configuration file: the command line overrides the environment, which overrides the file", "[cli]") {

@@ -1,6 +1,4 @@
 #include <csignal>
-#include <filesystem>
-#include <sys/stat.h>
 
 #include "background_program.hpp"
 #include "own_camera.hpp"
@@ -16,13 +14,13 @@ struct OwnCamera {
   std::string calibration = own_camera::write_calibration_of_small(folder / "rig.yaml");
   std::string stream = folder / "pairs.pgm", video = folder / "both.mkv";
   OwnCamera() {
-    own_camera::write_bytes(stream, own_camera::pgm_stream_of_small());
+    write_text(stream, own_camera::pgm_stream_of_small());
     std::string both;
     for (const auto& frame : own_camera::small_dataset().frames) {
       both += own_camera::pgm(
           own_camera::joined(quadedge::read_grey_image(frame.left), quadedge::read_grey_image(frame.right)));
     }
-    own_camera::write_bytes(folder / "both.pgm", both);
+    write_text(folder / "both.pgm", both);
     own_camera::encode(folder / "both.pgm", "-c:v ffv1 -pix_fmt gray -g 1", video);
   }
 };
@@ -33,7 +31,7 @@ const OwnCamera& camera() {
 }
 
 /// Arguments of a run that reads from the video.
-std::vector<std::string> video_run(const std::string& video, const std::string& out) {
+Words video_run(const std::string& video, const std::string& out) {
   return {"run", "--video", video, "--split", "left-right", "--calibration", camera().calibration, "-o", out};
 }
 
@@ -71,7 +69,7 @@ TEST_CASE("run: nanosecond names stay the stamps with --fps, which only has to a
   const TemporaryFolder folder;
   for (const char* side : {"left", "right"}) fs::create_directory(folder / side);
   constexpr std::int64_t kFirst = 1403715273262142976;
-  std::vector<std::string> stamps;
+  Words stamps;
   const auto& frames = own_camera::small_dataset().frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::string name = std::to_string(kFirst + 50'000'000 * static_cast<std::int64_t>(i));
@@ -109,9 +107,9 @@ TEST_CASE("match: a pair from a pipe is matched like the same pair from folders"
 TEST_CASE("run: a pipe is read whole; with --live, pairs that come too fast are dropped and counted", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string all = own_camera::pgm_stream_of_small();
-  own_camera::write_bytes(folder / "many.pgm", all + all + all + all + all);
-  std::vector<std::string> run = {
-      "run", "-", "--fps", "20", "--min-tracked", "0", "--calibration", camera().calibration, "-o", folder / "whole"};
+  write_text(folder / "many.pgm", all + all + all + all + all);
+  Words run = {"run",           "-", "--fps", "20", "--min-tracked", "0", "--calibration", camera().calibration, "-o",
+               folder / "whole"};
   CHECK_THAT(run_well(run, through_a_pipe(folder / "many.pgm")).out, !Contains("dropped"));
   CHECK(read_lines(folder / "whole/frames.csv").size() == 21);
   CHECK_THAT(read_text(folder / "whole/report.json"), Contains("\"dropped\": 0"));
@@ -130,9 +128,9 @@ TEST_CASE("run: a video that ends early ends with code 3, and its frames and map
   const TemporaryFolder folder;
   fs::copy(camera().video, folder / "cut.mkv");
   fs::resize_file(folder / "cut.mkv", fs::file_size(folder / "cut.mkv") * 3 / 4);
-  auto arguments = video_run(folder / "cut.mkv", folder / "out");
-  arguments.insert(arguments.end(), {"--points", folder / "map.ply", "--points-min-views", "1"});
-  check_error(arguments, 3, {"cut.mkv", "finished frame"});
+  check_error(
+      video_run(folder / "cut.mkv", folder / "out") + Words{"--points", folder / "map.ply", "--points-min-views", "1"},
+      3, {"cut.mkv", "finished frame"});
   CHECK_THAT(read_text(folder / "out/report.json"), Contains("ended_early") && Contains("cut.mkv"));
   CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() >= 2);
   CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
@@ -189,11 +187,11 @@ TEST_CASE("run: a signal ends a run that waits for a pipe, and its frames and ma
 
 TEST_CASE("run: images of a pipe take the timestamps of --times; the report has name and options", "[cli][device]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> times = {"7.000000001", "7.050000000", "7.120000000", "7.150000000"};
+  const Words times = {"7.000000001", "7.050000000", "7.120000000", "7.150000000"};
   std::string rows;
   for (const auto& time : times) rows += time + "\n";
-  own_camera::write_bytes(folder / "times.txt", rows);
-  const auto run = [&](const std::string& file, const std::string& out) -> std::vector<std::string> {
+  write_text(folder / "times.txt", rows);
+  const auto run = [&](const std::string& file, const std::string& out) -> Words {
     return {"run", "-",         "--name", "yard", "--times", folder / file, "--calibration", camera().calibration,
             "-o",  folder / out};
   };
@@ -204,17 +202,14 @@ TEST_CASE("run: images of a pipe take the timestamps of --times; the report has 
   const std::string report = read_text(folder / "out/report.json");
   CHECK_THAT(report, Contains("\"name\": \"yard\"") && Contains("\"calibration\": \"" + camera().calibration + "\"") &&
                          Contains("\"times\": \"" + (folder / "times.txt") + "\""));
-  own_camera::write_bytes(folder / "few.txt", "1\n2\n");
+  write_text(folder / "few.txt", "1\n2\n");
   check_error(run("few.txt", "few"), 3, {"few.txt: found 2 times, expected one for every pair"},
               through_a_pipe(camera().stream));
 }
 
 TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
-  const std::vector<std::string> source = {"--video",    camera().video,  "--split",
-                                           "left-right", "--calibration", camera().calibration};
-  const auto with_source = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), source.begin(), source.end());
-    return arguments;
+  const auto with_source = [&](const Words& arguments) {
+    return arguments + Words{"--video", camera().video, "--split", "left-right", "--calibration", camera().calibration};
   };
   CHECK_THAT(run_well(with_source({"check"})).out, Contains("format: video") && Contains("frames: 4") &&
                                                        Contains("frame 0: epipolar residual") &&

@@ -1,6 +1,4 @@
 /// \file test_cli_process.cpp  The program as a process: closed streams, limits, permissions, and two at once.
-#include <catch2/catch.hpp>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "background_program.hpp"
@@ -46,15 +44,11 @@ TEST_CASE("process: output to closed streams does not end up in a file", "[cli][
 TEST_CASE("process: two runs never write into the same folder", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
-  const std::vector<std::string> run = {"run", small_sequence(), "-o", out};
+  const Words run = {"run", small_sequence(), "-o", out};
   BackgroundProgram first(run, folder / "log");
   REQUIRE(first.wait_until([&] { return fs::exists(out + "/frames.csv"); }));
   kill(first.process(), SIGSTOP);
-  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--force"}}) {
-    auto arguments = run;
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    check_error(arguments, 2, {out, "is writing to this folder"});
-  }
+  for (const Words& more : {Words(), Words{"--force"}}) check_error(run + more, 2, {out, "is writing to this folder"});
   kill(first.process(), SIGCONT);
   REQUIRE_FALSE(first.wait_until([] { return false; }));
   CHECK(read_lines(out + "/trajectory.txt").size() == 5);
@@ -67,7 +61,7 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
   std::ofstream(folder / "file") << "in the way";
   fs::create_directory(folder / "results");
   const std::string image = (*fs::directory_iterator(small_sequence() + "/rgb")).path().string();
-  const std::vector<std::vector<std::string>> commands = {
+  const std::vector<Words> commands = {
       {"run", small_sequence(), "--device", "reference", "-o", folder / "out", "--force", "--trace"},
       {"demo", "--frames", "2", "--size", "160x100", "--device", "reference", "-o", folder / "demo", "--force",
        "--trace"},
@@ -76,9 +70,7 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
       {"edges", image, "--csv"}};
   for (const auto& command : commands) {
     for (const std::string& file : {folder / "absent/t.json", folder / "file/t.json", folder / "results"}) {
-      auto arguments = command;
-      arguments.push_back(file);
-      check_error(arguments, 3, {file, "expected a writable location"});
+      check_error(command + Words{file}, 3, {file, "expected a writable location"});
       CHECK_FALSE(fs::exists(folder / "out/trajectory.txt"));
     }
   }

@@ -1,11 +1,6 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <filesystem>
-
 #include "dataset_files.hpp"
 #include "program.hpp"
 
-using dataset_files::write_text;
 namespace fs = std::filesystem;
 
 namespace {
@@ -39,16 +34,14 @@ bool tells_how_to_install(const std::string& text) {
 TEST_CASE("report: starts the Python module with the results and the given options", "[cli]") {
   const TemporaryFolder folder;
   const std::string batch = made_up_batch(folder), environment = python_that_ends_with(0, folder);
-  const auto arguments_of = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> command = {"report"};
-    command.insert(command.end(), options.begin(), options.end());
-    run_well(command, environment);
+  const auto arguments_of = [&](const Words& options) {
+    run_well(Words{"report"} + options, environment);
     return read_lines(folder / "arguments");
   };
-  CHECK(arguments_of({batch}) == std::vector<std::string>{"-m", "quadedge.report", batch});
+  CHECK(arguments_of({batch}) == Words{"-m", "quadedge.report", batch});
   CHECK(arguments_of({batch + "/sequences/street", "-o", folder / "$(touch no).html", "--csv", folder / "c"}) ==
-        std::vector<std::string>{"-m", "quadedge.report", batch + "/sequences/street", "--output",
-                                 folder / "$(touch no).html", "--csv", folder / "c"});
+        Words{"-m", "quadedge.report", batch + "/sequences/street", "--output", folder / "$(touch no).html", "--csv",
+              folder / "c"});
   CHECK(run_program({"report", batch}, python_that_ends_with(3, folder)).code == 3);
 }
 
@@ -66,7 +59,7 @@ TEST_CASE("report: non-results and existing files are refused before Python star
   const std::string batch = made_up_batch(folder);
   std::ofstream(folder / "there.html") << "in the way";
   const std::string environment = python_that_ends_with(0, folder);
-  const auto code_of = [&](const std::vector<std::string>& command) { return run_program(command, environment).code; };
+  const auto code_of = [&](const Words& command) { return run_program(command, environment).code; };
   CHECK(code_of({"report", folder.path()}) == 3);
   CHECK(code_of({"report", batch, "-o", folder / "there.html"}) == 2);
   CHECK(code_of({"report", batch, "-o", folder / "there.html", "--force"}) == 0);

@@ -1,9 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "csv_table.hpp"
@@ -67,22 +61,6 @@ TEST_CASE("run: the summary has the path length, the mean error and the next com
   char text[48];
   std::snprintf(text, sizeof text, "path       %.3f m", length);
   CHECK_THAT(result.out, Contains(text));
-}
-
-TEST_CASE("run: trajectories begin at the identity, with one row per tracked or per input frame", "[cli][device]") {
-  const auto& run = shared_run();
-  const auto tum = read_lines(run.out("trajectory.txt"));
-  const auto kitti = read_lines(run.out("trajectory_kitti.txt"));
-  REQUIRE(tum.size() == 5);  // comment and four frames
-  REQUIRE(kitti.size() == 4);
-  CHECK(kitti[0] == "1 0 0 0 0 1 0 0 0 0 1 0");
-  std::istringstream first(tum[1]);
-  std::string stamp;
-  double tx, ty, tz, qx, qy, qz, qw;
-  first >> stamp >> tx >> ty >> tz >> qx >> qy >> qz >> qw;
-  REQUIRE(first);
-  CHECK(stamp.size() - stamp.find('.') == 10);  // nine decimals
-  CHECK((tx == 0 && ty == 0 && tz == 0 && qx == 0 && qy == 0 && qz == 0 && qw == 1));
 }
 
 TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[cli][device]") {
@@ -195,16 +173,6 @@ TEST_CASE("run: the trace holds each frame with its stages nested inside", "[cli
   CHECK(stages > 2 * frames);
 }
 
-TEST_CASE("run: the effective configuration reproduces the trajectory byte by byte", "[cli][device]") {
-  const auto& run = shared_run();
-  const TemporaryFolder folder;
-  CHECK(run_well({"run", small_sequence(), "-o", folder / "out", "--config", run.out("config.toml"), "--quiet"})
-            .err.empty());
-  CHECK(read_text(folder / "out/trajectory.txt") == read_text(run.out("trajectory.txt")));
-  CHECK(read_text(folder / "out/trajectory_kitti.txt") == read_text(run.out("trajectory_kitti.txt")));
-  CHECK(read_text(folder / "out/config.toml") == read_text(run.out("config.toml")));
-}
-
 TEST_CASE("run: results are not replaced without --force", "[cli][device]") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out/pictures");
@@ -222,11 +190,11 @@ TEST_CASE("run: results are not replaced without --force", "[cli][device]") {
 TEST_CASE("run: no OpenCL device ends with code 4 and installation help", "[cli]") {
   const TemporaryFolder folder;
   const std::string no_vendors = "OCL_ICD_VENDORS='" + folder.path() + "/'";
-  const std::vector<std::string> run = {"run", small_sequence(), "-o", folder / "out"};
+  const Words run = {"run", small_sequence(), "-o", folder / "out"};
   check_error(run, 4,
               {"pocl-opencl-icd", "--device reference", "OCL_ICD_VENDORS=" + folder.path(), "holds no .icd file"},
               no_vendors);
-  dataset_files::write_text(folder / "a.icd", "libno_such_driver.so.7\n");
+  write_text(folder / "a.icd", "libno_such_driver.so.7\n");
   check_error(run, 4, {folder / "a.icd", "libno_such_driver.so.7"}, no_vendors);
   check_error(run, 4, {"/nowhere/b.icd", "does not exist"}, "OCL_ICD_VENDORS=/nowhere/b.icd");
   CHECK_THAT(run_well({"devices"}, no_vendors).out, Contains("reference") && Contains("pocl-opencl-icd"));

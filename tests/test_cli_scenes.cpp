@@ -1,9 +1,5 @@
 /// \file test_cli_scenes.cpp  The built-in scenes and paths on the command line.
-#include <catch2/catch.hpp>
-
 #include "program.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/synthetic.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -17,14 +13,10 @@ TEST_CASE("command line: every scene and path can be written to disk with exact 
       const auto result = run_program({"synth", folder / "s", "--scene", scene, "--path", path, "--frames", "3",
                                        "--size", "64x33", "--seed", "9", "--force", "--quiet"});
       REQUIRE(result.code == 0);
-      SyntheticOptions options;
+      auto options = rendering(64, 33, 541.764 * (64.0 / 942), 3, 4);
       options.scene = scene;
       options.path = path;
-      options.frames = 3;
       options.seed = 9;
-      options.focal *= 64.0 / options.width;
-      options.width = 64;
-      options.height = 33;
       const SyntheticSequence sequence(options);
       const Dataset set = open_dataset(folder / "s");
       REQUIRE(set.truth.size() == 3);
@@ -42,10 +34,8 @@ TEST_CASE("command line: options that cannot be rendered are refused with code 2
           "[cli][synthetic]") {
   const TemporaryFolder folder;
   for (const std::string command : {"synth", "demo"}) {
-    const auto check_refused = [&](std::vector<std::string> options, const std::vector<std::string>& words) {
-      options.insert(options.begin(), command);
-      options.insert(options.end(), {command == "synth" ? "--force" : "-o", folder / "s"});
-      check_error(options, 2, words);
+    const auto check_refused = [&](const Words& options, const Words& words) {
+      check_error(Words{command} + options + Words{command == "synth" ? "--force" : "-o", folder / "s"}, 2, words);
     };
     check_refused({"--blur", "5"}, {"blur = 5, allowed: 0 to 1.7", "path ellipse"});
     check_refused({"--blur", "49", "--path", "handheld"}, {"blur = 49", "path handheld"});

@@ -1,13 +1,9 @@
-#include <catch2/catch.hpp>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/compare_frontends.hpp"
 #include "benchmark/variant_comparison.hpp"
-#include "devices.hpp"
 #include "frontends.hpp"
 #include "program.hpp"
-#include "quadedge/error.hpp"
 
 using Catch::Matchers::Contains;
 using Json = nlohmann::json;
@@ -16,14 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> kSmallComparison = {"--size",        "160x100", "--edges", "0",
-                                                   "--repetitions", "1",       "--quiet"};
-
-std::vector<std::string> compare_arguments(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"compare"};
-  arguments.insert(arguments.end(), kSmallComparison.begin(), kSmallComparison.end());
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+Words compare_arguments(const Words& more) {
+  return Words{"compare", "--size", "160x100", "--edges", "0", "--repetitions", "1", "--quiet"} + more;
 }
 
 DeviceInfo made_up_device() {
@@ -35,17 +25,14 @@ DeviceInfo made_up_device() {
 }
 
 /// Runs the small sequence with a folder of saved variants.
-ProgramResult run_with_saved(const std::string& configuration, const std::string& out,
-                             const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run_program(arguments, "XDG_CONFIG_HOME='" + configuration + "'");
+ProgramResult run_with_saved(const std::string& configuration, const std::string& out, const Words& more = {}) {
+  return run_program(Words{"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet"} + more,
+                     "XDG_CONFIG_HOME='" + configuration + "'");
 }
 
 }  // namespace
 
-TEST_CASE("compare: all variants of a stage are measured, agree, and the best are saved for run",
-          "[cli][bench][device]") {
+TEST_CASE("compare: all variants of a stage are measured, agree, and the best are saved for run", "[cli][device]") {
   const TemporaryFolder folder;
   const auto result =
       run_well(compare_arguments({"--stage", "edge_detection", "--save", "--json", folder / "compare.json"}),
@@ -80,20 +67,20 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   CHECK(Json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
 }
 
-TEST_CASE("compare: a stage that only copies the input has no time", "[cli][bench][device]") {
+TEST_CASE("compare: a stage that only copies the input has no time", "[cli][device]") {
   const TemporaryFolder folder;  // the built-in sequence has no distortion
   CHECK_THAT(run_well(compare_arguments({"--stage", "undistortion", "--json", folder / "compare.json"})).out,
              Contains("this input never runs the stage"));
   CHECK(Json::parse(read_text(folder / "compare.json"))["stages"][0]["variants"][0]["median_ms"].is_null());
 }
 
-TEST_CASE("compare: run uses saved variants, and the command line and --config override them", "[cli][bench][device]") {
+TEST_CASE("compare: run uses saved variants, and the command line and --config override them", "[cli][device]") {
   const TemporaryFolder folder;
   const Device device;
   bench::write_variants_file(folder / ("quadedge/" + bench::variants_file_name(device.info())), device.info(),
                              {{"edge_detection", "tile64"}, {"sift", "cells"}, {"patches", "lanes"}});
   std::ofstream(folder / "config.toml") << "variant = [\"sift=edge\"]\n";
-  const auto variants = [&](const std::string& name, const std::vector<std::string>& more) {
+  const auto variants = [&](const std::string& name, const Words& more) {
     const auto run = run_with_saved(folder.path(), folder / name, more);
     INFO(run.err);
     REQUIRE(run.code == 0);
@@ -109,7 +96,7 @@ TEST_CASE("compare: run uses saved variants, and the command line and --config o
   CHECK(found["edge_detection"] == "tile64");
 }
 
-TEST_CASE("compare: run refuses an invalid variants file, or another device's, by name", "[cli][bench][device]") {
+TEST_CASE("compare: run refuses an invalid variants file, or another device's, by name", "[cli][device]") {
   const Device device;
   const auto refused = [&](const std::string& text, const std::string& reason) {
     const TemporaryFolder folder;
@@ -141,7 +128,7 @@ TEST_CASE("compare: run refuses an invalid variants file, or another device's, b
   refused(changed.dump(), "99");
 }
 
-TEST_CASE("compare: variants files are read as they were written, and a missing one is empty", "[bench]") {
+TEST_CASE("compare: variants files are read as they were written, and a missing one is empty") {
   const TemporaryFolder folder;
   const DeviceInfo device = made_up_device();
   const std::string path = folder / ("new/" + bench::variants_file_name(device));
@@ -155,7 +142,7 @@ TEST_CASE("compare: variants files are read as they were written, and a missing 
   CHECK_THROWS_AS(bench::read_variants_file(path, other), UsageError);
 }
 
-TEST_CASE("compare: a variant with a different result is refused and never saved as the best", "[cli][bench][device]") {
+TEST_CASE("compare: a variant with a different result is refused and never saved as the best", "[cli][device]") {
   const TemporaryFolder folder;
   fs::copy(QUADEDGE_KERNELS, folder / "kernels");
   // In all but one form every patch counts as flat and has no similarity.
@@ -176,7 +163,7 @@ TEST_CASE("compare: a variant with a different result is refused and never saved
   CHECK(stage["best"] != "lanes");
 }
 
-TEST_CASE("compare: the best variant agrees and is clearly faster than the default", "[bench]") {
+TEST_CASE("compare: the best variant agrees and is clearly faster than the default") {
   const auto variant = [](const std::string& name, bool by_default, bool agrees, double ratio) {
     bench::VariantResult result;
     result.name = name;
@@ -198,7 +185,7 @@ TEST_CASE("compare: the best variant agrees and is clearly faster than the defau
   CHECK(stage.best() == "faster");
 }
 
-TEST_CASE("compare: the first difference names stage, edge and value", "[bench]") {
+TEST_CASE("compare: the first difference names stage, edge and value") {
   frontend::FrontendOutput a;
   for (int i = 0; i < 5; ++i) {
     a.left_edges.x.push_back(static_cast<float>(i));
@@ -214,11 +201,4 @@ TEST_CASE("compare: the first difference names stage, edge and value", "[bench]"
         "stereo_mutual, stereo edge of the second frame: 5 instead of 4 values of NCC");
   b.left_edges.x[1] = 1.25F;
   CHECK(frontend::first_difference(a, b) == "edge_detection, left edge 1: x is 1 instead of 1.25");
-}
-
-TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
-  check_error({"compare", "--stage", "none"}, 2);
-  check_error({"compare", "--repetitions", "0"}, 2);
-  check_error({"compare", "--edges", "-1"}, 2);
-  check_error({"compare", "--device", "reference"}, 2);
 }

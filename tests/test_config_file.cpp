@@ -1,31 +1,19 @@
 /// \file test_config_file.cpp  quadedge/config.hpp: reading, writing, errors.
-#include <catch2/catch.hpp>
-#include <fstream>
-
-#include "quadedge/config.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
 namespace {
 
-void write_config(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
-
 /// The error message of reading the text, with FILE for the file's name.
 std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   const std::string file = folder / "config.toml";
-  write_config(file, text);
-  try {
-    read_config(file);
-  } catch (const UsageError& error) {
-    std::string message = error.what();
-    REQUIRE(message.rfind(file, 0) == 0);
-    return "FILE" + message.substr(file.size());
-  }
-  return "";
+  write_text(file, text);
+  const std::string message = message_of([&] { read_config(file); });
+  REQUIRE((message.empty() || message.rfind(file, 0) == 0));
+  return message.empty() ? "" : "FILE" + message.substr(file.size());
 }
 
 /// "[a.a.a...]": nested tables.
@@ -37,7 +25,7 @@ std::string nested_tables(int depth) {
 
 }  // namespace
 
-TEST_CASE("config file: every constant survives writing and reading", "[config]") {
+TEST_CASE("config file: every constant survives writing and reading") {
   Config config;
   // Every constant gets a value other than its default: the low or the high end of its range.
   for (const auto& constant : constants()) {
@@ -61,7 +49,7 @@ TEST_CASE("config file: every constant survives writing and reading", "[config]"
   CHECK(read.variants == config.variants);
 }
 
-TEST_CASE("config file: numbers round-trip bit by bit", "[config]") {
+TEST_CASE("config file: numbers round-trip bit by bit") {
   Config config;
   config.stereo.ncc_min = 0.1 + 0.2;  // 0.30000000000000004
   config.pose.sigma_across = 1e-6;
@@ -72,16 +60,16 @@ TEST_CASE("config file: numbers round-trip bit by bit", "[config]") {
   CHECK(read.pose.sigma_across == config.pose.sigma_across);
 }
 
-TEST_CASE("config file: missing keys keep their defaults", "[config]") {
+TEST_CASE("config file: missing keys keep their defaults") {
   const TemporaryFolder folder;
-  write_config(folder / "config.toml", "device = \"gpu\"\n[stereo]\nncc_min = 1  # a whole number is a number\n");
+  write_text(folder / "config.toml", "device = \"gpu\"\n[stereo]\nncc_min = 1  # a whole number is a number\n");
   const Config config = read_config(folder / "config.toml");
   CHECK(config.stereo.ncc_min == 1.0);
   CHECK(config.stereo.ncc_nearly_best == Config().stereo.ncc_nearly_best);
   CHECK(config.seed == 42);
 }
 
-TEST_CASE("config file: an error names the file, the line, the key, the expected and the actual value", "[config]") {
+TEST_CASE("config file: an error names the file, the line, the key, the expected and the actual value") {
   CHECK(refusal("\n\nseed = -1\n") == "FILE:3: seed: expected a whole number of 0 to 9223372036854775807, found -1");
   CHECK(refusal("[pose]\nrefine = 7\n") == "FILE:2: pose.refine: expected true or false, found 7");
   CHECK(refusal("[edges]\nsigma = true\n") == "FILE:2: edges.sigma: expected a number, found true");
@@ -108,7 +96,7 @@ TEST_CASE("config file: an error names the file, the line, the key, the expected
   CHECK_THAT(refusal(std::string("seed = 1\0\n", 10)), Contains("FILE:1: not TOML"));
 }
 
-TEST_CASE("config file: overlong and deeply nested files end quickly with a message", "[config]") {
+TEST_CASE("config file: overlong and deeply nested files end quickly with a message") {
   CHECK_THAT(refusal(std::string(1'000'001, '\n')), Contains("longer than 1 MB"));
   CHECK(refusal(std::string(1'000'000, '\n')) == "");
   CHECK_THAT(refusal("seed = " + std::string(2000, '[')), Contains("FILE:1: not TOML") && Contains("depth"));
@@ -122,7 +110,7 @@ TEST_CASE("config file: overlong and deeply nested files end quickly with a mess
   CHECK_THROWS_AS(read_config("/no/such/file.toml"), UsageError);
 }
 
-TEST_CASE("config file: values that could not be read back are not written", "[config]") {
+TEST_CASE("config file: values that could not be read back are not written") {
   const TemporaryFolder folder;
   Config config;
   config.stereo.ncc_min = 7;

@@ -1,9 +1,7 @@
-#include <catch2/catch.hpp>
-#include <random>
-
 #include "geometry/uncertain_pose.hpp"
 #include "motion/refinement.hpp"
 #include "output/motion_errors.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 
@@ -50,7 +48,7 @@ Matrix6d covariance() {
 
 }  // namespace
 
-TEST_CASE("consistency: consistent covariances give 1, half the standard deviations give 4", "[evaluation]") {
+TEST_CASE("consistency: consistent covariances give 1, half the standard deviations give 4") {
   const MadeUpRun consistent(2000, covariance(), covariance());
   const auto one = evaluation::judge_covariances(consistent.results, consistent.truth);
   CHECK(one.poses == 1999);
@@ -61,7 +59,7 @@ TEST_CASE("consistency: consistent covariances give 1, half the standard deviati
   CHECK(evaluation::judge_covariances(boasting.results, boasting.truth).pose == Approx(4).epsilon(0.05));
 }
 
-TEST_CASE("consistency: an error in rotation alone shows in the rotation alone", "[evaluation]") {
+TEST_CASE("consistency: an error in rotation alone shows in the rotation alone") {
   Matrix6d larger = covariance();
   larger.topLeftCorner<3, 3>() *= 9;
   larger.topRightCorner<3, 3>().setZero();
@@ -72,7 +70,7 @@ TEST_CASE("consistency: an error in rotation alone shows in the rotation alone",
   CHECK(result.translation == Approx(1).epsilon(0.08));
 }
 
-TEST_CASE("consistency: lost frames and frames without covariance or ground truth are left out", "[evaluation]") {
+TEST_CASE("consistency: lost frames and frames without covariance or ground truth are left out") {
   MadeUpRun run(10, covariance(), covariance());
   run.results[3].status = FrameStatus::lost_no_consensus;
   run.results[4].relative_covariance->setZero();
@@ -81,8 +79,7 @@ TEST_CASE("consistency: lost frames and frames without covariance or ground trut
   CHECK(evaluation::judge_covariances(run.results, {}).poses == 0);
 }
 
-TEST_CASE("consistency: a wrong baseline shows over longer motions, and the rig's uncertainty covers it",
-          "[evaluation]") {
+TEST_CASE("consistency: a wrong baseline shows over longer motions, and the rig's uncertainty covers it") {
   // Every frame is a keyframe, 0.1 m per frame; the baseline is too long by its standard deviation.
   const PoseConfig config;
   std::vector<FrameResult> results;

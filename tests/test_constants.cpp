@@ -1,11 +1,6 @@
 /// \file test_constants.cpp  The declarations of quadedge/constants.inc and what is generated from them.
-#include <catch2/catch.hpp>
-#include <set>
-
 #include "dataset_files.hpp"
 #include "program.hpp"
-#include "quadedge/config.hpp"
-#include "quadedge/error.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -21,7 +16,7 @@ const Constant& constant_named(const std::string& key) {
 
 }  // namespace
 
-TEST_CASE("constants: each has a separate field, a valid default and a known section", "[config]") {
+TEST_CASE("constants: each has a separate field, a valid default and a known section") {
   Config config;
   CHECK_NOTHROW(check_config(config));
   std::set<std::string> keys, sections;
@@ -38,16 +33,9 @@ TEST_CASE("constants: each has a separate field, a valid default and a known sec
   CHECK(constant_named("seed").field(config) == ConfigField(&config.seed));
 }
 
-TEST_CASE("constants: values outside the range are refused, its ends are accepted", "[config]") {
+TEST_CASE("constants: values outside the range are refused, its ends are accepted") {
   Config config;
-  const auto fails = [&] {
-    try {
-      check_config(config);
-    } catch (const UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto fails = [&] { return message_of([&] { check_config(config); }); };
   for (const double value : {0.01, 1.0}) {
     config.stereo.ncc_min = value;
     CHECK(fails() == "");
@@ -69,7 +57,7 @@ TEST_CASE("constants: values outside the range are refused, its ends are accepte
   CHECK_THAT(fails(), Contains("seed is 9007199254740993; allowed: 0 to 9007199254740992"));
 }
 
-TEST_CASE("constants: angles are given in degrees and returned in radians", "[config]") {
+TEST_CASE("constants: angles are given in degrees and returned in radians") {
   Config config;
   config.stereo.orientation = 90;
   CHECK(config.stereo.orientation_rad() == Approx(std::acos(0.0)));
@@ -130,4 +118,4 @@ TEST_CASE("constants: doc/configuration.md lists those of the program") {
   CHECK(page == configuration_page());
 }
 
-TEST_CASE("write doc/configuration.md", "[.]") { dataset_files::write_text(kPage, configuration_page()); }
+TEST_CASE("write doc/configuration.md") { write_text(kPage, configuration_page()); }

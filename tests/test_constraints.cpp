@@ -1,8 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/two_quads.hpp"
-#include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;
 
@@ -22,7 +19,7 @@ const ConstraintLimits kLimits;
 
 }  // namespace
 
-TEST_CASE("A rigidly moved pair passes all six constraints", "[pose][constraints]") {
+TEST_CASE("A rigidly moved pair passes all six constraints", "[pose]") {
   generated::Random random(6);
   for (int trial = 0; trial < 200; ++trial) {
     const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()},
@@ -34,7 +31,7 @@ TEST_CASE("A rigidly moved pair passes all six constraints", "[pose][constraints
   CHECK(check_constraints(example(), moved(example(), random.motion(3.0, 5.0)), kLimits).all());
 }
 
-TEST_CASE("Each constraint fails alone, just beyond its threshold", "[pose][constraints]") {
+TEST_CASE("Each constraint fails alone, just beyond its threshold", "[pose]") {
   const OrientedPair before = example();
   const auto only_fails = [&](const OrientedPair& after, std::size_t number) {
     const ConstraintCheck check = check_constraints(before, after, kLimits);
@@ -68,7 +65,7 @@ TEST_CASE("Each constraint fails alone, just beyond its threshold", "[pose][cons
   only_fails(after, 3);
 }
 
-TEST_CASE("A mirrored pair fails only the determinant's sign", "[pose][constraints]") {
+TEST_CASE("A mirrored pair fails only the determinant's sign", "[pose]") {
   OrientedPair after = example();
   for (OrientedPoint* p : {&after.first, &after.second}) {
     p->point.z() = -p->point.z();
@@ -86,7 +83,7 @@ TEST_CASE("A mirrored pair fails only the determinant's sign", "[pose][constrain
   CHECK(check_constraints(flat, mirrored, kLimits).passed[5]);
 }
 
-TEST_CASE("A flipped tangent fails the signed constraints", "[pose][constraints]") {
+TEST_CASE("A flipped tangent fails the signed constraints", "[pose]") {
   OrientedPair after = example();
   after.first.tangent = -after.first.tangent;
   const ConstraintCheck check = check_constraints(example(), after, kLimits);
@@ -96,7 +93,7 @@ TEST_CASE("A flipped tangent fails the signed constraints", "[pose][constraints]
 }
 
 TEST_CASE("The quads swap roles where D is parallel to the first tangent, and fail where it is parallel to both",
-          "[pose][constraints]") {
+          "[pose]") {
   OrientedPair pair = example();
   CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
   pair.first.tangent = unit(1, std::tan(13.0 * quadedge::kDegree), 0);
@@ -109,7 +106,7 @@ TEST_CASE("The quads swap roles where D is parallel to the first tangent, and fa
   CHECK_FALSE(check_constraints(pair, pair, kLimits).passed[4]);
 }
 
-TEST_CASE("Two coincident points fail", "[pose][constraints]") {
+TEST_CASE("Two coincident points fail", "[pose]") {
   OrientedPair pair = example();
   pair.second.point = pair.first.point;
   CHECK_FALSE(check_constraints(pair, example(), kLimits).all());

@@ -1,12 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "data/content_hash.hpp"
 #include "dataset_files.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 
-TEST_CASE("content hash: the boundaries between values count", "[data]") {
+TEST_CASE("content hash: the boundaries between values count") {
   data::ContentHash one, two, three;
   one.add("ab"), one.add("c");
   two.add("a"), two.add("bc");
@@ -16,11 +13,11 @@ TEST_CASE("content hash: the boundaries between values count", "[data]") {
   CHECK(one.hex().size() == 32);
 }
 
-TEST_CASE("content hash: every byte of a file counts", "[data]") {
+TEST_CASE("content hash: every byte of a file counts") {
   const TemporaryFolder folder;
-  dataset_files::write_text(folder / "a", std::string(10'000, 'x'));
+  write_text(folder / "a", std::string(10'000, 'x'));
   const std::string before = data::file_hash(folder / "a");
   CHECK(data::file_hash(folder / "a") == before);
-  dataset_files::write_text(folder / "a", std::string(5'000, 'x') + "y" + std::string(4'999, 'x'));
+  write_text(folder / "a", std::string(5'000, 'x') + "y" + std::string(4'999, 'x'));
   CHECK(data::file_hash(folder / "a") != before);
 }

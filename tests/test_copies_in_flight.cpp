@@ -1,15 +1,8 @@
 /// \file test_copies_in_flight.cpp  Host memory outlives the copies that use it, even after an exception; results read
 /// in one copy.
-#include <atomic>
-#include <catch2/catch.hpp>
-#include <chrono>
-#include <numeric>
-#include <thread>
-
 #include "device/buffer.hpp"
 #include "device/device_edges.hpp"
 #include "frontends.hpp"
-#include "quadedge/error.hpp"
 
 using namespace quadedge;
 

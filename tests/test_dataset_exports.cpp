@@ -1,11 +1,4 @@
-#include <catch2/catch.hpp>
-#include <fstream>
-
 #include "calibration_files.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/stereo_source.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using namespace calibration_files;
@@ -29,7 +22,7 @@ void write_images(const std::string& left, const std::string& right, int width, 
 
 }  // namespace
 
-TEST_CASE("dataset: KITTI's raw layout has dated stamps, rectified cameras and OXTS as truth", "[data]") {
+TEST_CASE("dataset: KITTI's raw layout has dated stamps, rectified cameras and OXTS as truth") {
   const TemporaryFolder folder;
   const std::string date = folder / "2011_09_26", drive = date + "/2011_09_26_drive_0001_sync";
   write_images(drive + "/image_00/data", drive + "/image_01/data", 62, 24);
@@ -65,7 +58,7 @@ TEST_CASE("dataset: KITTI's raw layout has dated stamps, rectified cameras and O
   CHECK_THROWS_WITH(open_dataset(drive), Contains("timestamps.txt:1") && Contains("2011-13-26"));
 }
 
-TEST_CASE("dataset: TUM-VI as exported and as people cut it for DSO", "[data]") {
+TEST_CASE("dataset: TUM-VI as exported and as people cut it for DSO") {
   const TemporaryFolder folder;
   const Rig rig;
   const std::string chain = kalibr_chain(rig, "both");
@@ -102,7 +95,7 @@ TEST_CASE("dataset: TUM-VI as exported and as people cut it for DSO", "[data]") 
   CHECK_THROWS_WITH(open_dataset(dso), Contains("sensor.yaml") && !Contains("image width"));
 }
 
-TEST_CASE("dataset: TartanAir's poses are those of the camera, z forward", "[data]") {
+TEST_CASE("dataset: TartanAir's poses are those of the camera, z forward") {
   const TemporaryFolder folder;
   write_images(folder / "image_left", folder / "image_right", 64, 48);
   // North by a metre per frame, east by half: forward and to the right.
@@ -117,7 +110,7 @@ TEST_CASE("dataset: TartanAir's poses are those of the camera, z forward", "[dat
   CHECK((moved.translation() - Eigen::Vector3d(1, 0.25, 2)).norm() < 1e-12);  // right, down, forward
 }
 
-TEST_CASE("dataset: one folder with the images of both cameras", "[data]") {
+TEST_CASE("dataset: one folder with the images of both cameras") {
   const TemporaryFolder folder;
   write_text(folder / "rig.yaml", kalibr_chain(Rig(), "both"));
   DatasetOptions options;
@@ -138,7 +131,7 @@ TEST_CASE("dataset: one folder with the images of both cameras", "[data]") {
   }
 }
 
-TEST_CASE("dataset: a rate that no camera has is a warning", "[data]") {
+TEST_CASE("dataset: a rate that no camera has is a warning") {
   const TemporaryFolder folder;
   const std::string root = folder / "kitti";
   dataset_files::write_kitti(root, 3);
@@ -149,7 +142,7 @@ TEST_CASE("dataset: a rate that no camera has is a warning", "[data]") {
   }));
 }
 
-TEST_CASE("dataset: real recordings in the layouts that people bring", "[data]") {
+TEST_CASE("dataset: real recordings in the layouts that people bring") {
   const std::string kitti = real_data("kitti_raw_layout"), fisheye = real_data("tumvi_room1_dso");
   if (kitti.empty() || fisheye.empty()) return;
   const Dataset drive = open_dataset(kitti + "/2011_09_26/2011_09_26_drive_0001_sync");
@@ -165,7 +158,7 @@ TEST_CASE("dataset: real recordings in the layouts that people bring", "[data]")
   CHECK(room.rig.baseline() == Approx(0.101).epsilon(0.01));
 }
 
-TEST_CASE("dataset: KITTI-360 has rectified and recorded images of one size, KITTI's calib.txt other rows", "[data]") {
+TEST_CASE("dataset: KITTI-360 has rectified and recorded images of one size, KITTI's calib.txt other rows") {
   const TemporaryFolder folder;
   const std::string drive = folder / "data_2d_raw/2013_05_28_drive_0000_sync";
   for (const char* kind : {"data_rgb", "data_rect"}) {
@@ -192,7 +185,7 @@ TEST_CASE("dataset: KITTI-360 has rectified and recorded images of one size, KIT
   CHECK(open_dataset(root).rig.right_from_left.matrix() == rig.right_from_left.matrix());
 }
 
-TEST_CASE("dataset: lists may name their columns in a first line without a comment sign", "[data]") {
+TEST_CASE("dataset: lists may name their columns in a first line without a comment sign") {
   const TemporaryFolder folder;
   const Rig rig;
   write_text(folder / "camchain.yaml", kalibr_chain(rig, "both"));
@@ -216,7 +209,7 @@ TEST_CASE("dataset: lists may name their columns in a first line without a comme
   CHECK_THROWS_WITH(read_trajectory(folder / "leica.csv"), Contains("without orientation") && Contains("vicon0"));
 }
 
-TEST_CASE("dataset: times beside images that cannot be read are replaced by --fps, with a warning", "[data]") {
+TEST_CASE("dataset: times beside images that cannot be read are replaced by --fps, with a warning") {
   const TemporaryFolder folder;
   for (const char* side : {"l", "r"}) {
     write_image(folder / (side + std::string("/a.png")), 752, 480);

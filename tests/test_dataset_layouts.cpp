@@ -1,15 +1,10 @@
-#include <catch2/catch.hpp>
-
 #include "dataset_files.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using namespace dataset_files;
 using Catch::Matchers::Contains;
 
-TEST_CASE("dataset: a KITTI sequence is read from its folder and from the root", "[dataset]") {
+TEST_CASE("dataset: a KITTI sequence is read from its folder and from the root") {
   const TemporaryFolder folder;
   const std::string sequence = write_kitti(folder.path());
   const Dataset set = open_dataset(sequence);
@@ -36,7 +31,7 @@ TEST_CASE("dataset: a KITTI sequence is read from its folder and from the root",
   CHECK_THROWS_AS(open_dataset(folder.path(), options), UsageError);
 }
 
-TEST_CASE("dataset: several KITTI sequences require a name", "[dataset]") {
+TEST_CASE("dataset: several KITTI sequences require a name") {
   const TemporaryFolder folder;
   write_kitti(folder.path());
   write_image(folder / "sequences/08/image_0/000000.png");
@@ -48,7 +43,7 @@ TEST_CASE("dataset: several KITTI sequences require a name", "[dataset]") {
   CHECK(open_dataset(folder.path(), options).name == "kitti_07");
 }
 
-TEST_CASE("dataset: KITTI colour cameras have their own calibration and transformed ground truth", "[dataset]") {
+TEST_CASE("dataset: KITTI colour cameras have their own calibration and transformed ground truth") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_kitti(folder.path(), 3, "image_2", "image_3"));
   // P2 = K [I | t2], t2 = K^-1 (6, -1, 0.01): x = (6 - 15 * 0.01) / 100, y = (-1 - 11 * 0.01) / 100.
@@ -58,7 +53,7 @@ TEST_CASE("dataset: KITTI colour cameras have their own calibration and transfor
   CHECK(set.truth[2].world_from_left.translation().isApprox(Eigen::Vector3d(0, 0, 2) - t2, 1e-12));
 }
 
-TEST_CASE("dataset: KITTI images keep their numbers in an excerpt", "[dataset]") {
+TEST_CASE("dataset: KITTI images keep their numbers in an excerpt") {
   const TemporaryFolder folder;
   const std::string sequence = write_kitti(folder.path());
   for (const char* side : {"/image_0", "/image_1"}) std::filesystem::remove(sequence + side + "/000000.png");
@@ -68,7 +63,7 @@ TEST_CASE("dataset: KITTI images keep their numbers in an excerpt", "[dataset]")
   CHECK(set.truth[0].world_from_left.translation().z() == 1);
 }
 
-TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camera's ground truth", "[dataset]") {
+TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camera's ground truth") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_euroc(folder.path()));
   CHECK(set.format == "euroc");
@@ -91,7 +86,7 @@ TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camer
   CHECK(open_dataset(folder / "mav0").frames.size() == 4);
 }
 
-TEST_CASE("dataset: a sensor.yaml may have OpenCV's first line, tags and dash lists", "[dataset]") {
+TEST_CASE("dataset: a sensor.yaml may have OpenCV's first line, tags and dash lists") {
   const TemporaryFolder folder;
   const std::string root = write_euroc(folder.path()), yaml = root + "/mav0/cam0/sensor.yaml";
   const Dataset plain = open_dataset(root);
@@ -105,7 +100,7 @@ TEST_CASE("dataset: a sensor.yaml may have OpenCV's first line, tags and dash li
   CHECK(set.rig.right_from_left.matrix() == plain.rig.right_from_left.matrix());
 }
 
-TEST_CASE("dataset: EuRoC images are paired by timestamp, and unpaired ones are reported", "[dataset]") {
+TEST_CASE("dataset: EuRoC images are paired by timestamp, and unpaired ones are reported") {
   const TemporaryFolder folder;
   write_euroc(folder.path());
   const std::string list = folder / "mav0/cam1/data.csv";
@@ -120,7 +115,7 @@ TEST_CASE("dataset: EuRoC images are paired by timestamp, and unpaired ones are 
   CHECK_THAT(set.notes[0], Contains("1 left and 0 right"));
 }
 
-TEST_CASE("dataset: in ETH3D SLAM the camera on the left becomes the left one", "[dataset]") {
+TEST_CASE("dataset: in ETH3D SLAM the camera on the left becomes the left one") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder.path());
   write_text(folder / "depth/ignored.pfm", "");
@@ -150,7 +145,7 @@ TEST_CASE("dataset: in ETH3D SLAM the camera on the left becomes the left one", 
   CHECK(open_dataset(folder.path()).frames[1].stamp_ns == 12'125'000'001);
 }
 
-TEST_CASE("dataset: still pairs and the quad are recognised by file names", "[dataset]") {
+TEST_CASE("dataset: still pairs and the quad are recognised by file names") {
   const TemporaryFolder folder;
   write_image(folder / "a/two_view_training/s/im0.png", 710, 40, CV_8UC3);
   write_image(folder / "a/two_view_training/s/im1.png", 710, 40, CV_8UC3);
@@ -203,8 +198,7 @@ TEST_CASE("dataset: still pairs and the quad are recognised by file names", "[da
   CHECK_THROWS_WITH(open_dataset(folder / "q", options), Contains("mp4") && Contains("eth3d-two-view"));
 }
 
-TEST_CASE("dataset: the third Middlebury benchmark has spaces around keys and the ground truth beside the images",
-          "[dataset]") {
+TEST_CASE("dataset: the third Middlebury benchmark has spaces around keys and the ground truth beside the images") {
   const TemporaryFolder folder;
   for (const char* name : {"v3/im0.png", "v3/im1.png"}) write_image(folder / name, 710, 40);
   write_text(folder / "v3/calib.txt",
@@ -217,7 +211,7 @@ TEST_CASE("dataset: the third Middlebury benchmark has spaces around keys and th
   CHECK(benchmark.rig.max_disparity == Approx(193.5));
 }
 
-TEST_CASE("dataset: ETH3D's many-view scenes are sequences of stereo_pairs", "[dataset]") {
+TEST_CASE("dataset: ETH3D's many-view scenes are sequences of stereo_pairs") {
   const TemporaryFolder folder;
   const std::string calibration =
       "cam0=[50 0 15.5; 0 50 11.5; 0 0 1]\ncam1=[50 0 15.5; 0 50 11.5; 0 0 1]\ndoffs=0\nbaseline=60\nwidth=32\n"

@@ -1,14 +1,8 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cstring>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "data/text.hpp"
 #include "dataset_files.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
 
 using namespace quadedge;
 using dataset_files::real_data;
@@ -74,7 +68,7 @@ RigTest test_rig(const Dataset& set, std::size_t frame) {
 
 }  // namespace
 
-TEST_CASE("real data: KITTI has the published number of frames, rig and step lengths", "[dataset][real]") {
+TEST_CASE("real data: KITTI has the published number of frames, rig and step lengths", "[real]") {
   const std::string root = real_data("kitti_odometry");
   if (root.empty()) return;
   DatasetOptions options;
@@ -98,7 +92,7 @@ TEST_CASE("real data: KITTI has the published number of frames, rig and step len
   CHECK(rig.ratio > kInlierRatio);
 }
 
-TEST_CASE("real data: EuRoC at rest does not move, and its undistorted images fit the rig", "[dataset][real]") {
+TEST_CASE("real data: EuRoC at rest does not move, and its undistorted images fit the rig", "[real]") {
   for (const auto& [name, frames] :
        {std::pair<const char*, std::size_t>{"euroc_v1_01_easy_at_rest", 40}, {"euroc_v1_01_easy_keyframes", 86}}) {
     const std::string root = real_data(name);
@@ -125,8 +119,7 @@ TEST_CASE("real data: EuRoC at rest does not move, and its undistorted images fi
   }
 }
 
-TEST_CASE("real data: every still pair opens, and its rig puts matches in front of the cameras",
-          "[dataset][real][long]") {
+TEST_CASE("real data: every still pair opens, and its rig puts matches in front of the cameras", "[real][long]") {
   const std::pair<const char*, const char*> pairs[] = {
       {"eth3d_two_view/two_view_training/terrace_2s", "eth3d-two-view"},
       {"eth3d_two_view/two_view_training/delivery_area_1l", "eth3d-two-view"},
@@ -150,7 +143,7 @@ TEST_CASE("real data: every still pair opens, and its rig puts matches in front 
   }
 }
 
-TEST_CASE("real data: ground-truth disparities are positive and within the reader's range", "[dataset][real]") {
+TEST_CASE("real data: ground-truth disparities are positive and within the reader's range", "[real]") {
   for (const char* folder :
        {"eth3d_two_view/two_view_training/terrace_2s", "middlebury_2014/Motorcycle-perfect-quarter",
         "middlebury_2005/Art", "middlebury_2005/Reindeer", "middlebury_2003/teddy", "middlebury_2006/Aloe"}) {

@@ -1,24 +1,12 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "data/sequence_writer.hpp"
 #include "dataset_files.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
-TEST_CASE("dataset: a rendered sequence is read back as it was written", "[dataset]") {
+TEST_CASE("dataset: a rendered sequence is read back as it was written") {
   const TemporaryFolder folder;
-  SyntheticOptions options;
-  options.frames = 3;
-  options.width = 80;
-  options.height = 60;
-  options.focal = 60;
-  options.supersampling = 1;
-  const SyntheticSequence sequence(options);
+  const SyntheticSequence sequence(rendering(80, 60, 60, 3, 1));
   int calls = 0;
   write_eth3d_slam(folder / "s", sequence, [&](int done, int all) {
     CHECK(done == ++calls);
@@ -49,11 +37,11 @@ TEST_CASE("dataset: a rendered sequence is read back as it was written", "[datas
     CHECK(std::vector<float>(map.begin<float>(), map.end<float>()) == right.depth);
   }
   CHECK_THROWS_WITH(write_eth3d_slam(folder / "s", sequence), Contains("existing sequence"));
-  dataset_files::write_text(folder / "file", "");
+  write_text(folder / "file", "");
   CHECK_THROWS_AS(write_eth3d_slam(folder / "file/s", sequence), DataError);
 }
 
-TEST_CASE("dataset: the cameras of ETH3D's SLAM benchmark are rendered and read back", "[dataset]") {
+TEST_CASE("dataset: the cameras of ETH3D's SLAM benchmark are rendered and read back") {
   const TemporaryFolder folder;
   SyntheticOptions options;
   options.rig = "eth3d-slam";

@@ -1,11 +1,7 @@
 /// \file test_device_limits.cpp  Simulated devices with tighter limits than the available ones.
-#include <catch2/catch.hpp>
-
 #include "device/variants.hpp"
 #include "edges/memory_fit.hpp"
 #include "frontends.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/odometry.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -46,7 +42,7 @@ TEST_CASE("limits: a device that cannot store bytes is refused by name", "[openc
   CHECK_THROWS_AS(opencl::open_limited("0", {}, limits), DeviceError);
 }
 
-TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame warns about it", "[opencl][odometry]") {
+TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame warns about it", "[opencl]") {
   RenderedScene scene("room", 320, 200, 2);
   opencl::DeviceLimits limits;
   limits.memory_bytes = 60'000'000;
@@ -65,7 +61,7 @@ TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame 
   CHECK(odometry.device_bytes() < limits.memory_bytes);
 }
 
-TEST_CASE("limits: the paper's edges are reduced to fit the memory, too", "[opencl][paper]") {
+TEST_CASE("limits: the paper's edges are reduced to fit the memory, too", "[opencl]") {
   RenderedScene scene("room", 320, 200, 1);
   scene.config = read_preset("paper");
   opencl::DeviceLimits limits;

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/least_squares.hpp"
 #include "motion/residuals.hpp"
@@ -30,7 +28,7 @@ Eigen::Vector2d value_of(const DirectionResidual& residual) { return {residual.l
 
 }  // namespace
 
-TEST_CASE("The direction residual's analytic Jacobian is its derivative", "[pose][direction_residual]") {
+TEST_CASE("The direction residual's analytic Jacobian is its derivative", "[pose]") {
   const NoiseModel noise{quadedge::PoseConfig{}};
   generated::for_quads_off_motion([&](const QuadObservations& quads, std::size_t i, const quadedge::StereoRig& /*rig*/,
                                       const Eigen::Isometry3d& pose) {
@@ -58,7 +56,7 @@ TEST_CASE("The direction residual's analytic Jacobian is its derivative", "[pose
   });
 }
 
-TEST_CASE("Direction residuals vanish at the true motion", "[pose][direction_residual]") {
+TEST_CASE("Direction residuals vanish at the true motion", "[pose]") {
   const generated::Problem problem = generated::near_problem();
   const auto exact = generated::generate(problem, 22);
   for (std::size_t i = 0; i < exact.quads.size(); ++i) {

@@ -1,12 +1,7 @@
 /// \file test_earlier_rigs.cpp  Keyframes that are kept for a loss, and the return to a place that they have seen.
-#include <catch2/catch.hpp>
-
-#include "devices.hpp"
 #include "motion/earlier_rigs.hpp"
 #include "motion/odometry_constants.hpp"
 #include "motion/view_change.hpp"
-#include "quadedge/odometry.hpp"
-#include "quadedge/synthetic.hpp"
 #include "saved_maps.hpp"
 
 using namespace quadedge;
@@ -33,7 +28,7 @@ std::vector<int> frames_of(const std::vector<const KeyRig*>& rigs) {
 
 }  // namespace
 
-TEST_CASE("earlier rigs: only different views are kept, and the nearest ones come first", "[odometry][key_rig]") {
+TEST_CASE("earlier rigs: only different views are kept, and the nearest ones come first") {
   EarlierRigs earlier;
   for (int frame = 0; frame < 10; ++frame) earlier.remember(turned(frame, 0.1 * frame), 0);  // 0, 3 or 4, ...
   const auto frames = frames_of(earlier.nearest(turned(20, 0.9).world_from_left()));
@@ -45,7 +40,7 @@ TEST_CASE("earlier rigs: only different views are kept, and the nearest ones com
   CHECK(frames_of(at_one_place.nearest(Eigen::Isometry3d::Identity())) == std::vector<int>{0});
 }
 
-TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leaves", "[odometry][key_rig]") {
+TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leaves") {
   EarlierRigs earlier;
   const int most = static_cast<int>(odometry::kEarlierRigs);
   std::vector<KeyRig> rigs;
@@ -60,7 +55,7 @@ TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leave
   CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).size() == odometry::kEarlierTrials);
 }
 
-TEST_CASE("earlier rigs: one that was returned to is kept once", "[odometry][key_rig]") {
+TEST_CASE("earlier rigs: one that was returned to is kept once") {
   EarlierRigs earlier;
   const KeyRig first = turned(0, 0), second = turned(1, 1);
   for (const KeyRig* rig : {&first, &second, &first}) earlier.remember(*rig, 0);
@@ -72,7 +67,7 @@ TEST_CASE("earlier rigs: one that was returned to is kept once", "[odometry][key
 TEST_CASE(
     "earlier rigs: a frame that sees an earlier place again stays in the segment, at the right pose; one that sees "
     "another scene is lost",
-    "[odometry][key_rig][device]") {
+    "[device]") {
   const SyntheticSequence facade(saved_maps::small("facade", "drive", 103)), room(saved_maps::small("room", "loop", 9));
   const auto track = [&](StereoOdometry& odometry, const SyntheticSequence& scene, int frame, std::int64_t& stamp) {
     const Image left = scene.render(frame, Side::left).image, right = scene.render(frame, Side::right).image;

@@ -1,14 +1,9 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-
 #include "common/images.hpp"
 #include "device/edge_detection.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "edge_images.hpp"
 #include "edges/common_view.hpp"
 #include "frontends.hpp"
-#include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
 
 using namespace quadedge;
@@ -28,7 +23,7 @@ PixelMask odd_mask(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("edge mask: the border has the requested width along rows, columns and diagonals", "[edges]") {
+TEST_CASE("edge mask: the border has the requested width along rows, columns and diagonals") {
   const PixelMask mask = odd_mask(61, 47);
   for (const int margin : {0, 1, 4, 70}) {
     const PixelMask wide = with_border(mask, margin);
@@ -44,7 +39,7 @@ TEST_CASE("edge mask: the border has the requested width along rows, columns and
   }
 }
 
-TEST_CASE("edge mask: every device and variant keeps the same edges as the reference", "[edges][device][oclgrind]") {
+TEST_CASE("edge mask: every device and variant keeps the same edges as the reference", "[device][oclgrind]") {
   const int width = 61, height = 47;
   Config config;
   config.edges.margin = 3;
@@ -104,7 +99,7 @@ bool hides(const PixelMask& mask, const Wanted& wanted) {
 
 }  // namespace
 
-TEST_CASE("common view: equal rectified cameras hide nothing, and keep their masks", "[frontend]") {
+TEST_CASE("common view: equal rectified cameras hide nothing, and keep their masks") {
   StereoRig rig = hundred_pixel_rig();
   CHECK(within_common_view(rig).left_mask.empty());
   CHECK(within_common_view(rig).right_mask.empty());
@@ -113,7 +108,7 @@ TEST_CASE("common view: equal rectified cameras hide nothing, and keep their mas
   CHECK(within_common_view(rig).left_mask.hidden == rig.left_mask.hidden);
 }
 
-TEST_CASE("common view: rows and columns beyond the other image are hidden in both", "[frontend]") {
+TEST_CASE("common view: rows and columns beyond the other image are hidden in both") {
   StereoRig rig = hundred_pixel_rig();
   rig.right.cy -= 20;  // left row y is right row y - 20
   rig.left_mask = {100, 60, std::vector<std::uint8_t>(6000)};
@@ -133,13 +128,13 @@ TEST_CASE("common view: rows and columns beyond the other image are hidden in bo
   CHECK(within_common_view(rig).right_mask.empty());
 }
 
-TEST_CASE("common view: a camera that looks back sees nothing of the other's", "[frontend]") {
+TEST_CASE("common view: a camera that looks back sees nothing of the other's") {
   StereoRig rig = hundred_pixel_rig();
   rig.right_from_left.linear() = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitY()).toRotationMatrix();
   CHECK(hides(within_common_view(rig).left_mask, [](int, int) { return true; }));
 }
 
-TEST_CASE("common view: the front ends detect no edge outside it", "[frontend][device]") {
+TEST_CASE("common view: the front ends detect no edge outside it", "[device]") {
   const matching::RenderedScene room("room", 320, 200, 1);
   StereoRig rig = room.rig;
   rig.right.cy -= 50;

@@ -1,15 +1,6 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "device/edge_detection.hpp"
 #include "device/variants.hpp"
 #include "edge_images.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/match_stereo.hpp"
 #include "reference/edge_detection.hpp"
 #include "stage_rows.hpp"
 
@@ -65,7 +56,7 @@ ThresholdAndNoise reference_of(const std::vector<Image>& images, const EdgesConf
 
 }  // namespace
 
-TEST_CASE("edge threshold: noise is measured to 5 %, at any image size, bit depth and grey level", "[edges]") {
+TEST_CASE("edge threshold: noise is measured to 5 %, at any image size, bit depth and grey level") {
   for (const auto& [width, height] : {std::pair{127, 93}, {640, 481}}) {
     const double tolerance = width > 200 ? 0.05 : 0.12;
     for (const double sigma : {1.0, 1.5, 3.0, 8.0}) {
@@ -83,14 +74,14 @@ TEST_CASE("edge threshold: noise is measured to 5 %, at any image size, bit dept
   }
 }
 
-TEST_CASE("edge threshold: saturated pixels are left out of the noise estimate", "[edges]") {
+TEST_CASE("edge threshold: saturated pixels are left out of the noise estimate") {
   Image image = noisy_image(320, 241, 128, 2);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < 240; ++x) image.set(x, y, x < 120 ? 0 : 255);
   CHECK(static_cast<double>(reference_of({image}).noise) == Approx(2.02).epsilon(0.08));
 }
 
-TEST_CASE("edge threshold: every device and variant agrees with the reference", "[edges][device][oclgrind]") {
+TEST_CASE("edge threshold: every device and variant agrees with the reference", "[device][oclgrind]") {
   std::vector<std::vector<Image>> cases;
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 9}, {17, 31}, {75, 66}}) {
     const Image image = textured_image(width, height), other = textured_image(width + 5, height + 3, 2);
@@ -120,8 +111,7 @@ TEST_CASE("edge threshold: every device and variant agrees with the reference", 
   });
 }
 
-TEST_CASE("edge threshold: normal contrast gives the largest, a flat image the lowest, a saturated image the largest",
-          "[edges]") {
+TEST_CASE("edge threshold: normal contrast gives the largest, a flat image the lowest, a saturated image the largest") {
   const EdgesConfig config;
   const double one_step = 1.0 / (std::sqrt(2.0 * 3.14159265358979323846) * config.sigma);
   CHECK(reference_of({textured_image(320, 240)}).threshold == 2.0F);
@@ -136,7 +126,7 @@ TEST_CASE("edge threshold: normal contrast gives the largest, a flat image the l
   CHECK(reference_of({noisy_image(640, 480, 128, 30)}).threshold == 2.0F);
 }
 
-TEST_CASE("edge threshold: follows the contrast, and the number of edges stays similar", "[edges][device]") {
+TEST_CASE("edge threshold: follows the contrast, and the number of edges stays similar", "[device]") {
   const Image bright = textured_image(320, 243);
   for (const auto& index : all_devices()) {
     Device device(index, kept_programs());
@@ -154,8 +144,7 @@ TEST_CASE("edge threshold: follows the contrast, and the number of edges stays s
   }
 }
 
-TEST_CASE("edge threshold: stays constant under small changes of contrast and follows large ones at once",
-          "[edges][device]") {
+TEST_CASE("edge threshold: stays constant under small changes of contrast and follows large ones at once", "[device]") {
   const Image bright = textured_image(320, 243);
   std::vector<std::vector<Image>> frames;
   for (const double contrast : {0.10, 0.105, 0.095, 0.11, 0.3, 0.1})
@@ -174,7 +163,7 @@ TEST_CASE("edge threshold: stays constant under small changes of contrast and fo
   });
 }
 
-TEST_CASE("edge threshold: a fixed one is used unchanged", "[edges][device]") {
+TEST_CASE("edge threshold: a fixed one is used unchanged", "[device]") {
   EdgesConfig config;
   config.threshold = 0.75;
   const Image flat = noisy_image(64, 48, 100, 0);

@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include "geometry/undistortion.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 
@@ -16,7 +15,7 @@ StereoRig rig_of(double left_focal, int left_width, double right_focal, int righ
 
 }  // namespace
 
-TEST_CASE("equal scale: a camera with twice the resolution is halved and keeps its rays", "[odometry][rig]") {
+TEST_CASE("equal scale: a camera with twice the resolution is halved and keeps its rays") {
   const StereoRig rig = rig_of(300, 400, 150, 200), equal = with_equal_scales(rig);
   CHECK(equal.right.fx == 150);
   CHECK(equal.right_undistortion.empty());
@@ -36,7 +35,7 @@ TEST_CASE("equal scale: a camera with twice the resolution is halved and keeps i
   }
 }
 
-TEST_CASE("equal scale: an undistortion table is rescaled, and other rigs stay unchanged", "[odometry][rig]") {
+TEST_CASE("equal scale: an undistortion table is rescaled, and other rigs stay unchanged") {
   StereoRig rig = rig_of(150, 200, 300, 400);
   UndistortionTable& table = rig.right_undistortion;
   table.width = 400;

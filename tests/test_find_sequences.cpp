@@ -1,13 +1,5 @@
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <unistd.h>
-
 #include "data/find_sequences.hpp"
 #include "dataset_files.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using namespace dataset_files;
@@ -23,7 +15,7 @@ std::vector<std::string> names(const std::vector<data::FoundSequence>& sequences
 
 }  // namespace
 
-TEST_CASE("find sequences: a folder of still pairs is told from one without any data", "[data]") {
+TEST_CASE("find sequences: a folder of still pairs is told from one without any data") {
   const TemporaryFolder folder;
   for (const char* name : {"two_view/a/im0.png", "two_view/a/im1.png", "two_view/b/im0.png", "two_view/b/im1.png"})
     write_image(folder / name);
@@ -32,7 +24,7 @@ TEST_CASE("find sequences: a folder of still pairs is told from one without any 
   CHECK_THROWS_WITH(data::find_sequences(folder.path()), Contains("no sequence") && Contains("eth3d-stereo-pairs"));
 }
 
-TEST_CASE("find sequences: all layouts below a folder are found, except still pairs", "[data]") {
+TEST_CASE("find sequences: all layouts below a folder are found, except still pairs") {
   const TemporaryFolder folder;
   write_kitti(folder / "data/kitti");
   write_euroc(folder / "data/flights/V1 01");
@@ -48,14 +40,14 @@ TEST_CASE("find sequences: all layouts below a folder are found, except still pa
   CHECK(names(data::find_sequences(folder / "data/flights/V1 01/mav0")) == std::vector<std::string>{"V1_01 euroc"});
 }
 
-TEST_CASE("find sequences: equal names are extended until they differ", "[data]") {
+TEST_CASE("find sequences: equal names are extended until they differ") {
   const TemporaryFolder folder;
   for (const char* place : {"monday/room", "tuesday/room", "tuesday/hall"}) write_eth3d_slam(folder / place, 1);
   CHECK(names(data::find_sequences(folder.path())) ==
         std::vector<std::string>{"monday_room eth3d-slam", "hall eth3d-slam", "tuesday_room eth3d-slam"});
 }
 
-TEST_CASE("find sequences: links are followed, cycles end, nothing is found twice", "[data]") {
+TEST_CASE("find sequences: links are followed, cycles end, nothing is found twice") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "elsewhere/room", 1);
   std::filesystem::create_directories(folder / "root/deep");
@@ -67,7 +59,7 @@ TEST_CASE("find sequences: links are followed, cycles end, nothing is found twic
   CHECK(found[0].path == folder / "root/link");
 }
 
-TEST_CASE("find sequences: unreadable folders are listed without a format, beside the others", "[data]") {
+TEST_CASE("find sequences: unreadable folders are listed without a format, beside the others") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "root/room", 1);
   std::filesystem::create_symlink("itself", folder / "root/itself");
@@ -90,7 +82,7 @@ TEST_CASE("find sequences: unreadable folders are listed without a format, besid
   CHECK_THROWS_AS(data::find_sequences(name + name), DataError);
 }
 
-TEST_CASE("find sequences: a list keeps its order and its invalid lines", "[data]") {
+TEST_CASE("find sequences: a list keeps its order and its invalid lines") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "b", 1);
   write_eth3d_slam(folder / "a", 1);
@@ -103,7 +95,7 @@ TEST_CASE("find sequences: a list keeps its order and its invalid lines", "[data
   CHECK(found[1].path == folder / "absent/folder");
 }
 
-TEST_CASE("find sequences: a folder or list without sequences is an error that names it", "[data]") {
+TEST_CASE("find sequences: a folder or list without sequences is an error that names it") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "empty");
   write_text(folder / "list.txt", "# nothing\n");

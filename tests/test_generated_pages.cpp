@@ -1,6 +1,4 @@
 /// \file test_generated_pages.cpp  Shell completion.
-#include <catch2/catch.hpp>
-
 #include "program.hpp"
 
 namespace {

@@ -71,7 +71,7 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
 
 }  // namespace
 
-TEST_CASE("wide matching: the step selects about the wanted number of edges", "[wide]") {
+TEST_CASE("wide matching: the step selects about the wanted number of edges") {
   CHECK(global_step(0, 3000) == 1);
   CHECK(global_step(5999, 3000) == 1);
   CHECK(global_step(6000, 3000) == 2);
@@ -79,7 +79,7 @@ TEST_CASE("wide matching: the step selects about the wanted number of edges", "[
 }
 
 TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a good neighbour does not",
-          "[wide][device][oclgrind]") {
+          "[device][oclgrind]") {
   // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 have competing matches at a distance: the
   // descriptor distances at 20 and 24 degrees have a ratio of 0.84, at 20 and 40 degrees of 0.51.
   std::vector<std::uint8_t> rows, columns;
@@ -100,7 +100,7 @@ TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a good
   CHECK(std::abs(matches.ncc[0] - static_cast<float>(std::cos(20 * kDegree))) < 0.01f);
 }
 
-TEST_CASE("wide matching: an edge with equally good matches in different places has none", "[wide][device][oclgrind]") {
+TEST_CASE("wide matching: an edge with equally good matches in different places has none", "[device][oclgrind]") {
   std::vector<std::uint8_t> rows, columns;
   for (double degrees : {10.0, 8.0, 8.0}) add_descriptor(rows, 0, 1, degrees);
   add_descriptor(columns, 0, 1, 0);
@@ -113,7 +113,7 @@ TEST_CASE("wide matching: an edge with equally good matches in different places 
 }
 
 TEST_CASE("wide matching: devices agree with the reference on random descriptors, odd counts and steps",
-          "[wide][device][oclgrind]") {
+          "[device][oclgrind]") {
   Random random(5);
   const auto positions = [&](int count) {
     std::vector<std::pair<float, float>> result;

@@ -1,10 +1,4 @@
 /// \file test_grid_edges.cpp  The paper's edges on devices, against host/workbench/paper/grid_edges.cpp.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <utility>
-
 #include "device/grid_edges.hpp"
 #include "edge_images.hpp"
 #include "frontends.hpp"
@@ -90,7 +84,7 @@ void check_grid_edges(const EdgeSet& found, const reference::ReferenceEdges& tru
 }  // namespace
 
 TEST_CASE("grid edges: devices agree with the plain form at odd sizes, margins and scales, and are reproducible",
-          "[paper][edges][device]") {
+          "[device]") {
   const std::tuple<int, int, int, double> cases[] = {{143, 97, 10, 2.0}, {321, 243, 10, 2.0}, {64, 49, 3, 2.0},
                                                      {17, 31, 1, 2.0},   {97, 60, 7, 1.3},    {160, 121, 12, 3.1}};
   for (const auto& [width, height, margin, sigma] : cases) {
@@ -109,7 +103,7 @@ TEST_CASE("grid edges: devices agree with the plain form at odd sizes, margins a
 }
 
 TEST_CASE("grid edges: images within the margin have none, hidden pixels have none, a full list is cut in order",
-          "[paper][edges][device][oclgrind]") {
+          "[device][oclgrind]") {
   const Image image = textured_image(41, 37);
   PixelMask mask{41, 37, std::vector<std::uint8_t>(41 * 37)};
   for (int y = 0; y < 37; ++y)

@@ -1,14 +1,7 @@
 /// \file test_image_depth.cpp  Images of 12 and 16 bits, from single stages to the trajectory.
-#include <catch2/catch.hpp>
-#include <set>
-
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "edge_images.hpp"
 #include "frontends.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/match_stereo.hpp"
-#include "quadedge/odometry.hpp"
 
 using namespace quadedge;
 using matching::FrontendOutput;
@@ -24,7 +17,7 @@ Image deepened(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("image depth: pixels hold raw values, grey levels do not depend on the bit depth", "[image]") {
+TEST_CASE("image depth: pixels hold raw values, grey levels do not depend on the bit depth") {
   Image image(3, 2, 4095);
   image.set(2, 1, 4095);
   image.set(0, 1, 819);
@@ -38,7 +31,7 @@ TEST_CASE("image depth: pixels hold raw values, grey levels do not depend on the
   CHECK(view.value(0, 1) == 3);
 }
 
-TEST_CASE("image depth: the same grey levels at 16 bits have the same edges", "[edges][device]") {
+TEST_CASE("image depth: the same grey levels at 16 bits have the same edges", "[device]") {
   const Image image = textured_image(161, 123), deep = deepened(image);
   for (const auto& name : all_devices_and_reference()) {
     Device device(name, kept_programs());
@@ -54,7 +47,7 @@ TEST_CASE("image depth: the same grey levels at 16 bits have the same edges", "[
 }
 
 TEST_CASE("image depth: devices find the reference's stereo edges at 12 and 16 bits, every variant the same bytes",
-          "[frontend][matching][device]") {
+          "[device]") {
   const std::set<std::string> readers = {"edge_threshold", "edge_detection", "patches", "sift", "stereo_refinement"};
   for (const int bits : {12, 16}) {
     RenderedScene scene("cables", 161, 97, 2, 1, bits, bits == 16 ? 0.02 : 0.5);
@@ -75,7 +68,7 @@ TEST_CASE("image depth: devices find the reference's stereo edges at 12 and 16 b
   }
 }
 
-TEST_CASE("image depth: a hundredth of the contrast at 16 bits is tracked like full contrast", "[odometry][device]") {
+TEST_CASE("image depth: a hundredth of the contrast at 16 bits is tracked like full contrast", "[device]") {
   const RenderedScene bright("room", 320, 200, 4, 1, 16), dim("room", 320, 200, 4, 1, 16, 0.01);
   for (const auto& name : all_devices()) {
     Device device(name, kept_programs());

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "matching.hpp"
 #include "rig/image_jump.hpp"
@@ -45,7 +43,7 @@ Eigen::Isometry3d forward(double metres, double degrees) {
 
 }  // namespace
 
-TEST_CASE("image jump: a displaced right image is measured beside the motion", "[odometry]") {
+TEST_CASE("image jump: a displaced right image is measured beside the motion") {
   for (const double displaced : {0.0, 2.8, -3.5}) {
     const Scene scene(forward(0.8, 1), displaced, 5);
     // The prediction is off by 0.1 m and by 0.2 degrees.
@@ -59,7 +57,7 @@ TEST_CASE("image jump: a displaced right image is measured beside the motion", "
   }
 }
 
-TEST_CASE("image jump: a third of wrong matches does not matter", "[odometry]") {
+TEST_CASE("image jump: a third of wrong matches does not matter") {
   Scene scene(forward(0.8, 1), 2.8, 5);
   for (std::size_t m = 0; m + 1 < scene.matches.size(); m += 6)
     std::swap(scene.matches.current[m], scene.matches.current[m + 1]);
@@ -68,7 +66,7 @@ TEST_CASE("image jump: a third of wrong matches does not matter", "[odometry]") 
   CHECK(jump->shift == Approx(2.8).margin(0.2));
 }
 
-TEST_CASE("image jump: few matches show none", "[odometry]") {
+TEST_CASE("image jump: few matches show none") {
   const Scene scene(forward(0.8, 1), 2.8, 5, 20);
   CHECK_FALSE(rig::JumpMeter().measure(scene.before, scene.now, scene.matches, forward(0.8, 1)));
 }

@@ -1,17 +1,12 @@
-#include <catch2/catch.hpp>
-
 #include "data/image_list.hpp"
 #include "data/text.hpp"
 #include "dataset_files.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
 using namespace quadedge::data;
 
-TEST_CASE("image list: digits in names count as numbers", "[data]") {
+TEST_CASE("image list: digits in names count as numbers") {
   CHECK(comes_before("img9.png", "img10.png"));
   CHECK_FALSE(comes_before("img10.png", "img9.png"));
   CHECK(comes_before("a2b3", "a2b20"));
@@ -23,7 +18,7 @@ TEST_CASE("image list: digits in names count as numbers", "[data]") {
   CHECK(comes_before("1403636579763555584", "1403636579813555456"));
 }
 
-TEST_CASE("image list: names that can be times give the timestamps", "[data]") {
+TEST_CASE("image list: names that can be times give the timestamps") {
   const TemporaryFolder folder;
   const auto stamps = [&](const std::string& name, const std::vector<std::string>& files) {
     for (const auto& file : files) dataset_files::write_image(folder / (name + "/images/" + file));
@@ -45,10 +40,10 @@ TEST_CASE("image list: names that can be times give the timestamps", "[data]") {
   CHECK(stamps("words", {"left_1.5.png"}).empty());
 }
 
-TEST_CASE("image list: times.txt and data.csv beside the images give the timestamps", "[data]") {
+TEST_CASE("image list: times.txt and data.csv beside the images give the timestamps") {
   const TemporaryFolder folder;
   for (const char* name : {"1.png", "2.png", "10.png"}) dataset_files::write_image(folder / (std::string("a/") + name));
-  dataset_files::write_text(folder / "times.txt", "# seconds\n0.0\n0.5\n1e0\n");
+  write_text(folder / "times.txt", "# seconds\n0.0\n0.5\n1e0\n");
   auto images = list_images(folder / "a");
   CHECK(images.stamps_ns == std::vector<std::int64_t>{0, 500'000'000, 1'000'000'000});
   CHECK_THAT(images.files[2], Contains("10.png"));
@@ -57,42 +52,35 @@ TEST_CASE("image list: times.txt and data.csv beside the images give the timesta
   CHECK(data::list_images(folder / "a").stamps_ns == images.stamps_ns);
   std::filesystem::rename(folder / "timestamps.txt", folder / "times.txt");
   // A list takes precedence over times.txt and defines the order.
-  dataset_files::write_text(folder / "a/data.csv", "#timestamp [ns],filename\n7,10.png\n9,1.png\n");
+  write_text(folder / "a/data.csv", "#timestamp [ns],filename\n7,10.png\n9,1.png\n");
   images = list_images(folder / "a");
   CHECK(images.stamps_ns == std::vector<std::int64_t>{7, 9});
   CHECK_THAT(images.files[0], Contains("10.png"));
 }
 
-TEST_CASE("image list: inconsistent files are reported", "[data]") {
+TEST_CASE("image list: inconsistent files are reported") {
   const TemporaryFolder folder;
   dataset_files::write_image(folder / "a/1.png");
-  const auto complaint = [&]() -> std::string {
-    try {
-      list_images(folder / "a");
-      return "";
-    } catch (const DataError& error) {
-      return error.what();
-    }
-  };
-  dataset_files::write_text(folder / "a/times.txt", "0\n1\n");
+  const auto complaint = [&] { return message_of([&] { list_images(folder / "a"); }); };
+  write_text(folder / "a/times.txt", "0\n1\n");
   CHECK_THAT(complaint(), Contains("a/times.txt") && Contains("2 times") && Contains("the 1 image in"));
-  dataset_files::write_text(folder / "a/times.txt", "0 1 2 3\n");
+  write_text(folder / "a/times.txt", "0 1 2 3\n");
   CHECK_THAT(complaint(), Contains("times.txt:1"));
   CHECK(list_images(folder / "a", false).stamps_ns.empty());  // what nobody asks for is not read
-  dataset_files::write_text(folder / "a/times.txt", "# name seconds exposure\n1 1520530308.199447626 1.46\n");
+  write_text(folder / "a/times.txt", "# name seconds exposure\n1 1520530308.199447626 1.46\n");
   CHECK(list_images(folder / "a").stamps_ns == std::vector<std::int64_t>{1520530308199447626});
-  dataset_files::write_text(folder / "a/times.txt", "2011-09-26 13:02:25.967790592\n");
+  write_text(folder / "a/times.txt", "2011-09-26 13:02:25.967790592\n");
   CHECK(list_images(folder / "a").stamps_ns == std::vector<std::int64_t>{1317042145967790592});
-  dataset_files::write_text(folder / "a/data.csv", "5,2.png\n");
+  write_text(folder / "a/data.csv", "5,2.png\n");
   CHECK_THAT(complaint(), Contains("2.png") && Contains("data.csv"));
-  dataset_files::write_text(folder / "a/data.csv", "5,1.png\n5,1.png\n");
+  write_text(folder / "a/data.csv", "5,1.png\n5,1.png\n");
   CHECK_THAT(complaint(), Contains("data.csv:2") && Contains("again"));
-  dataset_files::write_text(folder / "a/data.csv", "5,../1.png\n");
+  write_text(folder / "a/data.csv", "5,../1.png\n");
   CHECK_THAT(complaint(), Contains("data.csv:1"));
   CHECK_THROWS_AS(list_images(folder / "absent"), DataError);
 }
 
-TEST_CASE("image list: timestamps are paired with the nearest ones", "[data]") {
+TEST_CASE("image list: timestamps are paired with the nearest ones") {
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
   // Half of the usual period of 10 is not reached by 4: 20 and 24 are a pair, 40 has none.
   const StampPairs found = pair_stamps({0, 10, 20, 30, 40}, {1, 11, 24, 29, 60});
@@ -106,36 +94,36 @@ TEST_CASE("image list: timestamps are paired with the nearest ones", "[data]") {
   CHECK(pair_stamps({5}, {}).pairs.empty());
 }
 
-TEST_CASE("image list: stamps may go back where that is asked for, and never repeat", "[data]") {
+TEST_CASE("image list: stamps may go back where that is asked for, and never repeat") {
   const TemporaryFolder folder;
-  dataset_files::write_text(folder / "times.txt", "1.0\n2.0\n1.5\n");
+  write_text(folder / "times.txt", "1.0\n2.0\n1.5\n");
   CHECK_THROWS_WITH(read_times(folder / "times.txt"), Contains("1.5") && Contains("after 2.0"));
   CHECK(read_times(folder / "times.txt", true) ==
         std::vector<std::int64_t>{1'000'000'000, 2'000'000'000, 1'500'000'000});
-  dataset_files::write_text(folder / "times.txt", "1.0\n1.0\n");
+  write_text(folder / "times.txt", "1.0\n1.0\n");
   CHECK_THROWS_AS(read_times(folder / "times.txt", true), DataError);
 }
 
-TEST_CASE("image list: two files are separated by the comma that leaves two existing ones", "[data]") {
+TEST_CASE("image list: two files are separated by the comma that leaves two existing ones") {
   const TemporaryFolder folder;
   const std::string left = folder / "a,b/left.yaml", right = folder / "a,b/right.yaml";
-  for (const auto& file : {left, right}) dataset_files::write_text(file, "");
+  for (const auto& file : {left, right}) write_text(file, "");
   using Files = std::vector<std::string>;
   CHECK(file_list(left) == Files{left});
   CHECK(file_list(left + "," + right) == Files{left, right});
   CHECK(file_list("one,two") == Files{"one", "two"});
 }
 
-TEST_CASE("image list: TIFF and BMP are named, with a converter", "[data]") {
+TEST_CASE("image list: TIFF and BMP are named, with a converter") {
   const TemporaryFolder folder;
-  dataset_files::write_text(folder / "t/1.tif", std::string("II*\0\0\0\0\0", 8));
-  dataset_files::write_text(folder / "b/1.png", "BM12345678");
+  write_text(folder / "t/1.tif", std::string("II*\0\0\0\0\0", 8));
+  write_text(folder / "b/1.png", "BM12345678");
   CHECK_THROWS_WITH(list_images(folder / "t"), Contains("1.tif") && Contains("mogrify"));
   CHECK_THROWS_WITH(read_grey_image(folder / "b/1.png"), Contains("a BMP image") && Contains("mogrify"));
   CHECK_THROWS_WITH(read_grey_image(folder / "t/1.tif"), Contains("a TIFF image"));
 }
 
-TEST_CASE("image list: numbers of names that jump are told", "[data]") {
+TEST_CASE("image list: numbers of names that jump are told") {
   const auto names = [](int first, int count) {
     std::vector<std::string> files;
     for (int i = first; i < first + count; ++i)

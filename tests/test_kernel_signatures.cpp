@@ -1,18 +1,10 @@
 /// \file test_kernel_signatures.cpp  Kernels and their host signatures, drivers that report other type names, and
 /// groups that are too large for a kernel.
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <set>
-
 #include "device/kernel.hpp"
 #include "device/stage.hpp"
 #include "device/variants.hpp"
 #include "frontends.hpp"
 #include "kernel_programs.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/self_test.hpp"
-#include "temporary_folder.hpp"
-#include "text_files.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;

@@ -1,10 +1,5 @@
-#include <catch2/catch.hpp>
-#include <cstring>
-#include <regex>
-
 #include "device/kernel.hpp"
 #include "device/kernel_sources.hpp"
-#include "devices.hpp"
 #include "kernel_programs.hpp"
 
 using namespace quadedge;

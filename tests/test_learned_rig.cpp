@@ -1,6 +1,3 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "matching.hpp"
 #include "motion/learned_rig.hpp"
 
@@ -26,7 +23,7 @@ RigEstimate displaced(double by, double sigma) {
 
 }  // namespace
 
-TEST_CASE("learned rig: what is learned of the offset adds up", "[rig]") {
+TEST_CASE("learned rig: what is learned of the offset adds up") {
   PoseConfig config;
   config.disparity_offset = 0.1;
   config.disparity_offset_sigma = 0.3;
@@ -41,7 +38,7 @@ TEST_CASE("learned rig: what is learned of the offset adds up", "[rig]") {
   CHECK(estimate.displacement == 0);
 }
 
-TEST_CASE("learned rig: motions show how large disparity errors are, standstill does not", "[rig]") {
+TEST_CASE("learned rig: motions show how large disparity errors are, standstill does not") {
   LearnedRig rig((PoseConfig()));
   const double prior = rig.estimate().disparity_error;
   const auto after = [&](int frames, double variance, double information) {
@@ -59,7 +56,7 @@ TEST_CASE("learned rig: motions show how large disparity errors are, standstill 
   CHECK(after(1000, 0.36, 100) > 0.4);  // the rig has been hit
 }
 
-TEST_CASE("learned rig: switched off, it keeps the configured value", "[rig]") {
+TEST_CASE("learned rig: switched off, it keeps the configured value") {
   PoseConfig config;
   config.disparity_offset = -0.4;
   config.disparity_offset_sigma = 0;
@@ -69,7 +66,7 @@ TEST_CASE("learned rig: switched off, it keeps the configured value", "[rig]") {
   CHECK(rig.estimate().disparity_offset_sigma == 0);
 }
 
-TEST_CASE("learned rig: offset and displacement share what is learned of their difference", "[rig]") {
+TEST_CASE("learned rig: offset and displacement share what is learned of their difference") {
   RigEstimate frame = displaced(2, 0.4);
   frame.disparity_offset_sigma = 0.3;
   // A measurement without noise of 0.25 px.
@@ -85,7 +82,7 @@ TEST_CASE("learned rig: offset and displacement share what is learned of their d
   CHECK(alone.displacement == 2);
 }
 
-TEST_CASE("learned rig: displacements measured from frame to frame do not walk away", "[rig]") {
+TEST_CASE("learned rig: displacements measured from frame to frame do not walk away") {
   LearnedRig rig((PoseConfig()));
   matching::Random random(3);
   double truth = 0, largest = 0, squares = 0;
@@ -106,7 +103,7 @@ TEST_CASE("learned rig: displacements measured from frame to frame do not walk a
   CHECK(largest < 1.2);
 }
 
-TEST_CASE("learned rig: the first displaced images have to be clear, and a rigid rig has none", "[rig]") {
+TEST_CASE("learned rig: the first displaced images have to be clear, and a rigid rig has none") {
   LearnedRig rig((PoseConfig()));
   const auto strict = rig.displacement_limits();
   for (int frame = 0; frame < 100; ++frame) CHECK(rig.anchored({}).displacement == 0);

@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "generated_quads.hpp"
 #include "motion/least_squares.hpp"
 
 using namespace quadedge::pose;
 
-TEST_CASE("A perturbation is a rotation followed by a translation", "[pose][least_squares]") {
+TEST_CASE("A perturbation is a rotation followed by a translation", "[pose]") {
   generated::Random random(35);
   const Eigen::Isometry3d motion = random.motion(1.0, 2.0);
   Vector6d step;
@@ -18,7 +14,7 @@ TEST_CASE("A perturbation is a rotation followed by a translation", "[pose][leas
   CHECK((moved * p - (turn * (motion * p) + step.tail<3>())).norm() < 1e-12);
 }
 
-TEST_CASE("Normal equations that leave a direction undetermined have no solution", "[pose][least_squares]") {
+TEST_CASE("Normal equations that leave a direction undetermined have no solution", "[pose]") {
   Normal<6> normal;
   normal.matrix.diagonal() << 1, 2, 3, 1e6, 1e-6, 4;
   normal.gradient << 1, -2, 3, -1e6, 1e-6, 0;
@@ -34,14 +30,14 @@ TEST_CASE("Normal equations that leave a direction undetermined have no solution
   CHECK_FALSE(solve(normal, step));
 }
 
-TEST_CASE("The scale of errors is their median over the expected one, never zero", "[pose][least_squares]") {
+TEST_CASE("The scale of errors is their median over the expected one, never zero", "[pose]") {
   std::vector<double> values;
   CHECK(measured_scale({8, 2, 1e9, 4, 3}, 5, 2.0, values) == 2.0);
   CHECK(measured_scale({8, 2, 6, 4, 3}, 3, 2.0, values) == 3.0);  // only the first three
   CHECK(measured_scale({0, 0, 0}, 3, 2.0, values) == kSmallestScale);
 }
 
-TEST_CASE("The median of many errors is the middle one, also among equal ones", "[pose][least_squares]") {
+TEST_CASE("The median of many errors is the middle one, also among equal ones", "[pose]") {
   generated::Random random(7);
   std::vector<double> values;
   for (const std::size_t count : {1, 2, 16, 17, 100, 1001, 9000}) {

@@ -1,12 +1,8 @@
 /// \file test_motion_selection.cpp  Which motion is chosen and what makes it ambiguous, row by row; what follows for
 /// the images is held by test_disturbances, test_repetition, test_odometry_real and the attacks on the geometry.
-#include <catch2/catch.hpp>
-#include <functional>
-#include <numeric>
-#include <set>
-
 #include "motion/motion_selection.hpp"
 #include "motion/motion_step.hpp"
+#include "testing.hpp"
 
 using namespace quadedge::odometry;
 
@@ -65,7 +61,7 @@ Choice choose(std::vector<Verdict> verdicts, const Expectation& expectation = kP
 
 }  // namespace
 
-TEST_CASE("motion selection: how much is tried depends on what the prediction leaves open", "[odometry]") {
+TEST_CASE("motion selection: how much is tried depends on what the prediction leaves open") {
   const auto needed = [](const std::vector<Verdict>& verdicts, const Expectation& expectation = kPredicted) {
     return choose(verdicts, expectation).needed;
   };
@@ -81,7 +77,7 @@ TEST_CASE("motion selection: how much is tried depends on what the prediction le
   CHECK(needed({moving(0.5, 0.3), closely(0.4)}) == SearchLevel::inexpensive);
 }
 
-TEST_CASE("motion selection: the motion that explains the largest area is chosen", "[odometry]") {
+TEST_CASE("motion selection: the motion that explains the largest area is chosen") {
   Verdict failure;
   failure.area = 0.9;  // has no meaning
   // Of two equal posters one appears in the place of the other: the jump fits nearly all that it leaves in view. A rare
@@ -119,7 +115,7 @@ TEST_CASE("motion selection: the motion that explains the largest area is chosen
   CHECK(choose({kFailure, kFailure}).refusal == Refusal::no_consensus);
 }
 
-TEST_CASE("motion selection: what was not expected has to agree with the global matches", "[odometry]") {
+TEST_CASE("motion selection: what was not expected has to agree with the global matches") {
   CHECK(choose({contradicted(0.8)}).refusal == Refusal::none);  // confident
   CHECK(choose({contradicted(0.34)}).refusal == Refusal::contradicted);
   CHECK(choose({kFailure, contradicted(0.5)}).refusal == Refusal::contradicted);
@@ -127,7 +123,7 @@ TEST_CASE("motion selection: what was not expected has to agree with the global 
   CHECK(choose({supported(0.8, 0.1)}, kUnpredicted).refusal == Refusal::none);
 }
 
-TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry]") {
+TEST_CASE("motion selection: every ambiguity is told with its ratio") {
   std::set<std::string> texts;
   const auto check = [&](const Ambiguity& ambiguity, AmbiguityKind kind, double ratio) {
     CHECK(ambiguity.kind == kind);
@@ -156,7 +152,7 @@ TEST_CASE("motion selection: every ambiguity is told with its ratio", "[odometry
   CHECK_FALSE(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.4).ambiguity.exists());
 }
 
-TEST_CASE("motion selection: edges of distant views that are not found again are no second motion", "[odometry]") {
+TEST_CASE("motion selection: edges of distant views that are not found again are no second motion") {
   // Confirmed by half of the global matches; by fewer if the rest of them propose nothing, in as many places as a pose
   // needs.
   struct Row {
@@ -177,7 +173,7 @@ TEST_CASE("motion selection: edges of distant views that are not found again are
   }
 }
 
-TEST_CASE("motion selection: an ambiguous motion is refused where it is no answer", "[odometry]") {
+TEST_CASE("motion selection: an ambiguous motion is refused where it is no answer") {
   const auto decided = [](Verdict verdict, bool accepts_ambiguous, const Ambiguity& later = {}) {
     decide(accepts_ambiguous, later, verdict);
     return verdict.refusal;
@@ -192,7 +188,7 @@ TEST_CASE("motion selection: an ambiguous motion is refused where it is no answe
   CHECK(decided(kFailure, false, later) == Refusal::no_consensus);
 }
 
-TEST_CASE("motion selection: when another part of the image may follow the camera's motion", "[odometry]") {
+TEST_CASE("motion selection: when another part of the image may follow the camera's motion") {
   struct Row {
     const char* what;
     OtherPart part;  // area, ratio, spread, chosen area; balance, spread of matches, whether they agree, whether a rest
@@ -233,7 +229,7 @@ TEST_CASE("motion selection: when another part of the image may follow the camer
   }
 }
 
-TEST_CASE("motion selection: after most of the image has changed, the next three frames are searched", "[odometry]") {
+TEST_CASE("motion selection: after most of the image has changed, the next three frames are searched") {
   const auto searches_after = [](double before, double changed) {
     TrackRecord record{quadedge::Config()};
     MotionStep step;
@@ -256,7 +252,7 @@ TEST_CASE("motion selection: after most of the image has changed, the next three
   CHECK(searches_after(0.6, 0.75) == 0);  // as in every step of distant views
 }
 
-TEST_CASE("motion selection: another part of the image is remembered for three searches, until a loss", "[odometry]") {
+TEST_CASE("motion selection: another part of the image is remembered for three searches, until a loss") {
   TrackRecord record{quadedge::Config()};
   MotionStep step;
   step.clear();
@@ -284,8 +280,7 @@ TEST_CASE("motion selection: another part of the image is remembered for three s
   CHECK_FALSE(is_remembered(false, {}));
 }
 
-TEST_CASE("motion selection: a motion that differs by a period does not take the place of the prediction's",
-          "[odometry]") {
+TEST_CASE("motion selection: a motion that differs by a period does not take the place of the prediction's") {
   const std::vector<Verdict> verdicts = {found(0.3), found(0.8)};
   CHECK(choose(verdicts).chosen == 1);
   CHECK_FALSE(choose(verdicts).is_predicted);

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/motion_evidence.hpp"
 #include "motion/moving_cells.hpp"
@@ -35,13 +33,13 @@ ExplainedCells flickering() {
 
 }  // namespace
 
-TEST_CASE("moving cells: weak edges that flicker on all sides do not move", "[odometry]") {
+TEST_CASE("moving cells: weak edges that flicker on all sides do not move") {
   const ExplainedCells cells = flickering();
   CHECK(cells.count(false) == 50);  // a quarter of the image does not follow
   CHECK(find_moving_cells(cells).count == 0);
 }
 
-TEST_CASE("moving cells: strong edges that are not where the motion has them move", "[odometry]") {
+TEST_CASE("moving cells: strong edges that are not where the motion has them move") {
   ExplainedCells cells = flickering();
   // A frame of the scene around a board that is fixed to the camera.
   for (int column = 0; column < 20; ++column)
@@ -51,7 +49,7 @@ TEST_CASE("moving cells: strong edges that are not where the motion has them mov
   CHECK(moving.spread > kSurroundingSpread * cells.spread());
 }
 
-TEST_CASE("moving cells: the box is that of the largest group of adjacent cells", "[odometry]") {
+TEST_CASE("moving cells: the box is that of the largest group of adjacent cells") {
   ExplainedCells cells = view();
   for (int column = 5; column < 8; ++column) at(cells, column, 4) = {20, 10, 1};
   at(cells, 8, 5) = {20, 10, 1};  // touches the group at a corner
@@ -63,7 +61,7 @@ TEST_CASE("moving cells: the box is that of the largest group of adjacent cells"
   CHECK(find_moving_cells(view()).largest.isEmpty());
 }
 
-TEST_CASE("moving cells: what counts as motion is measured by the rest of the frame", "[odometry]") {
+TEST_CASE("moving cells: what counts as motion is measured by the rest of the frame") {
   // 1 of 10 edges agrees: much less than 9 of 10 elsewhere, but not much less than 3 of 10.
   for (const double agreeing : {18.0, 6.0}) {
     ExplainedCells cells = view();

@@ -1,9 +1,4 @@
-#include <catch2/catch.hpp>
-
 #include "calibration_files.hpp"
-#include "quadedge/calibration.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using namespace calibration_files;
@@ -61,7 +56,7 @@ void check_transform(const StereoCalibration& calibration, const Eigen::Matrix3d
 
 }  // namespace
 
-TEST_CASE("calibration forms: mrcal's cameras refer to a common frame", "[calibration]") {
+TEST_CASE("calibration forms: mrcal's cameras refer to a common frame") {
   const TemporaryFolder folder;
   // The left camera is turned by 90 degrees about z: R t_left = (2, -1, 3) for R = (0 1 0; -1 0 0; 0 0 1).
   const StereoCalibration read = read_calibration(
@@ -79,7 +74,7 @@ TEST_CASE("calibration forms: mrcal's cameras refer to a common frame", "[calibr
   CHECK_FALSE(read.body_from_left);
 }
 
-TEST_CASE("calibration forms: the models of mrcal with OpenCV's coefficients", "[calibration]") {
+TEST_CASE("calibration forms: the models of mrcal with OpenCV's coefficients") {
   const TemporaryFolder folder;
   for (const std::size_t count : {4U, 5U, 8U, 12U}) {
     std::vector<double> coefficients;
@@ -97,7 +92,7 @@ TEST_CASE("calibration forms: the models of mrcal with OpenCV's coefficients", "
   }
 }
 
-TEST_CASE("calibration forms: mrcal's files by hand: other names, brackets, quotes", "[calibration]") {
+TEST_CASE("calibration forms: mrcal's files by hand: other names, brackets, quotes") {
   const TemporaryFolder folder;
   const std::string older =
       "{ \"lensmodel\": 'LENSMODEL_PINHOLE', 'intrinsics': (450, 460, 370, 240),\n\t'imagersize': "
@@ -117,7 +112,7 @@ TEST_CASE("calibration forms: mrcal's files by hand: other names, brackets, quot
       Contains("right.cameramodel") && Contains("no entry rt_cam_ref"));
 }
 
-TEST_CASE("calibration forms: mrcal's files that are no stereo pair are refused", "[calibration]") {
+TEST_CASE("calibration forms: mrcal's files that are no stereo pair are refused") {
   const TemporaryFolder folder;
   const std::string left = mrcal_camera("LENSMODEL_PINHOLE", kPinhole, kAtReference),
                     right = mrcal_camera("LENSMODEL_PINHOLE", kPinhole, kOnTheRight);
@@ -139,7 +134,7 @@ TEST_CASE("calibration forms: mrcal's files that are no stereo pair are refused"
                           Contains("OPENCV12") && Contains("mrcal-convert-lensmodel"));
 }
 
-TEST_CASE("calibration forms: EDEX has y up and z backward, and poses of the cameras in the rig", "[calibration]") {
+TEST_CASE("calibration forms: EDEX has y up and z backward, and poses of the cameras in the rig") {
   const TemporaryFolder folder;
   // In the left camera's frame the right one is at (0.1, 0.02, -0.03): up by 2 cm and 3 cm ahead, which is
   // (0.1, -0.02, 0.03) with y down and z forward. It is turned about the y axis, which points up, by the angle with
@@ -162,7 +157,7 @@ TEST_CASE("calibration forms: EDEX has y up and z backward, and poses of the cam
                   Eigen::Matrix3d::Identity(), {-0.11, 0, 0});
 }
 
-TEST_CASE("calibration forms: the lens models of EDEX", "[calibration]") {
+TEST_CASE("calibration forms: the lens models of EDEX") {
   const TemporaryFolder folder;
   const auto lens = [&](const std::string& model, const std::string& coefficients) {
     return read_edex_text(
@@ -191,7 +186,7 @@ TEST_CASE("calibration forms: the lens models of EDEX", "[calibration]") {
                                                  Contains("distortion_model") && Contains("brown5k"));
 }
 
-TEST_CASE("calibration forms: EDEX without a stereo pair, or of unknown axes, is refused", "[calibration]") {
+TEST_CASE("calibration forms: EDEX without a stereo pair, or of unknown axes, is refused") {
   const TemporaryFolder folder;
   const std::string left = edex_camera("pinhole", "", kIdentity), right = edex_camera("pinhole", "", kShifted);
   const auto read = [&](const std::string& text) { return read_edex_text(folder, text); };

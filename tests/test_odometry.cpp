@@ -1,19 +1,13 @@
-#include <Eigen/Eigenvalues>
-#include <atomic>
-#include <chrono>
 #include <tbb/global_control.h>
-#include <thread>
 
 #include "geometry/uncertain_pose.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/match_stereo.hpp"
 #include "tracked_room.hpp"
 
 using namespace quadedge;
 using namespace matching;
 using namespace tracked_room;
 
-TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][device]") {
+TEST_CASE("odometry: a rendered room is tracked reproducibly", "[device]") {
   for (const auto& name : all_devices()) {
     const auto results = track(room(), name, room().config), again = track(room(), name, room().config);
     CHECK(results[0].status == FrameStatus::first);
@@ -52,7 +46,7 @@ TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][devic
   }
 }
 
-TEST_CASE("odometry: the C++ reference tracks too and agrees with the devices", "[odometry][device]") {
+TEST_CASE("odometry: the C++ reference tracks too and agrees with the devices", "[device]") {
   const RenderedScene scene("room", 200, 125, 3);
   const auto truth = track(scene, "reference", scene.config);
   for (std::size_t i = 1; i < truth.size(); ++i)
@@ -66,9 +60,8 @@ TEST_CASE("odometry: the C++ reference tracks too and agrees with the devices", 
   }
 }
 
-TEST_CASE("odometry: a repeated frame has not moved", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+TEST_CASE("odometry: a repeated frame has not moved", "[device]") {
+  Tracker odometry;
   odometry.track(room().frame(0));
   for (int k = 0; k < 2; ++k) {
     const auto result = odometry.track(room().frame(0));
@@ -77,7 +70,7 @@ TEST_CASE("odometry: a repeated frame has not moved", "[odometry][device]") {
   }
 }
 
-TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry][device]") {
+TEST_CASE("odometry: one processor gives the same bytes as several", "[device]") {
   const RenderedScene off = room_with_rows_off_by(0.8);
   auto several = track(room(), all_devices().front(), room().config);
   for (const auto& result : track(off, all_devices().front(), off.config)) several.push_back(result);
@@ -91,10 +84,9 @@ TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry]
   }
 }
 
-TEST_CASE("odometry: before the first frame there are no details", "[odometry][device]") {
+TEST_CASE("odometry: before the first frame there are no details", "[device]") {
   for (const auto& name : all_devices_and_reference()) {
-    Device device(name, kept_programs());
-    const StereoOdometry odometry(room().rig, device, room().config);
+    const Tracker odometry(room().rig, room().config, name);
     const FrameDetails details = odometry.details();
     CHECK(details.left_edges.size() == 0);
     CHECK(details.stereo.size() == 0);
@@ -103,35 +95,9 @@ TEST_CASE("odometry: before the first frame there are no details", "[odometry][d
   }
 }
 
-TEST_CASE("odometry: a stride smaller than a row is refused, for 8 and 16 bits", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoRig deep = room().rig;
-  deep.max_value = 65535;
-  const Image bytes(240, 150), words(240, 150, 65535);
-  for (const auto& [rig, image, row] :
-       {std::tuple<StereoRig, ImageView, std::ptrdiff_t>{room().rig, bytes.view(), 240}, {deep, words.view(), 480}}) {
-    StereoOdometry odometry(rig, device, room().config);
-    for (const std::ptrdiff_t stride : {row - 1, std::ptrdiff_t{0}, -row}) {
-      INFO("rows of " << row << " bytes, stride " << stride);
-      ImageView narrow = image;
-      narrow.stride = stride;
-      CHECK_THROWS_AS(odometry.track({0, narrow, image}), DataError);
-      CHECK_THROWS_WITH(odometry.track({0, image, narrow}),
-                        Catch::Matchers::Contains("right") && Catch::Matchers::Contains(std::to_string(stride)) &&
-                            Catch::Matchers::Contains("expected at least the " + std::to_string(row)));
-    }
-    CHECK_NOTHROW(odometry.track({0, image, image}));
-    ImageView narrow = image;
-    narrow.stride = row - 1;
-    CHECK_THROWS_AS(detect_edges(narrow, device, {}), DataError);
-  }
-}
-
-TEST_CASE("odometry: timestamps that go back and images of another size are refused without effect",
-          "[odometry][device]") {
+TEST_CASE("odometry: timestamps that go back and images of another size are refused without effect", "[device]") {
   const Image small(239, 150);
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+  Tracker odometry;
   CHECK(odometry.track(at(1000, room().frame(0))).status == FrameStatus::first);
   CHECK_THROWS_AS(odometry.track(at(999, room().frame(1))), DataError);
   CHECK_THROWS_WITH(odometry.track(at(-5, room().frame(1))),
@@ -144,10 +110,9 @@ TEST_CASE("odometry: timestamps that go back and images of another size are refu
   CHECK(result.reference_frame == 0);
 }
 
-TEST_CASE("odometry: once the scene has been seen, frames allocate nothing on the device", "[odometry][device]") {
+TEST_CASE("odometry: once the scene has been seen, frames allocate nothing on the device", "[device]") {
   for (const auto& name : all_devices()) {
-    Device device(name, kept_programs());
-    StereoOdometry odometry(room().rig, device, room().config);
+    Tracker odometry(room().rig, room().config, name);
     const std::size_t last = room().left.size() - 1;
     std::int64_t stamp = 0;
     const auto track_there_and_back = [&] {
@@ -164,7 +129,7 @@ TEST_CASE("odometry: once the scene has been seen, frames allocate nothing on th
   }
 }
 
-TEST_CASE("odometry: without keyframes every frame is tracked against the previous one", "[odometry][device]") {
+TEST_CASE("odometry: without keyframes every frame is tracked against the previous one", "[device]") {
   Config config = room().config;
   config.odometry.key_rig = false;
   const auto results = track(room(), all_devices().front(), config);
@@ -176,7 +141,7 @@ TEST_CASE("odometry: without keyframes every frame is tracked against the previo
   }
 }
 
-TEST_CASE("odometry: a keyframe is replaced after the maximum number of frames", "[odometry][device]") {
+TEST_CASE("odometry: a keyframe is replaced after the maximum number of frames", "[device]") {
   Config config = room().config;
   config.odometry.key_max_frames = 3;
   config.odometry.key_min_quads = 0;
@@ -189,12 +154,11 @@ TEST_CASE("odometry: a keyframe is replaced after the maximum number of frames",
   }
 }
 
-TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device]") {
+TEST_CASE("odometry: edges beyond the capacity are reported", "[device]") {
   Config config = room().config;
   config.edges.max_edges = 3000;
   for (const auto& name : {std::string("reference"), all_devices().front()}) {
-    Device device(name, kept_programs());
-    StereoOdometry odometry(room().rig, device, config);
+    Tracker odometry(room().rig, config, name);
     const auto result = odometry.track(room().frame(0));
     CHECK(result.diagnostics.overflow);
     CHECK(result.message.find("max_edges") != std::string::npos);
@@ -206,13 +170,12 @@ TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device
   }
 }
 
-TEST_CASE("odometry: restart() waits for another user of the device", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+TEST_CASE("odometry: restart() waits for another user of the device", "[device]") {
+  Tracker odometry;
   std::atomic<bool> is_done{false};
   std::thread other;
   {
-    const auto use = device.use();
+    const auto use = odometry.own.use();
     other = std::thread([&] {
       odometry.restart();
       is_done = true;

@@ -1,16 +1,11 @@
-#include "quadedge/error.hpp"
-#include "scenes/path.hpp"
-#include "scenes/render.hpp"
-#include "scenes/scenes.hpp"
 #include "tracked_room.hpp"
 
 using namespace quadedge;
 using namespace matching;
 using namespace tracked_room;
 
-TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right pose", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right pose", "[device]") {
+  Tracker odometry;
   const Image black(240, 150);
   for (std::size_t i = 0; i < 6; ++i) {
     INFO("frame " << i);
@@ -37,25 +32,23 @@ TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right po
   }
 }
 
-TEST_CASE("odometry: a dropped frame does not halve the velocity", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
+TEST_CASE("odometry: a dropped frame does not halve the velocity", "[device]") {
   const Image black(240, 150);
   const auto dark = [&](std::size_t i) { return at(room().frame(i).stamp_ns, {0, black.view(), black.view()}); };
   {  // frame 4 is dropped before the dark frame 5: two intervals since frame 3
-    StereoOdometry odometry(room().rig, device, room().config);
+    Tracker odometry;
     for (std::size_t i : {0, 1, 2, 3}) REQUIRE(is_tracked(odometry.track(room().frame(i)).status));
     check_pose(odometry.track(dark(5)).predicted_world_from_left, room().world_from_left[5], 0.01, 0.3);
   }
   {  // frame 3 is dropped: the last motion was that of two intervals
-    StereoOdometry odometry(room().rig, device, room().config);
+    Tracker odometry;
     for (std::size_t i : {0, 1, 2, 4}) REQUIRE(is_tracked(odometry.track(room().frame(i)).status));
     check_pose(odometry.track(dark(5)).predicted_world_from_left, room().world_from_left[5], 0.01, 0.3);
   }
 }
 
-TEST_CASE("odometry: in the dark the last motion is repeated once, not for ever", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+TEST_CASE("odometry: in the dark the last motion is repeated once, not for ever", "[device]") {
+  Tracker odometry;
   const Image black(240, 150);
   for (std::size_t i : {0, 1, 2}) REQUIRE(is_tracked(odometry.track(room().frame(i)).status));
   std::vector<Eigen::Isometry3d> predicted;
@@ -65,13 +58,11 @@ TEST_CASE("odometry: in the dark the last motion is repeated once, not for ever"
   for (const auto& pose : predicted) CHECK(pose.isApprox(predicted[0], 1e-9));
 }
 
-TEST_CASE("odometry: a frame from another place is lost, and the next one is tracked at the right pose",
-          "[odometry][device]") {
+TEST_CASE("odometry: a frame from another place is lost, and the next one is tracked at the right pose", "[device]") {
   const RenderedScene elsewhere("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, elsewhere.config.stereo.max_disparity);
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, config);
+  Tracker odometry(room().rig, config);
   for (std::size_t i : {0, 1, 2}) CHECK(is_tracked(odometry.track(room().frame(i)).status));
   const auto lost = odometry.track(at(room().frame(3).stamp_ns, elsewhere.frame(0)));
   CHECK_FALSE(is_tracked(lost.status));
@@ -86,12 +77,11 @@ TEST_CASE("odometry: a frame from another place is lost, and the next one is tra
   check_pose(result.world_from_left, room().world_from_left[4], 4e-3, 0.1);
 }
 
-TEST_CASE("odometry: in another place a new segment starts from the lost frame", "[odometry][device]") {
+TEST_CASE("odometry: in another place a new segment starts from the lost frame", "[device]") {
   const RenderedScene before("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, config);
+  Tracker odometry(room().rig, config);
   CHECK(odometry.track(before.frame(0)).status == FrameStatus::first);
   const auto lost = odometry.track(room().frame(0));
   CHECK_FALSE(is_tracked(lost.status));
@@ -125,11 +115,10 @@ TEST_CASE("odometry: in another place a new segment starts from the lost frame",
 }
 
 TEST_CASE("odometry: the search beside the rig check leaves no trace of a frame that does not fit the rig",
-          "[odometry][rig][device]") {
+          "[device]") {
   // The right camera freezes in frame 4. A frame without edges is not searched at all; what follows is the same.
   const auto last_frames = [](const StereoFrame& fourth) {
-    Device device(all_devices().front(), kept_programs());
-    StereoOdometry odometry(room().rig, device, room().config);
+    Tracker odometry;
     std::vector<FrameResult> results;
     for (std::size_t i = 0; i < room().left.size(); ++i) {
       const FrameResult result = odometry.track(at(static_cast<std::int64_t>(i), i == 4 ? fourth : room().frame(i)));
@@ -149,22 +138,17 @@ TEST_CASE("odometry: the search beside the rig check leaves no trace of a frame 
   }
 }
 
-TEST_CASE("odometry: a turn by a third of the view, and one about the optical axis, are found", "[odometry][device]") {
+TEST_CASE("odometry: a turn by a third of the view, and one about the optical axis, are found", "[device]") {
   const auto world = synthetic::make_room(7, room().rig.left.fx);
   const auto render = [&](const Eigen::Isometry3d& camera_from_world) {
-    const auto view = synthetic::render(world, room().rig.left, camera_from_world, 3, 0);
-    Image image(240, 150);
-    for (std::size_t i = 0; i < view.grey.size(); ++i)
-      image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
-    return image;
+    return render_view(world, room().rig.left, camera_from_world);
   };
   Eigen::Isometry3d yawed = Eigen::Isometry3d::Identity(), rolled = yawed;
   yawed.linear() = Eigen::AngleAxisd(25 * kDegree, Eigen::Vector3d::UnitY()).toRotationMatrix();
   yawed.translation() = Eigen::Vector3d(0.1, -0.05, 0.15);
   rolled.linear() = Eigen::AngleAxisd(40 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const Eigen::Isometry3d& world_from_left : {yawed, rolled}) {
-    Device device(all_devices().front(), kept_programs());
-    StereoOdometry odometry(room().rig, device, room().config);
+    Tracker odometry;
     FrameResult result;
     for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d(Eigen::Isometry3d::Identity()), world_from_left}) {
       const Image left = render(pose.inverse()), right = render(room().rig.right_from_left * pose.inverse());
@@ -175,9 +159,8 @@ TEST_CASE("odometry: a turn by a third of the view, and one about the optical ax
   }
 }
 
-TEST_CASE("odometry: a sequence with dark first frames starts at the first frame with edges", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+TEST_CASE("odometry: a sequence with dark first frames starts at the first frame with edges", "[device]") {
+  Tracker odometry;
   const Image black(240, 150);
   CHECK(odometry.track({0, black.view(), black.view()}).status == FrameStatus::lost_too_few_edges);
   CHECK(odometry.track(room().frame(0)).status == FrameStatus::first);
@@ -187,9 +170,8 @@ TEST_CASE("odometry: a sequence with dark first frames starts at the first frame
   check_pose(result.world_from_left, room().world_from_left[1], 4e-3, 0.1);
 }
 
-TEST_CASE("odometry: after a restart, stamps may go back and a segment starts", "[odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+TEST_CASE("odometry: after a restart, stamps may go back and a segment starts", "[device]") {
+  Tracker odometry;
   odometry.restart();  // before the first frame it means nothing
   for (std::size_t i = 0; i < 3; ++i) odometry.track(at(1000 + static_cast<std::int64_t>(i), room().frame(i)));
   odometry.restart();

@@ -1,17 +1,12 @@
-#include <set>
-
 #include "geometry/undistortion.hpp"
 #include "scenes/path.hpp"
-#include "scenes/render.hpp"
-#include "scenes/scenes.hpp"
 #include "tracked_room.hpp"
 
 using namespace quadedge;
 using namespace matching;
 using namespace tracked_room;
 
-TEST_CASE("odometry: rows that lie beside those of the calibration cost no accuracy, but are warned of",
-          "[odometry][rig][device]") {
+TEST_CASE("odometry: rows that lie beside those of the calibration cost no accuracy, but are warned of", "[device]") {
   const RenderedScene off = room_with_rows_off_by(0.8);
   for (const auto& name : all_devices_and_reference()) {
     INFO(name);
@@ -28,14 +23,13 @@ TEST_CASE("odometry: rows that lie beside those of the calibration cost no accur
   }
 }
 
-TEST_CASE("odometry: lost frames leave no trace in the rectification error", "[odometry][rig][device]") {
+TEST_CASE("odometry: lost frames leave no trace in the rectification error", "[device]") {
   // Before the first frame with a pose, and after it.
   const RenderedScene off = room_with_rows_off_by(0.8);
   const Image grey(off.rig.left.width, off.rig.left.height);
   for (const std::size_t lost : {std::size_t{0}, std::size_t{4}}) {
     const auto last_frames = [&](const StereoFrame& mismatch) {
-      Device device(all_devices().front(), kept_programs());
-      StereoOdometry odometry(off.rig, device, off.config);
+      Tracker odometry(off.rig, off.config);
       std::vector<FrameResult> results;
       for (std::size_t i = 0; i < off.left.size(); ++i)
         results.push_back(odometry.track(at(static_cast<std::int64_t>(i), i == lost ? mismatch : off.frame(i))));
@@ -50,9 +44,8 @@ TEST_CASE("odometry: lost frames leave no trace in the rectification error", "[o
 }
 
 TEST_CASE("odometry: a pair of images that repeats is tracked with a message in each frame and one warning",
-          "[odometry][rig][device]") {
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(room().rig, device, room().config);
+          "[device]") {
+  Tracker odometry;
   const auto repeats = [](const FrameResult& result) {
     return result.message.find("identical to those of the previous frame") != std::string::npos;
   };
@@ -67,11 +60,10 @@ TEST_CASE("odometry: a pair of images that repeats is tracked with a message in 
   CHECK_FALSE(repeats(odometry.track(at(4, room().frame(2)))));
 }
 
-TEST_CASE("odometry: a wrong principal point of the right camera is warned of", "[odometry][rig][device]") {
+TEST_CASE("odometry: a wrong principal point of the right camera is warned of", "[device]") {
   StereoRig rig = room().rig;
   rig.right.cx -= 4;
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(rig, device, room().config);
+  Tracker odometry(rig);
   std::set<WarningKind> kinds;
   double largest = 0;
   for (std::size_t i = 0; i < room().left.size(); ++i) {
@@ -83,8 +75,7 @@ TEST_CASE("odometry: a wrong principal point of the right camera is warned of", 
   CHECK(kinds.count(WarningKind::large_disparity_offset) == 1);
 }
 
-TEST_CASE("odometry: a right camera that turns during the recording is noticed once, and followed",
-          "[odometry][rig][device]") {
+TEST_CASE("odometry: a right camera that turns during the recording is noticed once, and followed", "[device]") {
   RenderedScene turning = room(), sound = room();  // both run to and fro
   for (auto* scene : {&turning, &sound}) {
     for (std::size_t i = 0; i < 14; ++i) {
@@ -126,8 +117,7 @@ TEST_CASE("odometry: a right camera that turns during the recording is noticed o
   CHECK(warned(turning) == std::vector<std::size_t>{turned + 3});
 }
 
-TEST_CASE("odometry: right images that are displaced from frame to frame are followed, with one warning",
-          "[odometry][rig][device]") {
+TEST_CASE("odometry: right images that are displaced from frame to frame are followed, with one warning", "[device]") {
   RenderedScene displaced = room();
   const int by[] = {0, 0, 0, 3, -2, 1, 0, -3};
   for (std::size_t i = 0; i < displaced.right.size(); ++i) {
@@ -151,10 +141,9 @@ TEST_CASE("odometry: right images that are displaced from frame to frame are fol
 }
 
 TEST_CASE("odometry: images that do not fit the calibration are lost with a reason, and each warning is given once",
-          "[odometry][rig][device]") {
+          "[device]") {
   const RenderedScene scene("room", 320, 200, 3);
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry exchanged(scene.rig, device, scene.config);
+  Tracker exchanged(scene.rig, scene.config);
   for (std::size_t i = 0; i < 3; ++i) {
     const StereoFrame frame{static_cast<std::int64_t>(i) - 3, scene.right[i].view(), scene.left[i].view()};
     const FrameResult result = exchanged.track(frame);
@@ -168,7 +157,7 @@ TEST_CASE("odometry: images that do not fit the calibration are lost with a reas
 
   StereoRig pitched = scene.rig;
   pitched.right_from_left.linear() = Eigen::AngleAxisd(0.5 * kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  StereoOdometry doubtful(pitched, device, scene.config);
+  Tracker doubtful(pitched, scene.config);
   for (std::size_t i = 0; i < 3; ++i) {
     const FrameResult result = doubtful.track(scene.frame(i));
     CHECK(is_tracked(result.status));
@@ -179,13 +168,12 @@ TEST_CASE("odometry: images that do not fit the calibration are lost with a reas
   }
 }
 
-TEST_CASE("odometry: all warnings of one kind come with the first frame that has any", "[odometry][rig]") {
+TEST_CASE("odometry: all warnings of one kind come with the first frame that has any") {
   // Only the left part of both images, so that both principal points lie outside.
   StereoRig cropped = room().rig;
   cropped.left.width = cropped.right.width = 110;
   REQUIRE(cropped.left.cx > 110);
-  Device device(all_devices().front(), kept_programs());
-  StereoOdometry odometry(cropped, device, room().config);
+  Tracker odometry(cropped);
   for (std::size_t i = 0; i < 3; ++i) {
     StereoFrame frame = room().frame(i);
     frame.left.width = frame.right.width = 110;
@@ -196,7 +184,7 @@ TEST_CASE("odometry: all warnings of one kind come with the first frame that has
   }
 }
 
-TEST_CASE("odometry: a rig alone is enough, and its disparity range is used", "[odometry][device]") {
+TEST_CASE("odometry: a rig alone is enough, and its disparity range is used", "[device]") {
   StereoOdometry odometry(room().rig);
   CHECK(odometry.device().name == Device("auto").info().name);
   CHECK(odometry.track(room().frame(0)).diagnostics.disparity_range == Approx(room().rig.max_disparity));
@@ -211,7 +199,7 @@ TEST_CASE("odometry: a rig alone is enough, and its disparity range is used", "[
         Approx(unknown.left.fx * unknown.baseline() / 2));
 }
 
-TEST_CASE("odometry: the disparity range follows the images", "[odometry][device]") {
+TEST_CASE("odometry: the disparity range follows the images", "[device]") {
   const auto expected = track(room(), "auto", room().config);
   StereoRig narrow = room().rig;
   narrow.max_disparity /= 4;
@@ -230,7 +218,7 @@ TEST_CASE("odometry: the disparity range follows the images", "[odometry][device
   CHECK(result.counts.stereo_edges < 0.8 * expected[0].counts.stereo_edges);
 }
 
-TEST_CASE("odometry: cameras of different sizes and orientations track too", "[odometry][device]") {
+TEST_CASE("odometry: cameras of different sizes and orientations track too", "[device]") {
   RenderedScene scene = RenderedScene("cables", 64, 48, 1);  // replaced below
   scene.rig.left = {185, 187, 158, 101, 320, 200};
   scene.rig.right = {170, 168, 150, 128, 300, 240};
@@ -241,19 +229,12 @@ TEST_CASE("odometry: cameras of different sizes and orientations track too", "[o
   scene.left.clear();
   scene.right.clear();
   scene.world_from_left.clear();
-  const auto render = [&](const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world) {
-    const auto view = synthetic::render(world, camera, camera_from_world, 3, 0);
-    Image image(camera.width, camera.height);
-    for (std::size_t i = 0; i < view.grey.size(); ++i)
-      image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
-    return image;
-  };
   const synthetic::CameraPath path("ellipse", 7, 4, world.lane);
   for (int i = 0; i < 4; ++i) {
     scene.world_from_left.push_back(path.world_from_left(i));
     const Eigen::Isometry3d left_from_scene = path.scene_from_left(i).inverse();
-    scene.left.push_back(render(scene.rig.left, left_from_scene));
-    scene.right.push_back(render(scene.rig.right, scene.rig.right_from_left * left_from_scene));
+    scene.left.push_back(render_view(world, scene.rig.left, left_from_scene));
+    scene.right.push_back(render_view(world, scene.rig.right, scene.rig.right_from_left * left_from_scene));
   }
   scene.config = {};
   scene.config.stereo.min_depth = 0.8 * world.nearest;

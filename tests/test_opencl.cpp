@@ -1,10 +1,6 @@
-#include <catch2/catch.hpp>
-#include <fstream>
-
 #include "device/kernel.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
-#include "temporary_folder.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;

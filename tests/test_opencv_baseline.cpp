@@ -1,9 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include "../bench/opencv_baseline.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/evaluation.hpp"
-#include "quadedge/synthetic.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 
@@ -16,13 +12,8 @@ struct Tracked {
 
 /// The first frames of the rendered room, small; `black`: the number of a black frame.
 Tracked track_room(int frames, int black = -1) {
-  SyntheticOptions options;
-  options.width = 480;
-  options.height = 300;
-  options.focal = 276;
+  auto options = rendering(480, 300, 276, frames, 3);
   options.baseline = 0.12;
-  options.frames = frames;
-  options.supersampling = 3;
   const SyntheticSequence sequence(options);
   bench::OpencvBaseline baseline(sequence.rig());
   Tracked tracked;

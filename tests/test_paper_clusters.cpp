@@ -162,7 +162,7 @@ void compare_cascade(const StereoRig& rig, int step, std::size_t expected) {
 
 }  // namespace
 
-TEST_CASE("paper clusters: as the plain form, at any number of candidates", "[paper][device]") {
+TEST_CASE("paper clusters: as the plain form, at any number of candidates", "[device]") {
   compare_clusters({});
   compare_clusters({{}, {{{10, 5}, 0.5F, 0}}, {}});
   compare_clusters(random_rows(301, 9, 4, 1));
@@ -170,18 +170,18 @@ TEST_CASE("paper clusters: as the plain form, at any number of candidates", "[pa
   compare_clusters(random_rows(5, 400, 20, 3));
 }
 
-TEST_CASE("paper clusters: members at one place, and chains without gaps", "[paper][device]") {
+TEST_CASE("paper clusters: members at one place, and chains without gaps", "[device]") {
   Rows rows(2);
   for (int k = 0; k < 13; ++k) rows[0].push_back({{50, 20}, 3.1F, k});
   for (int k = 0; k < 23; ++k) rows[1].push_back({{0.25 * k, 0.125 * k}, k % 2 == 0 ? 3.1F : -3.1F, 13 + k});
   compare_clusters(rows);
 }
 
-TEST_CASE("paper clusters: the stereo cascade behind the filters as the plain form", "[paper][device]") {
+TEST_CASE("paper clusters: the stereo cascade behind the filters as the plain form", "[device]") {
   compare_cascade(flat_rig(131, 97), 4, 50);
   compare_cascade(crooked_rig(), 4, 50);
 }
 
-TEST_CASE("paper clusters: the stereo cascade of a few edges", "[paper][device][oclgrind]") {
+TEST_CASE("paper clusters: the stereo cascade of a few edges", "[device][oclgrind]") {
   compare_cascade(flat_rig(39, 31), 7, 1);
 }

@@ -1,10 +1,5 @@
 /// \file test_paper_filters.cpp  Candidates of the paper's method and the filters on them on devices, against
 /// host/workbench/paper/cascades.cpp.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-
 #include "common/matching_constants.hpp"
 #include "device/stereo_matching.hpp"
 #include "device/temporal_matching.hpp"
@@ -126,7 +121,7 @@ void check_paper_filters(const reference::Candidates& lists, const paper::Descri
 
 }  // namespace
 
-TEST_CASE("paper candidates: in stereo, devices list what the plain form lists", "[paper][matching][device]") {
+TEST_CASE("paper candidates: in stereo, devices list what the plain form lists", "[device]") {
   const PaperViews& views = paper_views();
   const EpipolarGeometry geometry = paper_geometry();
   const auto truth =
@@ -143,7 +138,7 @@ TEST_CASE("paper candidates: in stereo, devices list what the plain form lists",
   });
 }
 
-TEST_CASE("paper candidates: in time, devices list what the plain form lists", "[paper][matching][device]") {
+TEST_CASE("paper candidates: in time, devices list what the plain form lists", "[device]") {
   const PaperViews& views = paper_views();
   const auto &before = views.in_left, &now = views.in_right;
   for (const double orientation : {10 * kDegree, 2 * kPi}) {
@@ -164,8 +159,7 @@ TEST_CASE("paper candidates: in time, devices list what the plain form lists", "
   }
 }
 
-TEST_CASE("paper filters: devices agree with the plain form on candidates in stereo and in time",
-          "[paper][filters][matching][device]") {
+TEST_CASE("paper filters: devices agree with the plain form on candidates in stereo and in time", "[device]") {
   const PaperViews& views = paper_views();
   const auto stereo =
       paper::match_stereo(views.in_left, views.in_right, paper_geometry(), paper_stereo_config(), kPaperOffset, false)
@@ -175,7 +169,7 @@ TEST_CASE("paper filters: devices agree with the plain form on candidates in ste
   check_paper_filters(stereo, views.in_left.described, views.in_right.described, {0.8F, 200, 0.8F, 0.8F, 3, 4}, false);
 }
 
-TEST_CASE("paper filters: flat patches are similar to none", "[paper][filters][matching][device][oclgrind]") {
+TEST_CASE("paper filters: flat patches are similar to none", "[device][oclgrind]") {
   paper::Described flat, other;
   flat.patches.resize(2);
   other.patches.resize(1);

@@ -45,13 +45,13 @@ void compare_patches(const Image& image, const EdgePositions& edges, double offs
 
 }  // namespace
 
-TEST_CASE("paper patches: every device cuts those of the plain form, at the border too", "[paper][device][oclgrind]") {
+TEST_CASE("paper patches: every device cuts those of the plain form, at the border too", "[device][oclgrind]") {
   compare_patches(textured_image(61, 53), random_edges(61, 53, 301, 1, 40), 5);
   compare_patches(textured_image(17, 9), random_edges(17, 9, 40, 2, 3), 4.5);
   compare_patches(textured_image(1, 1), random_edges(1, 1, 5, 3, 3), 9.25);
 }
 
-TEST_CASE("paper patches: images of more than 8 bits, and flat ones", "[paper][device]") {
+TEST_CASE("paper patches: images of more than 8 bits, and flat ones", "[device]") {
   compare_patches(noisy_image(47, 39, 120, 30, 65535), random_edges(47, 39, 103, 4, 12), 5);
   compare_patches(noisy_image(40, 31, 120, 30, 4095), random_edges(40, 31, 50, 5, 2), 5);
   compare_patches(noisy_image(40, 30, 113, 0), random_edges(40, 30, 30, 6, 5), 5);

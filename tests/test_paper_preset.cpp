@@ -1,15 +1,12 @@
 /// \file test_paper_preset.cpp  --preset paper: the whole method on rendered sequences.
-#include <algorithm>
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "data/toml_file.hpp"
 #include "program.hpp"
-#include "quadedge/config.hpp"
 
 using namespace quadedge;
 
-TEST_CASE("paper preset: each of its lines changes a default, and none has another effect", "[paper][cli]") {
+TEST_CASE("paper preset: each of its lines changes a default, and none has another effect", "[cli]") {
   const Config paper = read_preset("paper"), defaults;
   CHECK(paper.is_paper());
   const auto lines = data::read_preset("paper");
@@ -22,14 +19,11 @@ TEST_CASE("paper preset: each of its lines changes a default, and none has anoth
   }
 }
 
-TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, and refuses loops",
-          "[paper][cli][device]") {
+TEST_CASE("paper preset: tracks a rendered sequence, says whose method it is, and refuses loops", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto track = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> call = {"run",      small_sequence(), "-o",      folder / "out",
-                                     "--preset", "paper",          "--quiet", "--force"};
-    call.insert(call.end(), options.begin(), options.end());
-    return run_program(call);
+  const auto track = [&](const Words& options) {
+    const Words run{"run", small_sequence(), "-o", folder / "out", "--preset", "paper", "--quiet", "--force"};
+    return run_program(run + options);
   };
   const auto errors_of = [&] {
     const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));

@@ -79,7 +79,7 @@ RenderedScene paper_scene(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("paper quads: as the plain form, byte by byte", "[paper][device][oclgrind]") {
+TEST_CASE("paper quads: as the plain form, byte by byte", "[device][oclgrind]") {
   for (const int rows : {1, 3, 501}) {
     const auto left = made_up_side(rows, 20, 3), right = made_up_side(rows, 20, 4);
     const TemporalMatches truth = paper::quads_of(left, right);
@@ -97,7 +97,7 @@ TEST_CASE("paper quads: as the plain form, byte by byte", "[paper][device][oclgr
   }
 }
 
-TEST_CASE("paper quads: the front ends of the paper's method agree on rendered scenes", "[paper][device]") {
+TEST_CASE("paper quads: the front ends of the paper's method agree on rendered scenes", "[device]") {
   for (const char* name : {"room", "cables"}) {
     const RenderedScene scene = paper_scene(name);
     const auto plain = run_frontend(scene, "reference");

@@ -143,18 +143,18 @@ void compare_time(bool both_sides, int max_value, int rows = 403) {
 
 }  // namespace
 
-TEST_CASE("paper refinement: along epipolar lines as the plain form", "[paper][device]") {
+TEST_CASE("paper refinement: along epipolar lines as the plain form", "[device]") {
   compare_stereo(flat_rig(131, 97), true, kMaxValue8);
   compare_stereo(flat_rig(131, 97), false, kMaxValue8);
   compare_stereo(crooked_rig(), true, kMaxValue8);
   compare_stereo(crooked_rig(), true, 4095);
 }
 
-TEST_CASE("paper refinement: a few candidates freely in the image", "[paper][device][oclgrind]") {
+TEST_CASE("paper refinement: a few candidates freely in the image", "[device][oclgrind]") {
   compare_time(true, kMaxValue8, 5);
 }
 
-TEST_CASE("paper refinement: freely in the image as the plain form", "[paper][device]") {
+TEST_CASE("paper refinement: freely in the image as the plain form", "[device]") {
   compare_time(true, kMaxValue8);
   compare_time(false, kMaxValue8);
   compare_time(true, 65535);

@@ -1,12 +1,8 @@
-#include <chrono>
 #include <fcntl.h>
-#include <thread>
-#include <unistd.h>
 
 #include "data/stream_reader.hpp"
 #include "edge_images.hpp"
 #include "own_camera.hpp"
-#include "quadedge/error.hpp"
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
@@ -32,7 +28,7 @@ std::string pairs(int count, int max_value = 255) {
 class Source {
  public:
   explicit Source(const std::string& bytes) {
-    own_camera::write_bytes(folder_ / "bytes", bytes);
+    write_text(folder_ / "bytes", bytes);
     descriptor_ = open((folder_ / "bytes").c_str(), O_RDONLY);
   }
   ~Source() { close(descriptor_); }
@@ -57,18 +53,15 @@ Dataset dataset_of(std::shared_ptr<const PairStream> stream) {
 std::string pipe_complaint(const std::string& bytes, Split split = Split::none) {
   const Source source(bytes);
   const auto reader = make_picture_pipe(source.descriptor(), {split, 10, 0})->open();
-  try {
+  return message_of([&] {
     while (reader->next()) {
     }
-    return "";
-  } catch (const DataError& error) {
-    return error.what();
-  }
+  });
 }
 
 }  // namespace
 
-TEST_CASE("pipe: images are read in order, at any bit depth, with timestamps by number", "[data]") {
+TEST_CASE("pipe: images are read in order, at any bit depth, with timestamps by number") {
   for (const int max_value : {255, 4095, 65535}) {
     const Source source(pairs(3, max_value));
     const auto reader = make_picture_pipe(source.descriptor(), {Split::none, 10, 0})->open();
@@ -85,7 +78,7 @@ TEST_CASE("pipe: images are read in order, at any bit depth, with timestamps by 
   }
 }
 
-TEST_CASE("pipe: one image may hold both views, and colour becomes grey", "[data]") {
+TEST_CASE("pipe: one image may hold both views, and colour becomes grey") {
   for (const bool beside : {true, false}) {
     const Source source(own_camera::pgm(own_camera::joined(piped_picture(0), piped_picture(1), beside)));
     const auto reader =
@@ -103,7 +96,7 @@ TEST_CASE("pipe: one image may hold both views, and colour becomes grey", "[data
   CHECK(pair->right.view().value(0, 0) == 0x50);
 }
 
-TEST_CASE("pipe: errors name the image by number", "[data]") {
+TEST_CASE("pipe: errors name the image by number") {
   const std::string one = own_camera::pgm(piped_picture(0)), whole = pairs(2);
   CHECK(pipe_complaint(whole).empty());
   CHECK(pipe_complaint("").empty());
@@ -124,7 +117,7 @@ TEST_CASE("pipe: errors name the image by number", "[data]") {
              Contains("11 x 7") && Contains("even width"));
 }
 
-TEST_CASE("pipe: a slow reader drops the oldest pairs and counts them", "[data]") {
+TEST_CASE("pipe: a slow reader drops the oldest pairs and counts them") {
   const Source source(pairs(9));
   const auto stream = make_picture_pipe(source.descriptor(), {Split::none, 10, 3});
   FramePrefetcher frames(dataset_of(stream));
@@ -141,7 +134,7 @@ TEST_CASE("pipe: a slow reader drops the oldest pairs and counts them", "[data]"
   CHECK_THROWS_AS(stream->open(), UsageError);
 }
 
-TEST_CASE("pipe: without a queue every pair waits for its reader", "[data]") {
+TEST_CASE("pipe: without a queue every pair waits for its reader") {
   const Source source(pairs(9));
   FramePrefetcher frames(dataset_of(make_picture_pipe(source.descriptor(), {Split::none, 10, 0})));
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -150,7 +143,7 @@ TEST_CASE("pipe: without a queue every pair waits for its reader", "[data]") {
   CHECK(frames.dropped() == 0);
 }
 
-TEST_CASE("pipe: waiting for an image that never arrives can be interrupted", "[data]") {
+TEST_CASE("pipe: waiting for an image that never arrives can be interrupted") {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   const auto start = std::chrono::steady_clock::now();

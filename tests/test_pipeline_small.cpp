@@ -1,8 +1,4 @@
-#include <catch2/catch.hpp>
-
-#include "devices.hpp"
-#include "quadedge/odometry.hpp"
-#include "quadedge/synthetic.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 
@@ -10,11 +6,7 @@ namespace {
 
 /// Two frames of the room, with few enough edges for a simulator of OpenCL devices.
 std::vector<FrameResult> track_small_room(const std::string& device_name) {
-  SyntheticOptions options;
-  options.frames = 2;
-  options.width = 96;
-  options.height = 64;
-  options.focal = 55;
+  auto options = rendering(96, 64, 55, 2, 4);
   options.baseline = 0.15;
   const SyntheticSequence sequence(options);
   Config config;

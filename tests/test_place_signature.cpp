@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "frontends.hpp"
 #include "places/place_store.hpp"
 

@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include "places/place_store.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using places::Place;

@@ -1,12 +1,4 @@
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-
-#include "devices.hpp"
 #include "own_camera.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/point_cloud.hpp"
-#include "quadedge/synthetic.hpp"
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
@@ -18,15 +10,7 @@ struct TrackedRoom {
   SyntheticSequence sequence;
   Config config;
   std::vector<StereoPair> pairs;
-  static SyntheticOptions options() {
-    SyntheticOptions options;
-    options.frames = 6;
-    options.width = 480;
-    options.height = 300;
-    options.focal *= 480.0 / 942;
-    return options;
-  }
-  TrackedRoom() : sequence(options()) {
+  TrackedRoom() : sequence(rendering(480, 300, 541.764 * 480.0 / 942, 6, 4)) {
     config.odometry.key_rig = false;
     for (int i = 0; i < sequence.frames(); ++i) pairs.push_back(sequence.pair(i));
   }
@@ -77,7 +61,7 @@ std::vector<double> depth_errors(const std::vector<CloudPoint>& points) {
 
 }  // namespace
 
-TEST_CASE("points: points lie on the rendered surfaces, the closer the more rigs have seen them", "[points][device]") {
+TEST_CASE("points: points lie on the rendered surfaces, the closer the more rigs have seen them", "[device]") {
   PointCloud once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
       often(tracked_room().config, seen_by(5, 2'000'000, true));
   tracked_room().track_into({&once, &twice, &often});
@@ -122,7 +106,7 @@ TEST_CASE("points: points lie on the rendered surfaces, the closer the more rigs
   CHECK(at(misses, 0.95) < 2);
 }
 
-TEST_CASE("points: the same frames give the same bytes, and memory is bounded", "[points][device]") {
+TEST_CASE("points: the same frames give the same bytes, and memory is bounded", "[device]") {
   const TemporaryFolder folder;
   PointCloud first(tracked_room().config, seen_by(2)), second(tracked_room().config, seen_by(2)),
       small(tracked_room().config, seen_by(2, 1000));
@@ -136,7 +120,7 @@ TEST_CASE("points: the same frames give the same bytes, and memory is bounded", 
   CHECK(small.points().size() > 100);
 }
 
-TEST_CASE("points: corrected poses move the views with their points, other views stay", "[points][device]") {
+TEST_CASE("points: corrected poses move the views with their points, other views stay", "[device]") {
   PointCloud map(tracked_room().config, seen_by(1));
   tracked_room().track_into({&map});
   const auto before = map.points();
@@ -182,7 +166,7 @@ TEST_CASE("points: corrected poses move the views with their points, other views
   CHECK(same + with_view == some.size());
 }
 
-TEST_CASE("points: files describe their content and are either complete or absent", "[points]") {
+TEST_CASE("points: files describe their content and are either complete or absent") {
   const TemporaryFolder folder;
   CloudPoint point;
   point.position = {1.25, -2.5, 3};

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "edge_images.hpp"
 #include "frontends.hpp"
 #include "rig/rig_monitor.hpp"
@@ -35,7 +33,7 @@ StereoRig pitched() {
 
 }  // namespace
 
-TEST_CASE("poor images: clipped images do not make a right calibration doubtful", "[rig]") {
+TEST_CASE("poor images: clipped images do not make a right calibration doubtful") {
   const Image &left = bright_room().left[0], &right = bright_room().right[0];
   for (const double factor : {1.4, 2.0, 3.0}) {
     INFO(factor);
@@ -47,7 +45,7 @@ TEST_CASE("poor images: clipped images do not make a right calibration doubtful"
   }
 }
 
-TEST_CASE("poor images: corners beside saturated pixels are counted apart", "[rig]") {
+TEST_CASE("poor images: corners beside saturated pixels are counted apart") {
   const rig::CornerMatcher matcher(bright_room().rig);
   const Image left = brighter(bright_room().left[0], 2), right = brighter(bright_room().right[0], 2);
   const auto plain = matcher.search({0, bright_room().left[0].view(), bright_room().right[0].view()}, 30);
@@ -60,7 +58,7 @@ TEST_CASE("poor images: corners beside saturated pixels are counted apart", "[ri
   }
 }
 
-TEST_CASE("poor images: where corners leave their lines, the images are named before the calibration", "[rig]") {
+TEST_CASE("poor images: where corners leave their lines, the images are named before the calibration") {
   const auto said = [](const Image& left, const Image& right) {
     const RigReport report = examine(pitched(), left, right);
     REQUIRE(report.findings.size() == 1);

@@ -1,21 +1,15 @@
 /// \file test_presets.cpp  The files of config/ as presets.
-#include <catch2/catch.hpp>
-
 #include "data/toml_file.hpp"
 #include "dataset_files.hpp"
 #include "program.hpp"
-#include "quadedge/config.hpp"
-#include "quadedge/error.hpp"
 
 using namespace quadedge;
 
 namespace {
 
-Config effective(const std::vector<std::string>& options) {
+Config effective(const Words& options) {
   const TemporaryFolder folder;
-  std::vector<std::string> call = {"run", small_sequence(), "-o", folder / "out", "--frames", "0:2", "--quiet"};
-  call.insert(call.end(), options.begin(), options.end());
-  run_well(call);
+  run_well(Words{"run", small_sequence(), "-o", folder / "out", "--frames", "0:2", "--quiet"} + options);
   return read_config(folder / "out/config.toml");
 }
 
@@ -24,7 +18,7 @@ Config effective(const std::vector<std::string>& options) {
 TEST_CASE("presets: the default preset equals the program's defaults", "[cli]") {
   const Config none, said = read_config(QUADEDGE_KERNELS "/../config/default.toml");
   for (const auto& constant : constants()) CHECK(constant.text(said) == constant.text(none));
-  CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "dense", "paper"});
+  CHECK(data::preset_names() == Words{"fast", "default", "dense", "paper"});
 }
 
 TEST_CASE("presets: --preset applies its file; --config and the command line override it", "[cli][device]") {
@@ -32,8 +26,8 @@ TEST_CASE("presets: --preset applies its file; --config and the command line ove
   CHECK(effective({"--preset", "fast"}).edges.budget == 5000);
   CHECK(effective({"--preset", "dense", "--edges.budget", "9000"}).edges.budget == 9000);
   const TemporaryFolder folder;
-  dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 9000\n");
-  dataset_files::write_text(folder / "other.toml", "[stereo]\nncc_min = 0.5\n");
+  write_text(folder / "mine.toml", "[edges]\nbudget = 9000\n");
+  write_text(folder / "other.toml", "[stereo]\nncc_min = 0.5\n");
   CHECK(effective({"--preset", "fast", "--config", folder / "mine.toml"}).edges.budget == 9000);
   const Config both = effective({"--preset", "fast", "--config", folder / "other.toml"});
   CHECK(both.edges.budget == 5000);

@@ -1,12 +1,7 @@
 /// \file test_program_cache.cpp  The cache of built programs on disk: storing, finding and checking them.
-#include <filesystem>
-#include <fstream>
-#include <thread>
-
 #include "device/kernel.hpp"
 #include "device/program_cache.hpp"
-#include "devices.hpp"
-#include "temporary_folder.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using opencl::ProgramCache;

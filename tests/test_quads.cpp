@@ -1,11 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/quads.hpp"
 
 using namespace quadedge::pose;
 
-TEST_CASE("Edges measured together are measured as one by one", "[pose][quads]") {
+TEST_CASE("Edges measured together are measured as one by one", "[pose]") {
   for (const quadedge::StereoRig& rig : {generated::car_rig(), generated::crooked_rig()}) {
     generated::Random random(11);
     quadedge::StereoEdges edges;
@@ -52,7 +50,7 @@ TEST_CASE("Edges measured together are measured as one by one", "[pose][quads]")
   }
 }
 
-TEST_CASE("Quads use the detected positions, keep their match's row and skip edges without depth", "[pose][quads]") {
+TEST_CASE("Quads use the detected positions, keep their match's row and skip edges without depth", "[pose]") {
   const quadedge::StereoRig rig = generated::car_rig();
   generated::Random random(10);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();

@@ -41,7 +41,7 @@ RectificationError next_after(RectificationFollower& follower, const Rectificati
 
 }  // namespace
 
-TEST_CASE("rectification follower: an error that the images show clearly is followed", "[rig]") {
+TEST_CASE("rectification follower: an error that the images show clearly is followed") {
   const RectificationError error{0.6, 0.4, -0.3, 0, 3, 0};
   auto followed = follower();
   CHECK(followed.error().largest() == 0);
@@ -55,7 +55,7 @@ TEST_CASE("rectification follower: an error that the images show clearly is foll
   CHECK((next_after(followed, {0.92, 0.4, -0.3, 0, 3, 0}, 5) - before).largest() == 0);
 }
 
-TEST_CASE("rectification follower: a camera that turns is learned anew after four frames", "[rig]") {
+TEST_CASE("rectification follower: a camera that turns is learned anew after four frames") {
   Random random(13);
   auto followed = follower();
   const RectificationError turned{0.6, 2, 0, 0, 0, 0};
@@ -73,48 +73,47 @@ TEST_CASE("rectification follower: a camera that turns is learned anew after fou
   CHECK(changes == 1);
 }
 
-TEST_CASE("rectification follower: a single frame shows a large error", "[rig]") {
+TEST_CASE("rectification follower: a single frame shows a large error") {
   const RectificationError error{0, 0, 0, 0, 6, 0};
   auto followed = follower();
   CHECK((next_after(followed, error) - error).largest() < 0.15);
 }
 
-TEST_CASE("rectification follower: an error that is small, uncertain or measured at few places is not corrected",
-          "[rig]") {
+TEST_CASE("rectification follower: an error that is small, uncertain or measured at few places is not corrected") {
   auto small = follower(), uncertain = follower(), rare = follower();
   CHECK(next_after(small, {0.2, 0, 0, 0, 0, 0}, 30).largest() == 0);
   CHECK(next_after(uncertain, {0.3, 0, 0, 0, 0, 0}, 1, 3).largest() == 0);
   CHECK(next_after(rare, {0.6, 0, 0, 0, 0, 0}, 30, 0.15, 10).largest() == 0);
 }
 
-TEST_CASE("rectification follower: an error that explains little of the distances is another fault", "[rig]") {
+TEST_CASE("rectification follower: an error that explains little of the distances is another fault") {
   auto explained = follower(), unexplained = follower();
   CHECK(next_after(explained, {0.6, 0, 0, 0, 0, 0}, 30, 0.3).offset == Approx(0.6).margin(0.05));
   CHECK(next_after(unexplained, {0.6, 0, 0, 0, 0, 0}, 30, 1.5).largest() == 0);
 }
 
-TEST_CASE("rectification follower: no distance above 3 px is corrected", "[rig]") {
+TEST_CASE("rectification follower: no distance above 3 px is corrected") {
   auto followed = follower();
   const RectificationError error = next_after(followed, {4, 1, -1, 0, 0, 0});
   CHECK(error.largest() == Approx(3).epsilon(0.01));
   CHECK(error.offset == Approx(4 * error.slope_x).epsilon(0.1));
 }
 
-TEST_CASE("rectification follower: an error that changes from frame to frame is given up", "[rig]") {
+TEST_CASE("rectification follower: an error that changes from frame to frame is given up") {
   auto followed = follower();
   CHECK(next_after(followed, {0.8, 0, 0, 0, 0, 0}).offset == Approx(0.8).margin(0.05));
   for (int frame = 0; frame < 10; ++frame) next_after(followed, {frame % 2 == 0 ? -0.8 : 0.8, 0, 0, 0, 0, 0});
   CHECK(followed.error().largest() == 0);
 }
 
-TEST_CASE("rectification follower: around a limit an error is not taken and given up by turns", "[rig]") {
+TEST_CASE("rectification follower: around a limit an error is not taken and given up by turns") {
   auto followed = follower();
   next_after(followed, {0.3, 0, 0, 0, 0, 0}, 5);
   CHECK(next_after(followed, {0.2, 0, 0, 0, 0, 0}, 50).offset == Approx(0.25).margin(0.06));
   CHECK(next_after(followed, {0.05, 0, 0, 0, 0, 0}, 400).largest() == 0);
 }
 
-TEST_CASE("rectification follower: frames that are not taken leave no trace", "[rig]") {
+TEST_CASE("rectification follower: frames that are not taken leave no trace") {
   auto one = follower(), other = follower();
   Random random(3);
   const auto matches = matches_of({0.5, 0, 0, 0, 0, 0}, random);

@@ -1,7 +1,3 @@
-#include <Eigen/LU>
-#include <catch2/catch.hpp>
-#include <utility>
-
 #include "generated_quads.hpp"
 #include "motion/reprojection_terms.hpp"
 #include "reprojection_jacobian.hpp"
@@ -80,8 +76,7 @@ void check_close(const A& a, const B& b) {
 
 }  // namespace
 
-TEST_CASE("Sums over reprojection terms equal those of the Jacobians with the depths eliminated",
-          "[pose][reprojection_terms]") {
+TEST_CASE("Sums over reprojection terms equal those of the Jacobians with the depths eliminated", "[pose]") {
   const StudentWeights weights{1.7, 5};
   const double offset = 0.2;
   for (int quads : {1, 7, 16, 2 * 1024 + 3, 5001}) {
@@ -125,7 +120,7 @@ TEST_CASE("Sums over reprojection terms equal those of the Jacobians with the de
   }
 }
 
-TEST_CASE("The size of disparity errors is read from the scatter of quads", "[pose][reprojection_terms]") {
+TEST_CASE("The size of disparity errors is read from the scatter of quads", "[pose]") {
   for (const double size : {0.0, 0.2, 0.6}) {
     for (const double assumed : {0.0, 0.3}) {
       ManyQuads scene(20000, assumed);
@@ -155,7 +150,7 @@ TEST_CASE("The size of disparity errors is read from the scatter of quads", "[po
   CHECK(disparity_errors(none.terms, none.pose, 0).information == 0);
 }
 
-TEST_CASE("A quad behind the camera does not count and keeps its depth and error", "[pose][reprojection_terms]") {
+TEST_CASE("A quad behind the camera does not count and keeps its depth and error", "[pose]") {
   ManyQuads scene(9);
   normal_by_pose(scene.terms, scene.pose, 0, {});
   const auto depth = scene.terms.depth, error = scene.terms.error;
@@ -218,7 +213,7 @@ std::vector<EvaluateLanes> widths_of_this_machine() { return {at_x86_64}; }
 
 }  // namespace
 
-TEST_CASE("One quad alone and eight at once, at every vector width, give the same bits", "[pose][reprojection_terms]") {
+TEST_CASE("One quad alone and eight at once, at every vector width, give the same bits", "[pose]") {
   ManyQuads scene(2 * kLanes);
   Eigen::Isometry3d half_behind = scene.pose;  // half of the points end up behind the camera
   half_behind.translation().z() -= 5;

@@ -1,11 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "motion/sampling_order.hpp"
+#include "testing.hpp"
 
 using namespace quadedge::pose;
 
-TEST_CASE("Quads are sampled by fewest competing clusters, then highest NCC, then lowest index",
-          "[pose][sampling_order]") {
+TEST_CASE("Quads are sampled by fewest competing clusters, then highest NCC, then lowest index", "[pose]") {
   QuadObservations quads;
   quads.resize(6);
   quads.competing_clusters = {1, 0, 0, 0, 0, 2};

@@ -1,14 +1,7 @@
-#include <cstring>
-
 #define XXH_INLINE_ALL  // header-only
-#include <filesystem>
-#include <fstream>
 #include <xxhash.h>
 
-#include "quadedge/error.hpp"
 #include "saved_maps.hpp"
-#include "temporary_folder.hpp"
-#include "text_files.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -16,8 +9,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 constexpr std::size_t kHeaderBytes = 36, kSettings = 3;
-
-void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 /// A map file with these contents and a header that fits them, unless a part is given. doc/method.md section 10 states
 /// the layout.
@@ -49,7 +40,7 @@ std::size_t bytes_of_settings(const std::string& bytes) {
 
 void check_refused_map(const std::string& text, const std::string& words) {
   const TemporaryFolder folder;
-  write_bytes(folder / "bad.map", text);
+  write_text(folder / "bad.map", text);
   INFO(words);
   REQUIRE_THROWS_AS(read_map(folder / "bad.map"), DataError);
   REQUIRE_THROWS_WITH(read_map(folder / "bad.map"), Contains("bad.map") && Contains(words) && Contains("expected"));
@@ -76,7 +67,7 @@ TEST_CASE("saved map: files that are cut, damaged, foreign or of another version
   const std::string bytes = saved_maps::room_map().bytes(), whole = framed(bytes);
   {
     const TemporaryFolder folder;
-    write_bytes(folder / "good.map", whole);
+    write_text(folder / "good.map", whole);
     REQUIRE_NOTHROW(read_map(folder / "good.map"));
   }
   check_refused_map("", "another kind");

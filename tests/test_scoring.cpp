@@ -1,9 +1,5 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/scoring.hpp"
-#include "quadedge/camera.hpp"
 
 using namespace quadedge::pose;
 
@@ -40,7 +36,7 @@ double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig,
 
 }  // namespace
 
-TEST_CASE("The score is the truncated quadratic of the worse image, at any number of quads", "[pose][scoring]") {
+TEST_CASE("The score is the truncated quadratic of the worse image, at any number of quads", "[pose]") {
   generated::Problem problem;
   problem.noise = {0.3, 0.6, 0.02};
   problem.outliers = 0.3;
@@ -64,7 +60,7 @@ TEST_CASE("The score is the truncated quadratic of the worse image, at any numbe
   CHECK(truncated_cost({}, LaterCameras(problem.rig, problem.motion), 1.5) == 1.0);
 }
 
-TEST_CASE("Points behind the later rig have the highest cost and are no inliers", "[pose][scoring]") {
+TEST_CASE("Points behind the later rig have the highest cost and are no inliers", "[pose]") {
   generated::Problem problem;
   problem.quads = 100;
   const auto g = generated::generate(problem, 13);
@@ -76,7 +72,7 @@ TEST_CASE("Points behind the later rig have the highest cost and are no inliers"
   CHECK(select_inliers(g.quads.scoring, LaterCameras(problem.rig, beyond), 1e6, 3.2, mask) == 0);
 }
 
-TEST_CASE("Inliers are quads close in both images and similar in direction, modulo 180 degrees", "[pose][scoring]") {
+TEST_CASE("Inliers are quads close in both images and similar in direction, modulo 180 degrees", "[pose]") {
   generated::Problem problem;
   problem.quads = 400;
   problem.outliers = 0.5;
@@ -122,7 +118,7 @@ TEST_CASE("Inliers are quads close in both images and similar in direction, modu
   CHECK_FALSE(accepted());
 }
 
-TEST_CASE("Cells that hold a marked quad count once", "[pose][scoring]") {
+TEST_CASE("Cells that hold a marked quad count once", "[pose]") {
   ScoringArrays quads;
   quads.left_x = {0, 15.9f, 16, 3, 40, 100};
   quads.left_y = {0, 15.9f, 3, 16, 40, 100};

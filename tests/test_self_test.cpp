@@ -1,12 +1,8 @@
 /// \file test_self_test.cpp  The self-test: correct devices pass, faulty ones are reported.
-#include <filesystem>
-
 #include "device/stage.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "edges/self_test_data.hpp"
 #include "program.hpp"
-#include "quadedge/self_test.hpp"
 #include "self_test_now.hpp"
 
 using namespace quadedge;
@@ -88,14 +84,12 @@ TEST_CASE("self-test: a faulty device is refused with the stage's name, and --tr
   const TemporaryFolder folder;
   // Hardly any similarity passes the filter.
   copy_kernels(folder / "kernels", "candidate_filters.cl", "similarity < limits.ncc_min", "similarity < 0.99f");
-  const std::vector<std::string> demo = {"demo",      "--frames",         "2",  "--size",      "322x200",
-                                         "--kernels", folder / "kernels", "-o", folder / "out"};
+  const Words demo = {"demo",      "--frames",         "2",  "--size",      "322x200",
+                      "--kernels", folder / "kernels", "-o", folder / "out"};
   const auto refused = run_program(demo);
   CHECK(refused.code == 4);
   CHECK_THAT(refused.err, Contains("fails the self-test at stage candidate_filters: ") && Contains("--trust"));
-  auto trusting = demo;
-  trusting.push_back("--trust");
-  const auto trusted = run_program(trusting);
+  const auto trusted = run_program(demo + Words{"--trust"});
   CHECK(trusted.code != 4);
   CHECK_THAT(trusted.err, Contains("fails the self-test at stage candidate_filters"));
   CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"verdict\": \"failed\""));
@@ -124,10 +118,8 @@ TEST_CASE("self-test: `auto` goes on to the next device with a warning, a device
   // PoCL offers two devices, and the verdict on the first one is changed to a failure.
   const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "' POCL_DEVICES='pthread basic'";
   std::ofstream(folder / "image.pgm") << "P5 40 40 255\n" + std::string(1600, '2');
-  const auto edges = [&](const std::vector<std::string>& device) {
-    std::vector<std::string> arguments = {"edges", folder / "image.pgm"};
-    arguments.insert(arguments.end(), device.begin(), device.end());
-    return run_program(arguments, environment);
+  const auto edges = [&](const Words& device) {
+    return run_program(Words{"edges", folder / "image.pgm"} + device, environment);
   };
   if (edges({"--device", "1"}).code != 0) {
     WARN("there is no second device");

@@ -1,7 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include "output/motion_errors.hpp"
-#include "quadedge/camera.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using evaluation::judge_steps;
@@ -22,7 +20,7 @@ struct Walk {
 
 }  // namespace
 
-TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, independent of earlier errors", "[evaluation]") {
+TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, independent of earlier errors") {
   const Walk walk(4);
   // Another world frame; the second step is too long by `excess` and rotated by `degrees`, the third is right again.
   const auto judge = [&](double excess, double degrees) {
@@ -49,8 +47,7 @@ TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, independe
   }
 }
 
-TEST_CASE("steps: both steps at a frame without a pose are lost, and those without ground truth do not count",
-          "[evaluation]") {
+TEST_CASE("steps: both steps at a frame without a pose are lost, and those without ground truth do not count") {
   const Walk walk(6);
   Trajectory estimate = walk.truth;
   for (auto& pose : estimate) pose.stamp_ns += 9'000'000;
@@ -68,7 +65,7 @@ TEST_CASE("steps: both steps at a frame without a pose are lost, and those witho
   CHECK(judge_steps(estimate, walk.truth, walk.frames).lost == 5);
 }
 
-TEST_CASE("steps: one from a segment to another is lost", "[evaluation]") {
+TEST_CASE("steps: one from a segment to another is lost") {
   const Walk walk(4);
   Trajectory estimate = walk.truth;
   estimate[2].segment = estimate[3].segment = 1;

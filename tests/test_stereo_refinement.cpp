@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <numeric>
-
 #include "common/matching_constants.hpp"
 #include "device/stereo_matching.hpp"
 #include "matching.hpp"
@@ -134,7 +131,7 @@ void check_disparity(const RefinementScene& scene) {
 
 }  // namespace
 
-TEST_CASE("epipolar shift: along the tangent if it crosses the line, else perpendicular", "[stereo][matching]") {
+TEST_CASE("epipolar shift: along the tangent if it crosses the line, else perpendicular") {
   // The line through (50, 20) towards -x.
   const EpipolarLine line{50, 20, -1, 0, 30, true};
   const auto shift = [&](double x, double y, double degrees) {
@@ -153,11 +150,9 @@ TEST_CASE("epipolar shift: along the tangent if it crosses the line, else perpen
   CHECK(shift(40, 20.5, 13) == Approx(10 + 0.5 / std::tan(13 * kDegree)));
 }
 
-TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo][matching]") {
-  check_disparity(RefinementScene(150));
-}
+TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px") { check_disparity(RefinementScene(150)); }
 
-TEST_CASE("stereo refinement: a different exposure of the right camera does no harm", "[stereo][matching][device]") {
+TEST_CASE("stereo refinement: a different exposure of the right camera does no harm", "[device]") {
   RefinementScene scene(150);
   scene.right_image =
       image_of(97, 71, [](double x, double y) { return 20 + 0.9 * smooth_grey(x + RefinementScene::kDisparity, y); });
@@ -166,7 +161,7 @@ TEST_CASE("stereo refinement: a different exposure of the right camera does no h
 }
 
 TEST_CASE("stereo refinement: a strong prior keeps the shifted position, the default one weighs it against the images",
-          "[stereo][matching][device]") {
+          "[device]") {
   RefinementScene scene(60);
   auto result = scene.scores;
   const auto free = scene.refine(result).position;
@@ -192,8 +187,7 @@ TEST_CASE("stereo refinement: a strong prior keeps the shifted position, the def
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: rejects shifts beyond the limit and dissimilar candidates, ignores rejected ones",
-          "[stereo][matching]") {
+TEST_CASE("stereo refinement: rejects shifts beyond the limit and dissimilar candidates, ignores rejected ones") {
   RefinementScene scene(60);
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] -= i % 3 == 0 ? 4.5f : 0.0f;
   scene.scores.state[1] = 5;
@@ -211,8 +205,7 @@ TEST_CASE("stereo refinement: rejects shifts beyond the limit and dissimilar can
   CHECK(alike <= 5);
 }
 
-TEST_CASE("stereo refinement: devices agree with the reference, on rows of several candidates, too",
-          "[stereo][matching][device]") {
+TEST_CASE("stereo refinement: devices agree with the reference, on rows of several candidates, too", "[device]") {
   RefinementScene scene(400, 8), rows(300, 5);
   scene.compare_devices();
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] += static_cast<float>(i % 5) - 2.0f;
@@ -225,7 +218,7 @@ TEST_CASE("stereo refinement: devices agree with the reference, on rows of sever
   rows.compare_devices();
 }
 
-TEST_CASE("stereo refinement: few candidates, several in a row, and none", "[stereo][matching][device][oclgrind]") {
+TEST_CASE("stereo refinement: few candidates, several in a row, and none", "[device][oclgrind]") {
   for (const int count : {3, 0}) RefinementScene(count).compare_devices();
   RefinementScene several(11);
   several.crowd();

@@ -1,10 +1,5 @@
-#include <filesystem>
-#include <functional>
-
 #include "data/find_sequences.hpp"
 #include "own_camera.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/stereo_source.hpp"
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
@@ -60,7 +55,7 @@ class OwnRecording {
 
  private:
   void encode(const std::string& pictures, const std::string& name) const {
-    own_camera::write_bytes(file("pictures.pgm"), pictures);
+    write_text(file("pictures.pgm"), pictures);
     own_camera::encode(file("pictures.pgm"), "-c:v ffv1 -pix_fmt gray", file(name));
   }
   TemporaryFolder folder_;
@@ -72,19 +67,16 @@ const OwnRecording& recording() {
 }
 
 std::string complaint(const StereoSource& source) {
-  try {
+  return message_of([&] {
     FramePrefetcher frames(open_stereo_source(source));
     while (frames.next()) {
     }
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
+  });
 }
 
 }  // namespace
 
-TEST_CASE("own camera: folders, one video and two videos give the same pairs", "[data]") {
+TEST_CASE("own camera: folders, one video and two videos give the same pairs") {
   for (const auto& source : {recording().folders(), recording().one_video(), recording().two_videos()}) {
     const Dataset dataset = open_stereo_source(source);
     INFO(dataset.format);
@@ -106,8 +98,8 @@ TEST_CASE("own camera: folders, one video and two videos give the same pairs", "
   }
 }
 
-TEST_CASE("own camera: a range of pairs, and timestamps from a file", "[data]") {
-  own_camera::write_bytes(recording().file("stamps.txt"), "1.5\n1.75\n2\n3\n");
+TEST_CASE("own camera: a range of pairs, and timestamps from a file") {
+  write_text(recording().file("stamps.txt"), "1.5\n1.75\n2\n3\n");
   for (StereoSource source : {recording().folders(), recording().one_video()}) {
     source.fps = 0;
     source.times = recording().file("stamps.txt");
@@ -128,7 +120,7 @@ TEST_CASE("own camera: a range of pairs, and timestamps from a file", "[data]") 
   }
 }
 
-TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
+TEST_CASE("own camera: streams of different lengths are reported") {
   const TemporaryFolder folder;
   StereoSource source = recording().folders();
   fs::copy(source.right, folder / "right");
@@ -142,7 +134,7 @@ TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
   std::string pictures;
   for (int i = 0; i < 2; ++i)
     pictures += own_camera::pgm(read_grey_image(own_camera::small_dataset().frames[static_cast<std::size_t>(i)].right));
-  own_camera::write_bytes(folder / "pictures.pgm", pictures);
+  write_text(folder / "pictures.pgm", pictures);
   own_camera::encode(folder / "pictures.pgm", "-c:v ffv1 -pix_fmt gray", folder / "short.mkv");
   videos.right = folder / "short.mkv";
   CHECK_THAT(complaint(videos), Contains(folder / "short.mkv") && Contains("2 frames"));
@@ -151,7 +143,7 @@ TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
   videos.right = folder / "short.mjpeg";
   videos.fps = 20;
   CHECK_THAT(complaint(videos), Contains(folder / "short.mjpeg") && Contains("the end after 2 frames"));
-  own_camera::write_bytes(folder / "stamps.txt", "1\n2\n3\n");
+  write_text(folder / "stamps.txt", "1\n2\n3\n");
   for (StereoSource timed : {recording().folders(), recording().one_video()}) {
     timed.fps = 0;
     timed.times = folder / "stamps.txt";
@@ -159,7 +151,7 @@ TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
   }
 }
 
-TEST_CASE("own camera: images of both folders are paired by time, and those alone are dropped and counted", "[data]") {
+TEST_CASE("own camera: images of both folders are paired by time, and those alone are dropped and counted") {
   const TemporaryFolder folder;
   const auto& frames = own_camera::small_dataset().frames;
   const auto fill = [&](const char* side, const std::vector<const char*>& names) {
@@ -193,7 +185,7 @@ TEST_CASE("own camera: images of both folders are paired by time, and those alon
   CHECK_THAT(complaint(source), Contains("another day") && Contains("86401.0") && Contains("one clock"));
 }
 
-TEST_CASE("own camera: missing and contradictory options are reported", "[data]") {
+TEST_CASE("own camera: missing and contradictory options are reported") {
   const auto complaint_of = [](StereoSource source, const std::function<void(StereoSource&)>& change) {
     change(source);
     return complaint(source);
@@ -220,7 +212,7 @@ TEST_CASE("own camera: missing and contradictory options are reported", "[data]"
   CHECK_THAT(complaint(pipe), Contains("--fps"));
 }
 
-TEST_CASE("own camera: check reads everything and reports errors", "[data]") {
+TEST_CASE("own camera: check reads everything and reports errors") {
   int seen = 0;
   const auto count = [&](const Dataset&, const StereoPair&) { ++seen; };
   for (const auto& source : {recording().folders(), recording().one_video()}) {
@@ -240,7 +232,7 @@ TEST_CASE("own camera: check reads everything and reports errors", "[data]") {
   CHECK_THAT(check.errors[0], Contains("cut.mkv") && Contains("the 4 announced by its header"));
 }
 
-TEST_CASE("own camera: a line of a list is parsed and converted back to arguments", "[data]") {
+TEST_CASE("own camera: a line of a list is parsed and converted back to arguments") {
   const std::string line =
       "--left \"my recording/left\" --right r --calibration a.yaml,b.yaml --fps 12.5 --fov 90 --mask m.png --times "
       "t.txt";
@@ -269,13 +261,12 @@ TEST_CASE("own camera: a line of a list is parsed and converted back to argument
   }
 }
 
-TEST_CASE("own camera: lists may mix them with folders, each with a unique name", "[data]") {
+TEST_CASE("own camera: lists may mix them with folders, each with a unique name") {
   const TemporaryFolder folder;
-  own_camera::write_bytes(folder / "list.txt", small_sequence() + "\n--left " + recording().file("left") + " --right " +
-                                                   recording().file("right") + " --calibration " +
-                                                   recording().file("rig.yaml") + " --fps 20\n--video " +
-                                                   recording().file("both.mkv") + " --split left-right --calibration " +
-                                                   recording().file("rig.yaml") + "\n");
+  write_text(folder / "list.txt", small_sequence() + "\n--left " + recording().file("left") + " --right " +
+                                      recording().file("right") + " --calibration " + recording().file("rig.yaml") +
+                                      " --fps 20\n--video " + recording().file("both.mkv") +
+                                      " --split left-right --calibration " + recording().file("rig.yaml") + "\n");
   const auto found = data::find_sequences(folder / "list.txt");
   REQUIRE(found.size() == 3);
   CHECK_FALSE(found[0].source);

@@ -1,8 +1,5 @@
 /// \file test_taps.cpp  What a tap is told of the searches in time, and that it changes nothing.
-#include <functional>
-
 #include "frontends.hpp"
-#include "quadedge/odometry.hpp"
 
 using namespace quadedge;
 
@@ -54,7 +51,7 @@ std::vector<FrameResult> track_with_loss(const std::string& device_name, Tap* ta
 }  // namespace
 
 TEST_CASE("A tap receives the base frame of each search and the one that gave the motion, and the poses stay the same",
-          "[matching][odometry][device]") {
+          "[device]") {
   for (const auto& device : all_devices()) {
     Searches tap;
     int frame = 0, relocalisations = 0, oldest = 0;

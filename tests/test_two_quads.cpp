@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/two_quads.hpp"
 
@@ -16,7 +14,7 @@ OrientedPair moved_pair(const OrientedPair& pair, const Eigen::Isometry3d& m) {
 
 }  // namespace
 
-TEST_CASE("Two exact quads give the exact motion", "[pose][two_quads]") {
+TEST_CASE("Two exact quads give the exact motion", "[pose]") {
   generated::Random random(7);
   int solved = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -31,7 +29,7 @@ TEST_CASE("Two exact quads give the exact motion", "[pose][two_quads]") {
   CHECK(solved > 150);
 }
 
-TEST_CASE("Coplanar vectors give the exact motion too", "[pose][two_quads]") {
+TEST_CASE("Coplanar vectors give the exact motion too", "[pose]") {
   generated::Random random(8);
   const OrientedPair pair{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{1, 0, 4}, Eigen::Vector3d::UnitY()}};
   const Eigen::Isometry3d truth = random.motion(1.0, 1.0);
@@ -40,7 +38,7 @@ TEST_CASE("Coplanar vectors give the exact motion too", "[pose][two_quads]") {
   CHECK((found->matrix() - truth.matrix()).norm() < 1e-12);
 }
 
-TEST_CASE("A chord parallel to the first tangent, or of zero length, is degenerate", "[pose][two_quads]") {
+TEST_CASE("A chord parallel to the first tangent, or of zero length, is degenerate", "[pose]") {
   const OrientedPair good{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{1, 0, 4}, Eigen::Vector3d::UnitZ()}};
   const OrientedPair along{{{0, 0, 4}, Eigen::Vector3d::UnitX()}, {{1, 0, 4}, Eigen::Vector3d::UnitZ()}};
   const OrientedPair one_spot{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{0, 0, 4}, Eigen::Vector3d::UnitZ()}};
@@ -51,7 +49,7 @@ TEST_CASE("A chord parallel to the first tangent, or of zero length, is degenera
   CHECK_FALSE(solve_two_quads(good, one_spot, kMaxCosine));
 }
 
-TEST_CASE("A noisy pair still gives a valid rotation and maps the midpoint exactly", "[pose][two_quads]") {
+TEST_CASE("A noisy pair still gives a valid rotation and maps the midpoint exactly", "[pose]") {
   generated::Random random(9);
   for (int trial = 0; trial < 50; ++trial) {
     const OrientedPair before{{random.uniform(1, 9) * random.unit(), random.unit()},

@@ -1,14 +1,9 @@
 #pragma once
 /// \file tracked_room.hpp  A small rendered room, its trajectory, and comparisons of poses and results.
 
-#include <catch2/catch.hpp>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "frontends.hpp"
-#include "quadedge/odometry.hpp"
+#include "scenes/render.hpp"
+#include "scenes/scenes.hpp"
 
 namespace tracked_room {
 
@@ -21,10 +16,21 @@ inline const RenderedScene& room() {
   return scene;
 }
 
+/// A device, built before the odometry on it and destroyed after it.
+struct OwnDevice {
+  Device own;
+};
+
+/// An odometry with a device of its own.
+struct Tracker : OwnDevice, StereoOdometry {
+  explicit Tracker(const StereoRig& rig = room().rig, const Config& config = room().config,
+                   const std::string& device_name = all_devices().front())
+      : OwnDevice{Device(device_name, kept_programs())}, StereoOdometry(rig, own, config) {}
+};
+
 inline std::vector<FrameResult> track(const RenderedScene& scene, const std::string& device_name,
                                       const Config& config) {
-  Device device(device_name, kept_programs());
-  StereoOdometry odometry(scene.rig, device, config);
+  Tracker odometry(scene.rig, config, device_name);
   std::vector<FrameResult> results;
   for (std::size_t i = 0; i < scene.left.size(); ++i) results.push_back(odometry.track(scene.frame(i)));
   return results;
@@ -48,6 +54,15 @@ inline void check_pose(const std::optional<Eigen::Isometry3d>& world_from_left, 
   REQUIRE(world_from_left);
   CHECK((world_from_left->translation() - truth.translation()).norm() < metres);
   CHECK(turn_between(*world_from_left, truth) < degrees * kDegree);
+}
+
+/// A view of a scene without noise.
+inline Image render_view(const synthetic::Scene& scene, const PinholeCamera& camera,
+                         const Eigen::Isometry3d& camera_from_scene) {
+  const auto view = synthetic::render(scene, camera, camera_from_scene, 3, 0);
+  return matching::image_of(camera.width, camera.height, [&](double x, double y) {
+    return view.grey[static_cast<std::size_t>(y * camera.width + x)];
+  });
 }
 
 /// The frame at another time, for sequences in another order.
