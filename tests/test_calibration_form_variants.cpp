@@ -1,12 +1,10 @@
 #include "calibration_texts.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using namespace calibration_files;
 using Catch::Matchers::Contains;
 
-TEST_CASE("calibration form variants: a ZED camera's resolutions, and OAK's by scaling and cropping", "[calibration]") {
+TEST_CASE("calibration form variants: a ZED camera's resolutions, and OAK's by scaling and cropping") {
   const TemporaryFolder folder;
   const auto section = [](const std::string& name, double scale) {
     return "[" + name + "]\nfx=" + numbers({700 * scale}) + "\nfy=" + numbers({701 * scale}) +
@@ -33,10 +31,8 @@ TEST_CASE("calibration form variants: a ZED camera's resolutions, and OAK's by s
                     Contains("1280 x 720 or 672 x 376") && Contains("SN1.conf"));
 
   // 1280 x 800 of the sensor as 1280 x 720: forty rows less above and below; as 640 x 400: halved.
-  std::string oak = depthai(Rig());
-  for (std::size_t at = 0; (at = oak.find("\"height\": 480, \"width\": 752", at)) != std::string::npos; ++at)
-    oak.replace(at, 27, "\"height\": 800, \"width\": 1280");
-  write_text(folder / "oak.json", oak);
+  write_text(folder / "oak.json",
+             changed(text_of("depthai.json"), "\"height\": 480, \"width\": 752", "\"height\": 800, \"width\": 1280"));
   StereoCalibration cropped = read_calibration(folder / "oak.json"), halved = cropped;
   data::set_image_sizes(cropped, {1280, 720}, {1280, 720}, "the images");
   CHECK(cropped.left.camera.fx == 458.654);
@@ -46,14 +42,13 @@ TEST_CASE("calibration form variants: a ZED camera's resolutions, and OAK's by s
   CHECK(halved.right.camera.cx == Approx(379.999 / 2));
 }
 
-TEST_CASE("calibration form variants: region of interest and binning of camera_info", "[calibration]") {
+TEST_CASE("calibration form variants: region of interest and binning of camera_info") {
   const TemporaryFolder folder;
-  const Rig rig;
-  for (const bool right : {false, true}) {
-    std::string text = camera_info_echo(rig, right, false);
-    text.erase(text.find("binning_x"));
-    text += "binning_x: 2\nbinning_y: 2\nroi:\n  x_offset: 8\n  y_offset: 4\n  width: 736\n  height: 472\n";
-    write_text(folder / (right ? "right" : "left"), text);
+  for (const std::string side : {"left", "right"}) {
+    const std::string text = text_of("camera_info_" + side + ".yaml");
+    write_text(folder / side,
+               text.substr(0, text.find("binning_x")) +
+                   "binning_x: 2\nbinning_y: 2\nroi:\n  x_offset: 8\n  y_offset: 4\n  width: 736\n  height: 472\n");
   }
   const Lens lens = read_calibration((folder / "left") + "," + (folder / "right")).left;
   CHECK(lens.camera.fx == Approx(458.654 / 2));
@@ -63,70 +58,30 @@ TEST_CASE("calibration form variants: region of interest and binning of camera_i
   CHECK(lens.camera.height == 236);
 }
 
-TEST_CASE("calibration form variants: the extended unified camera model is the unified one for beta 1",
-          "[calibration]") {
-  Lens eucm, unified;
-  eucm.camera = {300, 310, 320, 240, 640, 480};
-  eucm.model = LensModel::extended_unified;
-  eucm.parameters = {0.6, 1};
-  // alpha d + (1 - alpha) z = (1 - alpha) (z + xi d) with xi = alpha / (1 - alpha): focal lengths by 1 / (1 - alpha).
-  unified.model = LensModel::omnidirectional;
-  unified.camera = {300 / 0.4, 310 / 0.4, 320, 240, 640, 480};
-  unified.parameters = {0.6 / 0.4};
-  for (const Eigen::Vector3d& ray :
-       {Eigen::Vector3d(0.1, -0.2, 1), Eigen::Vector3d(1, 0.5, 0.3), Eigen::Vector3d(0, 0, 1)}) {
-    const auto one = LensMapping(eucm).project(ray), other = LensMapping(unified).project(ray);
-    REQUIRE((one && other));
-    CHECK((*one - *other).norm() < 1e-9);
-  }
-  eucm.parameters = {0.57, 1.2};
-  const LensMapping mapping(eucm);
-  for (const Eigen::Vector2d& pixel :
-       {Eigen::Vector2d(320, 240), Eigen::Vector2d(100, 50), Eigen::Vector2d(600, 400)}) {
-    const auto ray = mapping.ray(pixel);
-    REQUIRE(ray);
-    CHECK((*mapping.project(*ray) - pixel).norm() < 1e-8);
-  }
-}
-
-TEST_CASE("calibration form variants: names of left and right, and models that other programs write", "[calibration]") {
+TEST_CASE("calibration form variants: names of left and right, and models that other programs write") {
   const TemporaryFolder folder;
-  const Rig rig;
-  std::string named = plain_opencv(rig, "cameraMatrix", "distCoeffs");
-  for (const auto& [from, to] : {std::pair("Matrix1", "MatrixL"), std::pair("Coeffs1", "CoeffsL"),
-                                 std::pair("Matrix2", "MatrixR"), std::pair("Coeffs2", "CoeffsR")})
-    named.replace(named.find(from), std::string(from).size(), to);
+  std::string named = text_of("opencv.yaml");
+  for (const auto& [from, to] : {std::pair("K1", "cameraMatrixL"), std::pair("D1", "distCoeffsL"),
+                                 std::pair("K2", "cameraMatrixR"), std::pair("D2", "distCoeffsR")})
+    named = changed(named, from, to);
   write_text(folder / "named.yaml", named);
   check_rig(read_calibration(folder / "named.yaml"), 3e-9);
-  for (const bool right : {false, true}) {
-    const auto k = values_of(right ? rig.right_distortion : rig.left_distortion);
-    write_text(folder / (right ? "cam1.yaml" : "cam0.yaml"),
-               "%YAML:1.0\n---\nmodel_type: PINHOLE_FULL\nimage_width: 752\nimage_height: 480\ndistortion_parameters:\n"
-               "   k1: " +
-                   numbers({k[0]}) + "\n   k2: " + numbers({k[1]}) +
-                   "\n   k3: 0.01\n   k4: 0.02\n   k5: 0.03\n   k6: 0.04\n   p1: " + numbers({k[2]}) +
-                   "\n   p2: " + numbers({k[3]}) + "\nprojection_parameters:\n" +
-                   entries("", kPinhole, right ? rig.right_intrinsics : rig.left_intrinsics, "   "));
-  }
-  write_text(folder / "config.yaml", "%YAML:1.0\ncam0_calib: \"cam0.yaml\"\ncam1_calib: \"cam1.yaml\"\n" +
-                                         opencv_matrix("body_T_cam0", 4, 4, matrix4(rig.body_from_left)) +
-                                         opencv_matrix("body_T_cam1", 4, 4, matrix4(rig.body_from_right)));
+  for (const std::string camera : {"vins_cam0.yaml", "vins_cam1.yaml"})
+    write_text(folder / camera, changed(changed(text_of(camera), "PINHOLE", "PINHOLE_FULL"),
+                                        "   p1:", "   k3: 0.01\n   k4: 0.02\n   k5: 0.03\n   k6: 0.04\n   p1:"));
+  write_text(folder / "config.yaml", text_of("vins-fusion.yaml"));
   CHECK(read_calibration(folder / "config.yaml").left.parameters ==
         std::vector<double>{-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.01, 0.02, 0.03, 0.04});
-  std::string unified = basalt(rig);
-  for (std::size_t at = 0; (at = unified.find("pinhole-radtan8", at)) != std::string::npos;)
-    unified.replace(at, 15, "ucm");
+  std::string unified = changed(text_of("basalt.json"), "pinhole-radtan8", "ucm");
   for (std::size_t at = 0; (at = unified.find("\"k1\": ", at)) != std::string::npos;)
     unified.replace(at, unified.find(',', at) - at, "\"alpha\": 0.6");
   write_text(folder / "ucm.json", unified);
   CHECK(read_calibration(folder / "ucm.json").left.parameters == std::vector<double>{0.6, 1});
 }
 
-TEST_CASE("calibration form variants: OpenCV's YAML has values without a space, as ORB-SLAM2's own settings",
-          "[calibration]") {
+TEST_CASE("calibration form variants: OpenCV's YAML has values without a space, as ORB-SLAM2's own settings") {
   const TemporaryFolder folder;
-  std::string text = orb_slam2(Rig());
-  for (std::size_t at = 0; (at = text.find("data: [", at)) != std::string::npos; ++at) text.replace(at, 7, "data:[");
+  const std::string text = changed(text_of("orb-slam2.yaml"), "data: [", "data:[");
   write_text(folder / "settings.yaml",
              text + "Viewer.PointSize:2\nTbc: !!opencv-matrix\n   rows: 1\n   cols: 2\n   data: [1.0 0.0]\n");
   const StereoCalibration read = read_calibration(folder / "settings.yaml");
@@ -136,7 +91,7 @@ TEST_CASE("calibration form variants: OpenCV's YAML has values without a space, 
   CHECK_THROWS_WITH(read_calibration(folder / "other.yaml"), Contains("other.yaml:2") && Contains("is not YAML"));
 }
 
-TEST_CASE("calibration form variants: a ZED camera's lens in a section of its own", "[calibration]") {
+TEST_CASE("calibration form variants: a ZED camera's lens in a section of its own") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& left, const std::string& right) {
     const std::string camera = "fx = 700\nfy = 701\ncx = 950\ncy = 600\n";
@@ -156,8 +111,7 @@ TEST_CASE("calibration form variants: a ZED camera's lens in a section of its ow
   CHECK_THROWS_WITH(read(rational, "\n"), Contains("RIGHT_CAM_FHD1200:K1"));
 }
 
-TEST_CASE("calibration form variants: MATLAB's numbers as displayed, in any order, in their own unit",
-          "[calibration]") {
+TEST_CASE("calibration form variants: MATLAB's numbers as displayed, in any order, in their own unit") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
     write_text(folder / "stereo.txt", text);
@@ -185,11 +139,9 @@ TEST_CASE("calibration form variants: MATLAB's numbers as displayed, in any orde
                     Contains("IntrinsicMatrix") && Contains("not a summary") && Contains("jsonencode"));
 }
 
-TEST_CASE("calibration form variants: camera_info of both cameras in one file, and what it leaves out",
-          "[calibration]") {
+TEST_CASE("calibration form variants: camera_info of both cameras in one file, and what it leaves out") {
   const TemporaryFolder folder;
-  const Rig rig;
-  const std::string left = camera_info_echo(rig, false, true), right = camera_info_echo(rig, true, true);
+  const std::string left = camera_info_of_ros2("left"), right = camera_info_of_ros2("right");
   write_text(folder / "both.yaml", right + left + right);  // appended in any order, some twice
   check_rig(read_calibration(folder / "both.yaml"), 3e-9);
   write_text(folder / "both.yaml", left + left);
@@ -215,16 +167,15 @@ TEST_CASE("calibration form variants: camera_info of both cameras in one file, a
                     Contains("fourth column") && Contains("one by one"));
 }
 
-TEST_CASE("calibration form variants: words and wrappings that programs leave out or add", "[calibration]") {
+TEST_CASE("calibration form variants: words and wrappings that programs leave out or add") {
   const TemporaryFolder folder;
-  const Rig rig;
   const auto read = [&](const std::string& text, bool rectified = false) {
     write_text(folder / "file", text);
     return read_calibration(folder / "file", rectified);
   };
   const auto renamed = [&](std::initializer_list<std::pair<const char*, const char*>> names) {
-    std::string text = plain_opencv(rig, "K", "D");
-    for (const auto& [from, to] : names) text.replace(text.find(from), std::string(from).size(), to);
+    std::string text = text_of("opencv.yaml");
+    for (const auto& [from, to] : names) text = changed(text, from, to);
     return text;
   };
   check_rig(read(renamed({{"K1:", "Camera_Matrix_Left:"},
@@ -235,13 +186,13 @@ TEST_CASE("calibration form variants: words and wrappings that programs leave ou
                           {"\nT:", "\ntranslationVector:"}})),
             3e-9);
   check_rig(read(renamed({{"K1:", "left:\n  K:"}, {"D1:", "  D:"}, {"K2:", "right:\n  K:"}, {"D2:", "  D:"}})), 3e-9);
-  const std::string wrapped = basalt(rig);
+  const std::string wrapped = text_of("basalt.json");
   check_rig(read(wrapped.substr(wrapped.find('{', 1), wrapped.rfind('}') - wrapped.find('{', 1))), 3e-9);
   std::string wide = "\xFF\xFE";  // as PowerShell redirects
-  for (const char letter : realsense(rig)) wide += std::string{letter, '\0'};
+  for (const char letter : text_of("realsense.output")) wide += std::string{letter, '\0'};
   check_rig(read(wide), 3e-9);
   CHECK_THROWS_WITH(read("Stream Profiles supported by Stereo Module\n"), Contains("rs-enumerate-devices -c"));
-  const StereoCalibration rectified = read(stella(rig), true);
+  const StereoCalibration rectified = read(text_of("stella-vslam.yaml"), true);
   CHECK(rectified.left.is_pinhole());
   CHECK(rectified.left.camera.cx == 367);
   CHECK(rectified.right_from_left.linear().isIdentity());

@@ -1,45 +1,20 @@
 #include "calibration_texts.hpp"
-#include "quadedge/error.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using namespace calibration_files;
 using Catch::Matchers::Contains;
 
-TEST_CASE("calibration forms: the same rig in every program's form", "[calibration]") {
+TEST_CASE("calibration forms: the same rig in every program's form") {
   const TemporaryFolder folder;
-  const Rig rig;
-  std::map<std::string, std::string> files;
-  const auto add = [&](const std::string& name, const std::string& text) {
-    write_text(folder / name, text);
-    files[name] = folder / name;
-  };
-  add("orb-slam 3.yaml", orb_slam3(rig));
-  add("orb-slam 2.yaml", orb_slam2(rig));
-  add("stella-vslam.yaml", stella(rig));
-  add("basalt.json", basalt(rig));
-  add("depthai.json", depthai(rig));
-  add("realsense.txt", realsense(rig));
-  add("kitti.txt", kitti_cameras(rig));
-  add("matlab.txt", matlab(rig));
-  add("opencv K.yaml", plain_opencv(rig, "K", "D"));
-  add("opencv cameraMatrix.yaml", plain_opencv(rig, "cameraMatrix", "distCoeffs"));
-  for (const bool lower : {false, true}) {
-    const std::string name = lower ? "ros 2" : "ros 1";
-    write_text(folder / (name + " left"), camera_info_echo(rig, false, lower));
-    write_text(folder / (name + " right"), camera_info_echo(rig, true, lower));
-    files[name] = (folder / (name + " left")) + "," + (folder / (name + " right"));
-  }
-  for (const bool right : {false, true}) {
-    write_text(folder / (right ? "cam1.yaml" : "cam0.yaml"),
-               "%YAML:1.0\n---\nmodel_type: PINHOLE\nimage_width: 752\nimage_height: 480\ndistortion_parameters:\n" +
-                   entries("", kRadTan, right ? rig.right_distortion : rig.left_distortion, "   ") +
-                   "projection_parameters:\n" +
-                   entries("", kPinhole, right ? rig.right_intrinsics : rig.left_intrinsics, "   "));
-  }
-  add("vins-fusion.yaml", "%YAML:1.0\ncam0_calib: \"cam0.yaml\"\ncam1_calib: \"cam1.yaml\"\n" +
-                              opencv_matrix("body_T_cam0", 4, 4, matrix4(rig.body_from_left)) +
-                              opencv_matrix("body_T_cam1", 4, 4, matrix4(rig.body_from_right)));
+  std::map<std::string, std::string> files = {
+      {"ros 1", file_of("camera_info_left.yaml") + "," + file_of("camera_info_right.yaml")},
+      {"ros 2", (folder / "left") + "," + (folder / "right")},
+      {"opencv cameraMatrix", folder / "opencv.yaml"}};
+  for (const char* side : {"left", "right"}) write_text(folder / side, camera_info_of_ros2(side));
+  write_text(folder / "opencv.yaml", changed(changed(text_of("opencv.yaml"), "K", "cameraMatrix"), "D", "distCoeffs"));
+  for (const char* name : {"orb-slam3.yaml", "orb-slam2.yaml", "stella-vslam.yaml", "basalt.json", "depthai.json",
+                           "realsense.output", "kitti.calib", "matlab.output", "opencv.yaml", "vins-fusion.yaml"})
+    files[name] = file_of(name);
   for (const auto& [name, list] : files) {
     INFO(name);
     StereoCalibration read = read_calibration(list);
@@ -50,13 +25,13 @@ TEST_CASE("calibration forms: the same rig in every program's form", "[calibrati
     CHECK(read_calibration(folder / "native.yaml").right_from_left.matrix() == read.right_from_left.matrix());
   }
   // Camera files alone do not say where the cameras are.
-  CHECK_THROWS_WITH(read_calibration((folder / "cam0.yaml") + "," + (folder / "cam1.yaml")),
+  CHECK_THROWS_WITH(read_calibration(file_of("vins_cam0.yaml") + "," + file_of("vins_cam1.yaml")),
                     Contains("cam0.yaml") && Contains("without the transform") && Contains("body_T_cam0"));
   write_text(folder / "camera.txt", "RadTan 458.654 457.296 367.215 248.375 0 0 0 0\n752 480\ncrop\n640 480\n");
   CHECK_THROWS_WITH(read_calibration(folder / "camera.txt"), Contains("one camera") && Contains("fifth line"));
 }
 
-TEST_CASE("calibration forms: rectified images of ORB-SLAM, stella_vslam, KITTI and Stereo DSO", "[calibration]") {
+TEST_CASE("calibration forms: rectified images of ORB-SLAM, stella_vslam, KITTI and Stereo DSO") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
     write_text(folder / "file.txt", text);
@@ -89,7 +64,7 @@ TEST_CASE("calibration forms: rectified images of ORB-SLAM, stella_vslam, KITTI 
   CHECK_THROWS_WITH(read("%YAML:1.0\n" + camera + "Stereo.b: 110\n"), Contains("millimetres"));
 }
 
-TEST_CASE("calibration forms: what no rectified camera states is refused", "[calibration]") {
+TEST_CASE("calibration forms: what no rectified camera states is refused") {
   const TemporaryFolder folder;
   const auto infos = ros_camera_infos(Rig());
   write_text(folder / "left.yaml", infos.first);
@@ -118,19 +93,25 @@ TEST_CASE("calibration forms: what no rectified camera states is refused", "[cal
                                                 Contains("Kalibr") && Contains("DepthAI"));
 }
 
-TEST_CASE("calibration forms: rectified images have the cameras of the projection matrices", "[calibration]") {
+TEST_CASE("calibration forms: rectified images have the cameras of the projection matrices") {
   const TemporaryFolder folder;
   const Rig rig;
   const auto infos = ros_camera_infos(rig);
   write_text(folder / "left.yaml", infos.first);
   write_text(folder / "right.yaml", infos.second);
-  write_text(folder / "settings.yaml", orb_slam2(rig));
   cv::Mat r, t, r1, r2, p1, p2, q;  // as OpenCV computes them
   rotation_and_translation(rig, r, t);
   cv::stereoRectify(camera_matrix(rig.left_intrinsics), row_matrix(rig.left_distortion),
                     camera_matrix(rig.right_intrinsics), row_matrix(rig.right_distortion), {752, 480}, r, t, r1, r2, p1,
                     p2, q);
-  for (const std::string& files : {(folder / "left.yaml") + "," + (folder / "right.yaml"), folder / "settings.yaml"}) {
+  for (const bool of_file : {false, true}) {
+    const std::string files =
+        of_file ? file_of("orb-slam2.yaml") : (folder / "left.yaml") + "," + (folder / "right.yaml");
+    if (of_file) {
+      const cv::FileStorage settings(files, cv::FileStorage::READ);
+      settings["LEFT.P"] >> p1;
+      settings["RIGHT.P"] >> p2;
+    }
     CHECK_FALSE(read_calibration(files).left.is_pinhole());
     const StereoCalibration rectified = read_calibration(files, true);
     CHECK(rectified.left.is_pinhole());
@@ -140,20 +121,15 @@ TEST_CASE("calibration forms: rectified images have the cameras of the projectio
     CHECK(rectified.right_from_left.linear().isIdentity());
     CHECK(rectified.right_from_left.translation().x() == Approx(p2.at<double>(0, 3) / p2.at<double>(0, 0)));
   }
-  write_text(folder / "K.yaml", plain_opencv(rig, "K", "D"));
-  CHECK_THROWS_WITH(read_calibration(folder / "K.yaml", true), Contains("K.yaml") && Contains("projection matrices"));
+  CHECK_THROWS_WITH(read_calibration(file_of("opencv.yaml"), true),
+                    Contains("opencv.yaml") && Contains("projection matrices"));
 }
 
-TEST_CASE("calibration forms: settings of other cameras are not taken for rectified stereo", "[calibration]") {
+TEST_CASE("calibration forms: settings of other cameras are not taken for rectified stereo") {
   const TemporaryFolder folder;
-  const auto complaint = [&](const std::string& text) -> std::string {
+  const auto complaint = [&](const std::string& text) {
     write_text(folder / "file.txt", text);
-    try {
-      read_calibration(folder / "file.txt");
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return "";
+    return message_of([&] { read_calibration(folder / "file.txt"); });
   };
   const std::string camera = "Camera.fx: 517\nCamera.fy: 516\nCamera.cx: 318\nCamera.cy: 255\nCamera.bf: 40\n";
   CHECK(complaint("%YAML:1.0\n" + camera + "Camera.k1: 0.0\n").empty());
@@ -162,24 +138,18 @@ TEST_CASE("calibration forms: settings of other cameras are not taken for rectif
   CHECK_THAT(complaint("Camera.setup: stereo\nCamera.cols: 752\nCamera.rows: 480\nCamera.focal_x_baseline: 40\n" +
                        camera + "Camera.k2: 0.1\n"),
              Contains("Camera.k2") && Contains("StereoRectifier"));
-  std::string inverse = realsense(Rig());
-  inverse.replace(inverse.find("Brown Conrady"), 13, "Inverse Brown Conrady");
-  CHECK_THAT(complaint(inverse), Contains("inverse distortion"));
-  const std::string skewed = "Camera2.fx: 517\nCamera2.fy: 516\nCamera2.cx: 318\nCamera2.cy: 255\n" +
-                             opencv_matrix("Tlr", 3, 4, "1, 0.1, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0");
+  CHECK_THAT(complaint(changed(text_of("realsense.output"), "Brown Conrady", "Inverse Brown Conrady")),
+             Contains("inverse distortion"));
+  const std::string skewed =
+      "Camera2.fx: 517\nCamera2.fy: 516\nCamera2.cx: 318\nCamera2.cy: 255\n"
+      "Tlr: !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n   data: [1, 0.1, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0]\n";
   CHECK_THAT(complaint("%YAML:1.0\n" + camera + skewed), Contains("Tlr") && Contains("orthonormal"));
 }
 
-TEST_CASE("calibration forms: KITTI-360's K ends in 0, KITTI's calib.txt has projections only", "[calibration]") {
+TEST_CASE("calibration forms: KITTI-360's K ends in 0, KITTI's calib.txt has projections only") {
   const TemporaryFolder folder;
-  const Rig rig;
-  std::string text = kitti_cameras(rig);
-  for (const char* k : {"248.375  0  0  1", "255.238  0  0  1"}) {
-    const std::size_t at = text.find(k);
-    REQUIRE(at != std::string::npos);
-    text[at + 15] = '0';
-  }
-  write_text(folder / "perspective.txt", text);
+  const std::string text = changed(text_of("kitti.calib"), "248.375  0  0  1", "248.375  0  0  0");
+  write_text(folder / "perspective.txt", changed(text, "255.238  0  0  1", "255.238  0  0  0"));
   StereoCalibration read = read_calibration(folder / "perspective.txt");
   data::set_image_sizes(read, {752, 480}, {752, 480}, "the images");
   check_rig(read, 3e-9);
