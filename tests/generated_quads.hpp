@@ -1,18 +1,13 @@
 #pragma once
 /// \file generated_quads.hpp  Quads with a known motion, generated from geometry, exact or with edge noise.
 
-#include <Eigen/Geometry>
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
-
 #include "motion/quads.hpp"
-#include "quadedge/edges.hpp"
+#include "testing.hpp"
 
 namespace generated {
 
 using quadedge::pose::OrientedPoint;
+using quadedge::pose::QuadObservations;
 
 /// Normal and uniform random numbers that are the same on every platform. None is drawn among the arguments of a call,
 /// whose order is the compiler's choice.
@@ -211,6 +206,33 @@ void for_quads_off_motion(const Check& check) {
     const Eigen::Isometry3d pose = random.motion(0.02, 0.1) * problem.motion;
     for (std::size_t i = 0; i < generated.quads.size(); ++i) check(generated.quads, i, rig, pose);
   }
+}
+
+/// A car that drives on, by default with the noise of matching.
+inline Problem drive(const Noise& noise = {0.15, 0.5, 0.035}) {
+  Problem problem;
+  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
+  problem.motion.translation() << 0.05, 0.02, -1.2;
+  problem.noise = noise;
+  return problem;
+}
+
+/// The quads of `problem` in their order, disturbed, after change(number, observation before, observation after) has
+/// been made; those whose change returns false are left out.
+template <class Change>
+QuadObservations changed_quads(const Problem& problem, std::uint64_t seed, const Change& change) {
+  Random random(seed);
+  QuadObservations quads;
+  for (int i = 0; static_cast<int>(quads.size()) < problem.quads;) {
+    const auto p = random_point(problem.rig, problem.near, problem.far, random);
+    const OrientedPoint moved{problem.motion * p.point, problem.motion.linear() * p.tangent};
+    if (moved.point.z() < 0.5 * problem.near) continue;
+    auto before = disturb(problem.rig, p, problem.noise, true, random);
+    auto after = disturb(problem.rig, moved, problem.noise, false, random);
+    if (change(i, before, after)) append(quads, problem.rig, before, after, 1.0f, limits());
+    ++i;
+  }
+  return quads;
 }
 
 /// A near scene, seen by a general rig without noise.

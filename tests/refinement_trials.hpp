@@ -1,18 +1,11 @@
 #pragma once
 /// \file refinement_trials.hpp  Refined poses of generated drives and their errors.
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
-#include <catch2/catch.hpp>
-#include <cstdint>
-#include <vector>
-
 #include "generated_quads.hpp"
 #include "motion/refinement.hpp"
 
 namespace generated {
 
-using quadedge::pose::QuadObservations;
 using quadedge::pose::RefinementWorkspace;
 using quadedge::pose::Vector6d;
 
@@ -25,14 +18,6 @@ inline quadedge::pose::MotionEstimate refined_by(const QuadObservations& quads, 
   refined.current_from_previous = initial;
   REQUIRE(refine(quads, rig, config, offset_variance, workspace, refined));
   return refined;
-}
-
-inline Problem drive() {
-  Problem problem;
-  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
-  problem.motion.translation() << 0.05, 0.02, -1.2;
-  problem.noise = {0.15, 0.5, 0.035};
-  return problem;
 }
 
 /// Left perturbation that takes the truth to the estimate.

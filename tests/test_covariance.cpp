@@ -1,11 +1,8 @@
-#include <catch2/catch.hpp>
-
 #include "refinement_trials.hpp"
 
 using namespace quadedge::pose;
 
-TEST_CASE("The covariance stays consistent with few quads and with groups of edges that share errors",
-          "[long][pose][covariance]") {
+TEST_CASE("The covariance stays consistent with few quads and with groups of edges that share errors", "[long][pose]") {
   generated::Problem problem = generated::drive();
   problem.quads = 60;
   const generated::Trials few = generated::run_trials(problem, 200);
@@ -25,27 +22,20 @@ QuadObservations with_region_errors(const generated::Problem& problem, double si
   generated::Random random(seed);
   std::vector<Eigen::Vector2d> errors(400);
   for (auto& error : errors) error = sigma * Eigen::Vector2d(random.normal(), random.normal());
-  QuadObservations quads;
-  while (static_cast<int>(quads.size()) < problem.quads) {
-    const auto p = generated::random_point(problem.rig, problem.near, problem.far, random);
-    const OrientedPoint moved{problem.motion * p.point, problem.motion.linear() * p.tangent};
-    if (moved.point.z() < 0.5 * problem.near) continue;
-    const auto before = generated::disturb(problem.rig, p, problem.noise, true, random);
-    auto after = generated::disturb(problem.rig, moved, problem.noise, false, random);
+  return generated::changed_quads(problem, seed + 1, [&](int, const StereoObservation&, StereoObservation& after) {
     const Eigen::Vector2d region = (after.left / side).array().floor();
-    if (region.minCoeff() < 0 || region.maxCoeff() >= 20) continue;
+    if (region.minCoeff() < 0 || region.maxCoeff() >= 20) return false;
     const auto& error = errors[static_cast<std::size_t>(20 * region.y() + region.x())];
     after.left += error;
     after.right += error;
-    generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
-  }
-  return quads;
+    return true;
+  });
 }
 
 }  // namespace
 
 TEST_CASE("The covariance grows with errors that are correlated over large regions, and only with these",
-          "[long][pose][covariance]") {
+          "[long][pose]") {
   generated::Problem problem = generated::drive();
   problem.quads = 3000;
   quadedge::PoseConfig config;

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/motion.hpp"
 
@@ -16,18 +14,11 @@ MotionEstimate estimate_motion(const quadedge::StereoRig& rig, const QuadObserva
   return motion;
 }
 
-generated::Problem forward_drive() {
-  generated::Problem problem;
-  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
-  problem.motion.translation() << 0.05, 0.02, -1.2;
-  return problem;
-}
-
 const quadedge::PoseConfig kConfig;
 
 }  // namespace
 
-TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a general rig", "[pose][motion]") {
+TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a general rig", "[pose]") {
   generated::Random random(50);
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
     for (int trial = 0; trial < 5; ++trial) {
@@ -47,20 +38,10 @@ TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a general 
   }
 }
 
-TEST_CASE("Zero motion is found", "[pose][motion]") {
-  generated::Problem problem;
-  problem.noise = {0.12, 0.4, 0.02};
-  const auto g = generated::generate(problem, 52);
-  const MotionEstimate found = estimate_motion(problem.rig, g.quads, kConfig, 42);
-  CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-4);
-  CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 3e-3);
-}
-
-TEST_CASE("70 % outliers are separated from the inliers", "[pose][motion]") {
-  generated::Problem problem = forward_drive();
+TEST_CASE("70 % outliers are separated from the inliers", "[pose]") {
+  generated::Problem problem = generated::drive({0.12, 0.3, 0.02});
   problem.quads = 1500;
   problem.outliers = 0.7;
-  problem.noise = {0.12, 0.3, 0.02};
   const auto g = generated::generate(problem, 53);
   const MotionEstimate found = estimate_motion(problem.rig, g.quads, kConfig, 42);
   CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1.5e-4);
@@ -76,9 +57,8 @@ TEST_CASE("70 % outliers are separated from the inliers", "[pose][motion]") {
   CHECK(found.inlier_ratio() == Approx(static_cast<double>(found.inliers) / 1500));
 }
 
-TEST_CASE("Without the refinement the consensus pose has no covariance", "[pose][motion]") {
-  generated::Problem problem = forward_drive();
-  problem.noise = {0.12, 0.4, 0.02};
+TEST_CASE("Without the refinement the consensus pose has no covariance", "[pose]") {
+  generated::Problem problem = generated::drive({0.12, 0.4, 0.02});
   problem.quads = 3000;
   const auto g = generated::generate(problem, 54);
   quadedge::PoseConfig plain;
@@ -92,8 +72,8 @@ TEST_CASE("Without the refinement the consensus pose has no covariance", "[pose]
   CHECK(coarse.current_from_previous.matrix() != fine.current_from_previous.matrix());
 }
 
-TEST_CASE("An unreliable result has a status and no pose", "[pose][motion]") {
-  generated::Problem problem = forward_drive();
+TEST_CASE("An unreliable result has a status and no pose", "[pose]") {
+  generated::Problem problem = generated::drive({});
   for (int count : {0, 1, 2, 11}) {
     problem.quads = count;
     const auto g = generated::generate(problem, 55);
@@ -133,16 +113,4 @@ TEST_CASE("An unreliable result has a status and no pose", "[pose][motion]") {
     MotionEstimate unguided;
     CHECK(MotionEstimator().estimate(problem.rig, *quads, kConfig, 42, std::nullopt, 0, unguided) != Refusal::none);
   }
-}
-
-TEST_CASE("The same seed gives the same bits", "[pose][motion]") {
-  generated::Problem problem = forward_drive();
-  problem.noise = {0.12, 0.4, 0.02};
-  problem.outliers = 0.4;
-  const auto g = generated::generate(problem, 58);
-  const MotionEstimate a = estimate_motion(problem.rig, g.quads, kConfig, 9),
-                       b = estimate_motion(problem.rig, g.quads, kConfig, 9);
-  CHECK(a.current_from_previous.matrix() == b.current_from_previous.matrix());
-  CHECK(a.learned.covariance == b.learned.covariance);
-  CHECK(a.inlier == b.inlier);
 }

@@ -89,7 +89,7 @@ Eigen::Isometry3d turned(const Eigen::Isometry3d& motion) {
 
 }  // namespace
 
-TEST_CASE("motion search: a good prediction ends it, any other starts the global search", "[odometry][long]") {
+TEST_CASE("motion search: a good prediction ends it, any other starts the global search", "[long]") {
   TwoFrames frames(3000);
   for (int first = 0; first < 3; ++first) {  // are also searched for a second motion
     frames.check(frames.truth());
@@ -109,7 +109,7 @@ TEST_CASE("motion search: a good prediction ends it, any other starts the global
   CHECK(frames.frontend->global == 1);
 }
 
-TEST_CASE("motion search: at the start few global matches suffice, unless they leave a doubt", "[odometry]") {
+TEST_CASE("motion search: at the start few global matches suffice, unless they leave a doubt") {
   TwoFrames frames(3000);
   frames.query.at_start = true;
   frames.check(std::nullopt);
@@ -139,35 +139,8 @@ TEST_CASE("motion search: at the start few global matches suffice, unless they l
   CHECK(sparse.frontend->global_edges == 120);
 }
 
-TEST_CASE("motion search: verdict, inliers and covariance are those of the motion returned", "[odometry]") {
-  TwoFrames frames(3000);
-  for (const bool is_predicted : {true, false}) {
-    frames.query.prediction = is_predicted ? std::optional(frames.truth()) : std::nullopt;
-    const auto step = frames.search->find(frames.query);
-    REQUIRE(step->ok());
-    CHECK(step->verdict.is_confirmed());
-    CHECK(step->verdict.has_all_inliers);
-    CHECK((step->verdict.global_ratio > 0.3) == !is_predicted);  // there are global matches without a prediction
-    const PoseConfig& limits = frames.scene.config.pose;
-    const auto select = [&](double distance) {
-      std::vector<std::uint8_t> inlier;
-      pose::select_inliers(
-          step->quads.scoring,
-          pose::LaterCameras(corrected_rig(frames.scene.rig, frames.query.rig), step->motion.current_from_previous),
-          distance, pose::kInlierOrientation, inlier);
-      return inlier;
-    };
-    CHECK(select(limits.inlier_distance) == step->motion.inlier);
-    CHECK(select(odometry::kCloseAgreement * limits.inlier_distance) == step->agrees);
-    // The motion to take over follows the disparity offset only as far as it was learned.
-    CHECK(step->motion.learned.offset_variance > 0);
-    CHECK(step->motion.adopted().transform.matrix() == step->motion.learned.current_from_previous.matrix());
-    CHECK(step->motion.adopted().transform.matrix() != step->motion.current_from_previous.matrix());
-  }
-}
-
 TEST_CASE("motion search: another motion is searched for at the start, in every tenth frame and after a loss",
-          "[odometry][long]") {
+          "[long]") {
   TwoFrames frames(3000);
   frames.query.prediction = frames.truth();
   const auto is_checked = [&] {
@@ -183,7 +156,7 @@ TEST_CASE("motion search: another motion is searched for at the start, in every 
   for (int frame = 0; frame < 4; ++frame) CHECK(is_checked() == (frame < 3));
 }
 
-TEST_CASE("motion search: without the global search the coarse search widens", "[odometry]") {
+TEST_CASE("motion search: without the global search the coarse search widens") {
   TwoFrames frames(0);
   const double wide = odometry::kLargeRadiusRatio * 200;
   frames.check(frames.truth());

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "refinement_trials.hpp"
 
 using namespace quadedge::pose;
@@ -10,25 +8,16 @@ namespace {
 /// and by `later` px more in the current one.
 QuadObservations quads_with_offset(const generated::Problem& problem, double offset, std::uint64_t seed,
                                    double later = 0) {
-  quadedge::StereoRig seeing = problem.rig, seeing_later = problem.rig;
-  seeing.right.cx += offset;
-  seeing_later.right.cx += offset + later;
-  generated::Random random(seed);
-  QuadObservations quads;
-  while (static_cast<int>(quads.size()) < problem.quads) {
-    const auto p = generated::random_point(problem.rig, problem.near, problem.far, random);
-    const OrientedPoint moved{problem.motion * p.point, problem.motion.linear() * p.tangent};
-    if (moved.point.z() < 0.5 * problem.near) continue;
-    const auto before = generated::disturb(seeing, p, problem.noise, true, random);
-    const auto after = generated::disturb(seeing_later, moved, problem.noise, false, random);
-    generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
-  }
-  return quads;
+  return generated::changed_quads(problem, seed, [&](int, StereoObservation& before, StereoObservation& after) {
+    before.right.x() += offset;
+    after.right.x() += offset + later;
+    return true;
+  });
 }
 
 }  // namespace
 
-TEST_CASE("An offset of all disparities makes the motion too long unless it is fitted", "[pose][offset_fit]") {
+TEST_CASE("An offset of all disparities makes the motion too long unless it is fitted", "[pose]") {
   generated::Problem problem = generated::drive();
   problem.quads = 3000;
   quadedge::PoseConfig config;
@@ -54,7 +43,7 @@ TEST_CASE("An offset of all disparities makes the motion too long unless it is f
   }
 }
 
-TEST_CASE("A camera at rest leaves the disparity offset undetermined", "[pose][offset_fit]") {
+TEST_CASE("A camera at rest leaves the disparity offset undetermined", "[pose]") {
   generated::Problem problem = generated::drive();
   problem.motion = Eigen::Isometry3d::Identity();
   quadedge::PoseConfig config;
@@ -65,7 +54,7 @@ TEST_CASE("A camera at rest leaves the disparity offset undetermined", "[pose][o
   CHECK(fitted.current_from_previous.translation().norm() < 0.01);
 }
 
-TEST_CASE("Systematic errors are not learned as an offset where that looks like a motion", "[pose][offset_fit]") {
+TEST_CASE("Systematic errors are not learned as an offset where that looks like a motion", "[pose]") {
   generated::Problem problem = generated::drive();
   problem.quads = 3000;
   problem.near = 12;

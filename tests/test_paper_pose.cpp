@@ -1,6 +1,4 @@
 /// \file test_paper_pose.cpp  The paper's poses: two quads, RANSAC, and quads propagated to the key rig.
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/paper_consensus.hpp"
 #include "motion/paper_search.hpp"
@@ -9,13 +7,6 @@
 using namespace quadedge;
 
 namespace {
-
-generated::Problem paper_drive() {
-  generated::Problem problem;
-  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
-  problem.motion.translation() << 0.05, 0.02, -1.2;
-  return problem;
-}
 
 PoseConfig paper_pose_config() {
   PoseConfig config;
@@ -39,8 +30,8 @@ TemporalMatches linked_matches(const std::vector<std::pair<int, int>>& pairs) {
 
 }  // namespace
 
-TEST_CASE("paper pose: the motion of two quads turns the tangents of both as they turned", "[paper][pose]") {
-  const generated::Problem problem = paper_drive();
+TEST_CASE("paper pose: the motion of two quads turns the tangents of both as they turned", "[pose]") {
+  const generated::Problem problem = generated::drive({});
   const auto g = generated::generate(problem, 4);
   int checked = 0;
   for (std::size_t b = 1; b < 60; ++b) {
@@ -57,9 +48,8 @@ TEST_CASE("paper pose: the motion of two quads turns the tangents of both as the
   CHECK(checked > 10);
 }
 
-TEST_CASE("paper pose: the translation is that of the first point", "[paper][pose]") {
-  generated::Problem problem = paper_drive();
-  problem.noise = {0.2, 0.4, 0.01};
+TEST_CASE("paper pose: the translation is that of the first point", "[pose]") {
+  generated::Problem problem = generated::drive({0.2, 0.4, 0.01});
   const auto g = generated::generate(problem, 6);
   int checked = 0;
   for (std::size_t b = 1; b < 200; ++b) {
@@ -74,9 +64,8 @@ TEST_CASE("paper pose: the translation is that of the first point", "[paper][pos
   CHECK(checked > 3);
 }
 
-TEST_CASE("paper pose: inliers are points within 1.5 px and tangents within 10 degrees, in the left image",
-          "[paper][pose]") {
-  generated::Problem problem = paper_drive();
+TEST_CASE("paper pose: inliers are points within 1.5 px and tangents within 10 degrees, in the left image", "[pose]") {
+  generated::Problem problem = generated::drive({});
   auto g = generated::generate(problem, 7);
   std::vector<std::uint8_t> inlier;
   const auto count = [&] { return paper::find_inliers(g.quads, problem.rig.left, problem.motion, 1.5, inlier); };
@@ -94,11 +83,10 @@ TEST_CASE("paper pose: inliers are points within 1.5 px and tangents within 10 d
   CHECK((inlier[0] == 0 && inlier[3] == 0 && inlier[4] == 1 && inlier[5] == 1));
 }
 
-TEST_CASE("paper pose: the best of at least 1000 samples explains the quads among 50 % outliers", "[paper][pose]") {
-  generated::Problem problem = paper_drive();
+TEST_CASE("paper pose: the best of at least 1000 samples explains the quads among 50 % outliers", "[pose]") {
+  generated::Problem problem = generated::drive({0.12, 0.2, 0.01});
   problem.outliers = 0.5;
   problem.quads = 800;
-  problem.noise = {0.12, 0.2, 0.01};
   const auto g = generated::generate(problem, 40);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const paper::PaperConsensus found =
@@ -114,13 +102,13 @@ TEST_CASE("paper pose: the best of at least 1000 samples explains the quads amon
     CHECK(again.inlier == found.inlier);
   }
   CHECK_FALSE(paper::find_paper_consensus({}, problem.rig.left, paper_pose_config(), 1).current_from_previous);
-  generated::Problem few = paper_drive();
+  generated::Problem few = generated::drive({});
   few.quads = 2;  // the pool of 70 % has one quad: the authors' program would draw for ever
   CHECK(paper::find_paper_consensus(generated::generate(few, 1).quads, few.rig.left, paper_pose_config(), 1).draws ==
         0);
 }
 
-TEST_CASE("paper pose: quads are handed on from edge to edge, and pairs reached twice count once", "[paper][pose]") {
+TEST_CASE("paper pose: quads are handed on from edge to edge, and pairs reached twice count once", "[pose]") {
   // Key edge 0 ends at edges 5 and 6 of the earlier frame, key edge 2 at edge 6, key edge 3 at edge 9.
   const TemporalMatches from_key = linked_matches({{0, 5}, {0, 6}, {2, 6}, {3, 9}});
   const TemporalMatches onwards = linked_matches({{5, 1}, {6, 1}, {6, 2}, {8, 4}});

@@ -1,9 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
+#include <unsupported/Eigen/LevenbergMarquardt>
+#include <unsupported/Eigen/NumericalDiff>
 
 #include "geometry/uncertain_pose.hpp"
 #include "places/pose_graph.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using places::GraphEdge;
@@ -72,12 +72,15 @@ struct Circle {
   }
 };
 
-/// The minimum by another way: dense normal equations with numerical derivatives, damped, over the same errors.
-double dense_minimum(const std::vector<GraphEdge>& edges, const std::vector<Eigen::Isometry3d>& poses) {
-  constexpr double kCauchy = 12.6, kStep = 1e-6;
-  const auto size = static_cast<Eigen::Index>(6 * (poses.size() - 1));
-  const auto errors = [&](const Eigen::VectorXd& x) {
-    Eigen::VectorXd all(static_cast<Eigen::Index>(6 * edges.size()));
+/// The errors of all edges, for moves of all poses but the first.
+struct AllErrors : Eigen::DenseFunctor<double> {
+  AllErrors(const std::vector<GraphEdge>& of, const std::vector<Eigen::Isometry3d>& from)
+      : DenseFunctor(static_cast<int>(6 * (from.size() - 1)), static_cast<int>(6 * of.size())),
+        edges(of),
+        poses(from) {}
+
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& all) const {
+    constexpr double kCauchy = 12.6;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto at = [&](int node) -> Eigen::Isometry3d {
         const Eigen::Isometry3d& pose = poses[static_cast<std::size_t>(node)];
@@ -93,32 +96,21 @@ double dense_minimum(const std::vector<GraphEdge>& edges, const std::vector<Eige
       if (edges[e].robust && squared > 0) error *= std::sqrt(kCauchy * std::log1p(squared / kCauchy) / squared);
       all.segment<6>(static_cast<Eigen::Index>(6 * e)) = error;
     }
-    return all;
-  };
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
-  double cost = errors(x).squaredNorm(), damping = 1e-6;
-  for (int round = 0; round < 60; ++round) {
-    const Eigen::VectorXd here = errors(x);
-    Eigen::MatrixXd derivative(here.size(), size);
-    for (Eigen::Index k = 0; k < size; ++k) {
-      Eigen::VectorXd moved = x;
-      moved[k] += kStep;
-      derivative.col(k) = (errors(moved) - here) / kStep;
-    }
-    Eigen::MatrixXd normal = derivative.transpose() * derivative;
-    normal.diagonal() *= 1 + damping;
-    const Eigen::VectorXd next = x - normal.ldlt().solve(derivative.transpose() * here);
-    const double found = errors(next).squaredNorm();
-    if (found < cost) {
-      x = next;
-      damping = std::max(damping * 0.1, 1e-9);
-      if (cost - found < 1e-9 * cost) break;
-      cost = found;
-    } else {
-      damping *= 10;
-    }
+    return 0;
   }
-  return cost;
+  const std::vector<GraphEdge>& edges;
+  const std::vector<Eigen::Isometry3d>& poses;
+};
+
+/// The minimum by another way: dense, with numerical derivatives.
+double dense_minimum(const std::vector<GraphEdge>& edges, const std::vector<Eigen::Isometry3d>& poses) {
+  const AllErrors errors(edges, poses);
+  Eigen::NumericalDiff<AllErrors> with_derivatives(errors);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(errors.inputs());
+  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<AllErrors>> search(with_derivatives);
+  search.setMaxfev(1'000'000);  // those of the derivatives count, too
+  search.minimize(x);
+  return search.fvec().squaredNorm();
 }
 
 }  // namespace

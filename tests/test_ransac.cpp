@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "generated_quads.hpp"
 #include "motion/pose_constants.hpp"
 #include "motion/ransac.hpp"
@@ -9,13 +7,6 @@ using namespace quadedge::pose;
 
 namespace {
 
-generated::Problem drive_with_outliers() {
-  generated::Problem problem;
-  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
-  problem.motion.translation() << 0.05, 0.02, -1.2;
-  return problem;
-}
-
 Consensus search(const generated::Problem& problem, const generated::Generated& g, const quadedge::PoseConfig& config,
                  std::uint64_t seed = 42, const std::optional<Eigen::Isometry3d>& initial = std::nullopt) {
   ConsensusWorkspace workspace;
@@ -24,9 +15,9 @@ Consensus search(const generated::Problem& problem, const generated::Generated& 
 
 }  // namespace
 
-TEST_CASE("Consensus is found among 70 % outliers, with exact and noisy quads, for several seeds", "[pose][ransac]") {
+TEST_CASE("Consensus is found among 70 % outliers, with exact and noisy quads, for several seeds", "[pose]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive_with_outliers();
+  generated::Problem problem = generated::drive({});
   problem.outliers = 0.7;
   problem.quads = 800;
   for (const generated::Noise& noise : {generated::Noise{}, generated::Noise{0.12, 0.4, 0.02}}) {
@@ -43,8 +34,8 @@ TEST_CASE("Consensus is found among 70 % outliers, with exact and noisy quads, f
   }
 }
 
-TEST_CASE("A moving object counts by its area in the image, not by its number of edges", "[pose][ransac]") {
-  generated::Problem scene = drive_with_outliers(), thing = drive_with_outliers();
+TEST_CASE("A moving object counts by its area in the image, not by its number of edges", "[pose]") {
+  generated::Problem scene = generated::drive({}), thing = generated::drive({});
   scene.quads = 600;
   thing.quads = 2400;
   thing.width_ratio = 0.3;
@@ -63,9 +54,9 @@ TEST_CASE("A moving object counts by its area in the image, not by its number of
   CHECK(generated::translation_error(search(scene, g, config).current_from_previous, thing.motion) < 0.02);
 }
 
-TEST_CASE("The search terminates with zero, one and two quads, and when no pair of quads passes", "[pose][ransac]") {
+TEST_CASE("The search terminates with zero, one and two quads, and when no pair of quads passes", "[pose]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive_with_outliers();
+  generated::Problem problem = generated::drive({});
   for (int count : {0, 1, 2}) {
     problem.quads = count;
     const auto g = generated::generate(problem, 41);
@@ -91,10 +82,9 @@ TEST_CASE("The search terminates with zero, one and two quads, and when no pair 
   CHECK(search(problem, g, config).draws == 700);
 }
 
-TEST_CASE("An initial guess is an additional hypothesis: it helps when right and does no harm when wrong",
-          "[pose][ransac]") {
+TEST_CASE("An initial guess is an additional hypothesis: it helps when right and does no harm when wrong", "[pose]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive_with_outliers();
+  generated::Problem problem = generated::drive({});
   problem.outliers = 0.5;
   const auto g = generated::generate(problem, 43);
   config.max_draws = 1;
@@ -109,9 +99,9 @@ TEST_CASE("An initial guess is an additional hypothesis: it helps when right and
   CHECK(generated::translation_error(misled.current_from_previous, problem.motion) < 1e-3);
 }
 
-TEST_CASE("The search stops early when most quads agree, and the same seed gives the same bits", "[pose][ransac]") {
+TEST_CASE("The search stops early when most quads agree, and the same seed gives the same bits", "[pose]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive_with_outliers();
+  generated::Problem problem = generated::drive({});
   problem.noise = {0.12, 0.4, 0.02};
   problem.outliers = 0.2;
   const auto good = generated::generate(problem, 44);
@@ -124,11 +114,11 @@ TEST_CASE("The search stops early when most quads agree, and the same seed gives
   CHECK(other.draws != a.draws);
 }
 
-TEST_CASE("Without local optimisation the motion is that of two measured quads", "[pose][ransac]") {
+TEST_CASE("Without local optimisation the motion is that of two measured quads", "[pose]") {
   quadedge::PoseConfig config;
   config.local_optimisation_rounds = 0;
   config.local_optimisation_widening = 1;
-  generated::Problem problem = drive_with_outliers();
+  generated::Problem problem = generated::drive({});
   problem.quads = 300;
   const auto exact = generated::generate(problem, 44);
   const Consensus found = search(problem, exact, config);

@@ -1,11 +1,8 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "refinement_trials.hpp"
 
 using namespace quadedge::pose;
 
-TEST_CASE("With exact quads the refinement converges to the exact motion from a start nearby", "[pose][refinement]") {
+TEST_CASE("With exact quads the refinement converges to the exact motion from a start nearby", "[pose]") {
   generated::Problem problem = generated::drive();
   problem.noise = {};
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
@@ -19,8 +16,7 @@ TEST_CASE("With exact quads the refinement converges to the exact motion from a 
   }
 }
 
-TEST_CASE("Noisy earlier depths cause no bias along the motion, and the covariance is consistent",
-          "[long][pose][refinement]") {
+TEST_CASE("Noisy earlier depths cause no bias along the motion, and the covariance is consistent", "[long][pose]") {
   generated::Problem problem = generated::drive();
   const generated::Trials trials = generated::run_trials(problem, 150);
   for (int k = 0; k < 6; ++k) CHECK(std::abs(trials.mean(k)) < 3.5 * trials.standard_error(k));
@@ -29,7 +25,7 @@ TEST_CASE("Noisy earlier depths cause no bias along the motion, and the covarian
   CHECK(trials.nees < 1.5);
 }
 
-TEST_CASE("Distant points with large disparity noise do not shorten the motion", "[long][pose][refinement]") {
+TEST_CASE("Distant points with large disparity noise do not shorten the motion", "[long][pose]") {
   generated::Problem problem = generated::drive();
   problem.noise.across = 0.3;
   problem.near = 15;
@@ -41,7 +37,7 @@ TEST_CASE("Distant points with large disparity noise do not shorten the motion",
   CHECK(std::abs(trials.mean(5)) < 3.5 * trials.standard_error(5));
 }
 
-TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorten the motion", "[pose][refinement]") {
+TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorten the motion", "[pose]") {
   generated::Problem problem = generated::drive();
   const auto& camera = problem.rig.left;
   const Eigen::Vector2d middle(camera.cx, camera.cy);
@@ -75,22 +71,16 @@ TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorte
   CHECK(error(true) < 0.1 * error(false));
 }
 
-TEST_CASE("Wrong quads among the inliers hardly affect the pose", "[pose][refinement]") {
+TEST_CASE("Wrong quads among the inliers hardly affect the pose", "[pose]") {
   generated::Problem problem = generated::drive();
   problem.quads = 1000;
   quadedge::PoseConfig robust, plain;
   plain.student_dof = 1e9;  // a normal distribution: plain least squares
   // 15 % of the quads are one pixel off to one side: within an inlier's 1.5 px, but seven standard deviations off.
-  generated::Random random(33);
-  QuadObservations quads;
-  for (std::size_t i = 0; i < 1000; ++i) {
-    const auto p = generated::random_point(problem.rig, problem.near, problem.far, random);
-    const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
-    const auto before = generated::disturb(problem.rig, p, problem.noise, true, random);
-    auto after = generated::disturb(problem.rig, q, problem.noise, false, random);
+  const auto quads = generated::changed_quads(problem, 33, [](int i, StereoObservation&, StereoObservation& after) {
     if (i % 7 == 0) after.left.x() += 1.0, after.right.x() += 1.0;
-    generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
-  }
+    return true;
+  });
   const auto error = [&](const quadedge::PoseConfig& config) {
     const auto refined = generated::refined_by(quads, problem.rig, config, problem.motion);
     return generated::error_of(refined.current_from_previous, problem.motion).head<3>().norm();
@@ -100,7 +90,7 @@ TEST_CASE("Wrong quads among the inliers hardly affect the pose", "[pose][refine
   CHECK(error(robust) < 0.6 * error(plain));
 }
 
-TEST_CASE("Quads that do not determine a motion are reported as unsolved", "[pose][refinement]") {
+TEST_CASE("Quads that do not determine a motion are reported as unsolved", "[pose]") {
   generated::Problem problem = generated::drive();
   quadedge::PoseConfig config;
   problem.quads = 1;
