@@ -1,17 +1,8 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "device/edge_detection.hpp"
 #include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
 #include "frontends.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
 #include "stage_rows.hpp"
 
@@ -120,8 +111,7 @@ void compare_devices(int width, int height, const EdgesConfig& config, std::size
 
 }  // namespace
 
-TEST_CASE("edge detection: every device and variant agrees with the reference at small sizes",
-          "[edges][device][oclgrind]") {
+TEST_CASE("edge detection: every device and variant agrees with the reference at small sizes", "[device][oclgrind]") {
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}}) {
     EdgesConfig config = small_capacity(1);
     config.max_edges = 300;
@@ -129,13 +119,13 @@ TEST_CASE("edge detection: every device and variant agrees with the reference at
   }
 }
 
-TEST_CASE("edge detection: every device and variant agrees with the reference", "[edges][device]") {
+TEST_CASE("edge detection: every device and variant agrees with the reference", "[device]") {
   for (const auto& [width, height] : {std::pair{64, 48}, {321, 243}, {640, 480}})
     compare_devices(width, height, small_capacity(), static_cast<std::size_t>(width * height / 40));
 }
 
 TEST_CASE("edge detection: agrees with the reference for directions at the pixel, other scales and no Newton step",
-          "[edges][device]") {
+          "[device]") {
   const Image image = textured_image(160, 120);
   for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
     // Every scale with another setting: building a program takes longer than running it.
@@ -154,7 +144,7 @@ TEST_CASE("edge detection: agrees with the reference for directions at the pixel
 }
 
 TEST_CASE("edge detection: a full edge list is truncated in scan order, and the dropped edges are counted",
-          "[edges][device][oclgrind]") {
+          "[device][oclgrind]") {
   const Image image = textured_image(30, 26);
   for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
     EdgesConfig config = small_capacity(2);
@@ -175,23 +165,7 @@ TEST_CASE("edge detection: a full edge list is truncated in scan order, and the 
   });
 }
 
-TEST_CASE("edge detection: a detector can be reused for several images", "[edges][device]") {
-  for_each_variant("edge_detection", [](opencl::Context& context, const Variants& variants) {
-    const Image first = textured_image(96, 80, 1), second = textured_image(96, 80, 2);
-    const EdgesConfig config = small_capacity();
-    stages::EdgeDetection stage(context, 96, 80, config, variants);
-    const Input first_input(context, first, config), second_input(context, second, config);
-    stages::DeviceEdges first_edges, second_edges;
-    stage.run(first_input.plane, first_input.threshold, first_edges);
-    stage.run(second_input.plane, second_input.threshold, second_edges);
-    first_edges.read_count();
-    second_edges.read_count();
-    CHECK(matching::same_bytes(first_edges.read(80), detect(context, variants, first, config).edges));
-    CHECK(matching::same_bytes(second_edges.read(80), detect(context, variants, second, config).edges));
-  });
-}
-
-TEST_CASE("edge detection: a flat image has no edges and an unknown variant is refused", "[edges][device]") {
+TEST_CASE("edge detection: a flat image has no edges and an unknown variant is refused", "[device]") {
   Image flat(40, 30);
   for_each_variant("edge_detection", [&](opencl::Context& context, const Variants& variants) {
     CHECK(detect(context, variants, flat, small_capacity()).edges.size() == 0);

@@ -1,9 +1,5 @@
-#include <map>
-#include <set>
-
 #include "common/filter_limits.hpp"
 #include "frontends.hpp"
-#include "quadedge/error.hpp"
 #include "rig/rectification_follower.hpp"
 
 using namespace quadedge;
@@ -59,7 +55,7 @@ std::size_t check_subset(const CandidateLists& before, const CandidateLists& aft
 
 }  // namespace
 
-TEST_CASE("frontend: every device finds the reference's stereo edges and quads", "[frontend][matching][device]") {
+TEST_CASE("frontend: every device finds the reference's stereo edges and quads", "[device]") {
   for (const auto& scene : {RenderedScene("room", 320, 200, 2), RenderedScene("room", 161, 97, 2),
                             RenderedScene("cables", 200, 125, 2), RenderedScene("facade", 161, 97, 2)}) {
     const auto truth = run_frontend(scene, "reference");
@@ -76,7 +72,7 @@ TEST_CASE("frontend: every device finds the reference's stereo edges and quads",
 }
 
 TEST_CASE("frontend: every device finds the reference's global matches, at the positions that the motion predicts",
-          "[frontend][matching][device]") {
+          "[device]") {
   const RenderedScene scene("room", 240, 150, 2, 8);
   const auto find = [&](const std::string& device_name) {
     Device device(device_name, kept_programs());
@@ -133,40 +129,7 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
   }
 }
 
-TEST_CASE("frontend: rows that lie beside those of the calibration are found, with the same disparities",
-          "[frontend][matching][device]") {
-  const RenderedScene scene("room", 320, 200, 1);
-  for (const auto& name : all_devices_and_reference()) {
-    INFO(name);
-    Device device(name, kept_programs());
-    const auto edges_of = [&](double offset, double* correction) {
-      StereoRig rig = scene.rig;
-      rig.right.cy -= offset;  // the image lies lower than the calibration says
-      rig::RectificationFollower rows(rig, scene.config.stereo);
-      const auto frontend = frontend::make_frontend(rig, device, scene.config);
-      frontend->correct_rows(&rows);
-      const StereoEdges edges = frontend->process(scene.frame(0))->edges;
-      *correction = frontend->counts().epipolar_correction;
-      return edges;
-    };
-    double none = 0, some = 0;
-    const StereoEdges expected = edges_of(0, &none), found = edges_of(0.8, &some);
-    CHECK(none == 0);
-    CHECK(some == Approx(0.8).margin(0.05));
-    std::map<std::int32_t, std::size_t> row_of;
-    for (std::size_t i = 0; i < expected.size(); ++i) row_of[expected.left_index[i]] = i;
-    std::size_t same = 0, on_line = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const auto row = row_of.find(found.left_index[i]);
-      same += row != row_of.end() && std::abs(found.right_x[i] - expected.right_x[row->second]) < 0.1F ? 1 : 0;
-      on_line += std::abs(found.right_y[i] - (found.left_y[i] - 0.8F)) < 1e-3F ? 1 : 0;
-    }
-    CHECK(on_line == found.size());  // of the calibration
-    CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(expected.size()));
-  }
-}
-
-TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "[frontend][device]") {
+TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "[device]") {
   const RenderedScene scene("cables", 120, 75, 4);
   for (const auto& name : all_devices_and_reference()) {
     Device device(name, kept_programs());
@@ -193,7 +156,7 @@ TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "
   }
 }
 
-TEST_CASE("frontend: a rig's depths are those of the calibration and the angle that are asked for", "[frontend]") {
+TEST_CASE("frontend: a rig's depths are those of the calibration and the angle that are asked for") {
   const RenderedScene scene("cables", 120, 75, 2);
   Device device("reference");
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
@@ -223,7 +186,7 @@ TEST_CASE("frontend: a rig's depths are those of the calibration and the angle t
 }
 
 TEST_CASE("frontend: every variant of every stage gives the default's bytes, and a second run gives them again",
-          "[frontend][matching][device]") {
+          "[device]") {
   const RenderedScene scene("room", 161, 97, 2);
   for (const auto& device : all_devices()) {
     const auto expected = run_frontend(scene, device);
@@ -239,7 +202,7 @@ TEST_CASE("frontend: every variant of every stage gives the default's bytes, and
 }
 
 // LONG: the test's tap counts every list.
-TEST_CASE("frontend: a tap changes nothing and receives lists that only shrink", "[frontend][matching][device]") {
+TEST_CASE("frontend: a tap changes nothing and receives lists that only shrink", "[device]") {
   RenderedScene scene("room", 161, 97, 2);
   scene.config.temporal.sift_max = 300;
   scene.config.stereo.sift_max = 400;
@@ -320,8 +283,7 @@ TEST_CASE("frontend: a tap changes nothing and receives lists that only shrink",
   }
 }
 
-TEST_CASE("frontend: without SIFT a tap changes nothing, whichever kernel matches without it",
-          "[frontend][matching][device]") {
+TEST_CASE("frontend: without SIFT a tap changes nothing, whichever kernel matches without it", "[device]") {
   const RenderedScene scene("room", 161, 97, 2);
   for (const auto& device : all_devices()) {
     for (const int step : {1, 8}) {
@@ -344,7 +306,7 @@ TEST_CASE("frontend: without SIFT a tap changes nothing, whichever kernel matche
   }
 }
 
-TEST_CASE("frontend: unknown variants are refused", "[frontend][matching][device]") {
+TEST_CASE("frontend: unknown variants are refused", "[device]") {
   RenderedScene scene("cables", 64, 48, 1);
   for (const auto& name : {std::string("reference"), all_devices().front()}) {
     Device device(name, kept_programs());

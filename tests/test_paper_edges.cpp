@@ -1,15 +1,6 @@
 /// \file test_paper_edges.cpp  Edges on the published grid of two samples per pixel and axis.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-#include <set>
-#include <utility>
-
 #include "edge_images.hpp"
 #include "paper/grid_edges.hpp"
-#include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
 
 using namespace quadedge;
 
@@ -31,8 +22,7 @@ void add_grey_noise(Image& image, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("paper edges: a step of any direction is located to 0.02 px with noise, about two edges per pixel",
-          "[paper][edges]") {
+TEST_CASE("paper edges: a step of any direction is located to 0.02 px with noise, about two edges per pixel") {
   double squares = 0, turns = 0;
   std::size_t count = 0, pixels = 0;
   for (int k = 0; k < 12; ++k) {
@@ -58,8 +48,7 @@ TEST_CASE("paper edges: a step of any direction is located to 0.02 px with noise
   CHECK(per_pixel < 2.2);
 }
 
-TEST_CASE("paper edges: they hold what the detector of every pixel finds, in the order of their pixels",
-          "[paper][edges]") {
+TEST_CASE("paper edges: they hold what the detector of every pixel finds, in the order of their pixels") {
   const Image image = textured_image(143, 97);
   EdgesConfig config;
   config.newton_max = 0;
@@ -90,10 +79,4 @@ TEST_CASE("paper edges: they hold what the detector of every pixel finds, in the
     }
   }
   CHECK(fine.row_first.back() == static_cast<std::int32_t>(fine.size()));
-}
-
-TEST_CASE("paper edges: images smaller than the margin have none, and an empty one is refused", "[paper][edges]") {
-  for (const auto& [width, height] : {std::pair(1, 1), std::pair(7, 60), std::pair(60, 5), std::pair(21, 21)})
-    CHECK(paper::grid_edges(textured_image(width, height).view(), {}, kGridThreshold).size() == 0);
-  CHECK_THROWS_AS(paper::grid_edges({}, {}, kGridThreshold), UsageError);
 }

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "device/temporal_matching.hpp"
 #include "matching.hpp"
 #include "reference/temporal_matching.hpp"
@@ -38,23 +36,7 @@ void add_index(const EdgePositions& edges, int width, int height, const stages::
 
 }  // namespace
 
-TEST_CASE("point index: sorted by cells of 8 x 4 px in rows, then by number; points outside go to border cells",
-          "[temporal][matching]") {
-  //                             0     1      2      3      4    5     6
-  const std::vector<float> xs = {17, 7.9f, 8.1f, 2.25f, 100, -30, 3}, ys = {2.1f, 3.9f, 4.2f, 0.2f, 9, -3, 4};
-  reference::PointIndex index;
-  reference::make_point_index(xs, ys, 20, 7, index);
-  CHECK(index.columns == 3);
-  CHECK(index.rows == 2);
-  CHECK(index.order == std::vector<std::int32_t>{1, 3, 5, 0, 6, 2, 4});
-  CHECK(index.cell_first == std::vector<std::int32_t>{0, 3, 3, 4, 5, 6, 7});
-  reference::make_point_index({}, {}, 9, 3, index);
-  CHECK(index.order.empty());
-  CHECK(index.cell_first == std::vector<std::int32_t>(3, 0));
-}
-
-TEST_CASE("point index: devices sort the edges of both sides like the reference",
-          "[temporal][matching][device][oclgrind]") {
+TEST_CASE("point index: devices sort the edges of both sides like the reference", "[device][oclgrind]") {
   check_stage("point_index", [&](opencl::Context& context, const Variants& variants) {
     StageArrays arrays;
     stages::PointIndex stage(context, variants);

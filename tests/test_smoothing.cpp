@@ -1,16 +1,10 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "common/filter_limits.hpp"
 #include "device/images.hpp"
 #include "device/variants.hpp"
-#include "devices.hpp"
 #include "edge_images.hpp"
 #include "edges/noise_gate.hpp"
 #include "frontends.hpp"
 #include "geometry/undistortion.hpp"
-#include "quadedge/odometry.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/images.hpp"
 #include "stage_rows.hpp"
@@ -33,7 +27,7 @@ Image in_the_dark(const Image& image, double light, double noise, unsigned seed)
 
 }  // namespace
 
-TEST_CASE("smoothing: a single bright pixel becomes the binomial kernel, and its sum is kept", "[smoothing]") {
+TEST_CASE("smoothing: a single bright pixel becomes the binomial kernel, and its sum is kept") {
   Image image(33, 29, 65535);
   image.set(16, 14, 65535);
   const Image smoothed = reference::smoothed(image.view());
@@ -43,29 +37,13 @@ TEST_CASE("smoothing: a single bright pixel becomes the binomial kernel, and its
   CHECK(smoothed.view().value(16, 13) == std::lround(65535 * kMiddle * kBeside));
   CHECK(smoothed.view().value(24, 14) == std::lround(65535 * kMiddle * kFar));
   CHECK(smoothed.view().value(25, 14) == 0);
+  for (const int grey : {0, 77, 255}) {  // flat images and their borders stay
+    const Image flat = noisy_image(19, 12, grey, 0);
+    CHECK(reference::smoothed(flat.view()).pixels == flat.pixels);
+  }
 }
 
-TEST_CASE("smoothing: a flat image and its border are unchanged, white noise falls as its gradients do",
-          "[smoothing]") {
-  for (const int grey : {0, 77, 255}) {
-    const Image smoothed = reference::smoothed(noisy_image(19, 12, grey, 0).view());
-    CHECK(smoothed.pixels == noisy_image(19, 12, grey, 0).pixels);
-  }
-  // A Gaussian of variance 4 leaves 1 / (sqrt(4 pi) 2) of white noise along two axes, the square of that along one.
-  const Image smoothed = reference::smoothed(noisy_image(640, 480, 30000 * kGrey, 2000 * kGrey, 65535).view());
-  double sum = 0, squares = 0;
-  for (int y = 0; y < smoothed.height; ++y) {
-    for (int x = 0; x < smoothed.width; ++x) {
-      sum += smoothed.view().value(x, y);
-      squares += std::pow(smoothed.view().value(x, y) - 30000, 2);
-    }
-  }
-  const double count = 640 * 480;
-  CHECK(sum / count == Approx(30000).margin(10));
-  CHECK(std::sqrt(squares / count) == Approx(2000 / (2 * std::sqrt(4 * 3.14159265))).epsilon(0.03));
-}
-
-TEST_CASE("smoothing: the noise of smoothed images is predicted from that of the recorded ones", "[smoothing]") {
+TEST_CASE("smoothing: the noise of smoothed images is predicted from that of the recorded ones") {
   const EdgesConfig config;
   const Image image = noisy_image(640, 480, 30000 * kGrey, 2000 * kGrey, 65535),
               smoothed = reference::smoothed(image.view());
@@ -77,7 +55,7 @@ TEST_CASE("smoothing: the noise of smoothed images is predicted from that of the
   CHECK(after.gradient() == Approx(gate.smoothed_noise() / before.noise() * before.gradient()).epsilon(0.03));
 }
 
-TEST_CASE("smoothing: the noise of recorded images is known from that of undistorted ones", "[smoothing]") {
+TEST_CASE("smoothing: the noise of recorded images is known from that of undistorted ones") {
   const Image recorded = noisy_image(640, 480, 30000 * kGrey, 2000 * kGrey, 65535);
   UndistortionTable table{600, 440, {}, {}};
   for (int y = 0; y < table.height; ++y) {
@@ -94,7 +72,7 @@ TEST_CASE("smoothing: the noise of recorded images is known from that of undisto
   CHECK(frontend::measured_noise_ratio({}) == 1);
 }
 
-TEST_CASE("smoothing: begins where the limit of noise exceeds the contrast, and ends at a fifth less", "[smoothing]") {
+TEST_CASE("smoothing: begins where the limit of noise exceeds the contrast, and ends at a fifth less") {
   frontend::NoiseGate gate({}, EdgesConfig{});
   const double limit = std::sqrt(8 * 3.14159265358979) * 4 / 5;  // noise whose limit is a gradient of 1
   CHECK_FALSE(gate.judge(0, 0));
@@ -105,7 +83,7 @@ TEST_CASE("smoothing: begins where the limit of noise exceeds the contrast, and 
   CHECK_FALSE(gate.judge(0.99 * limit, 1));
 }
 
-TEST_CASE("smoothing: every device and variant equals the reference exactly", "[smoothing][device][oclgrind]") {
+TEST_CASE("smoothing: every device and variant equals the reference exactly", "[device][oclgrind]") {
   check_stage("smoothing", [](opencl::Context& context, const Variants& variants) {
     StageArrays arrays;
     for (const int max_value : {255, 4095, 65535}) {
@@ -126,7 +104,7 @@ TEST_CASE("smoothing: every device and variant equals the reference exactly", "[
 TEST_CASE(
     "smoothing: dark frames, and only these, have the reference's stereo edges on every device, twice as many as "
     "without",
-    "[smoothing][frontend][device]") {
+    "[device]") {
   const matching::RenderedScene bright("room", 321, 201, 2);
   matching::RenderedScene dark = bright;
   for (const std::size_t i : {0, 1}) {

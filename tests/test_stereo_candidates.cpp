@@ -1,9 +1,6 @@
-#include <Eigen/Dense>
-
 #include "common/matching_constants.hpp"
 #include "device/stereo_matching.hpp"
 #include "matching.hpp"
-#include "quadedge/error.hpp"
 #include "reference/stereo_matching.hpp"
 
 using namespace quadedge;
@@ -135,38 +132,7 @@ std::pair<EdgeSet, EdgeSet> random_scene(const StereoRig& rig, int count, double
 
 }  // namespace
 
-TEST_CASE("epipolar line: passes through the projections of every depth, of which the nearest ends it",
-          "[stereo][matching]") {
-  StereoConfig config;
-  config.min_depth = 0.7;
-  for (const StereoRig& rig : {crooked_rig(), flat_rig(640, 480, 500, 0.2)}) {
-    const auto geometry = make_epipolar_geometry(rig, config);
-    Random random(3);
-    for (int k = 0; k < 200; ++k) {
-      const Vector2d p(random(0, rig.left.width), random(0, rig.left.height));
-      const auto x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
-      const auto line = epipolar_line(geometry, x, y);
-      REQUIRE(line.valid);
-      double last = -1;
-      for (const double depth : {1e6, 50.0, 5.0, 1.3, 0.7}) {
-        const Vector2d from_start = in_right(rig, p, depth) - Vector2d(line.x, line.y);
-        const double s = from_start.x() * line.ex + from_start.y() * line.ey;
-        CHECK(std::abs(from_start.y() * line.ex - from_start.x() * line.ey) < 1e-3);
-        CHECK(s > last);
-        last = s;
-      }
-      CHECK(line.s_max == Approx(last).margin(1e-3));
-      const double direction = random(-kPi, kPi);
-      CHECK(left_epipolar_sine(geometry, x, y, static_cast<float>(direction)) ==
-            Approx(epipolar_sine(rig, p, direction)).margin(1e-5));
-    }
-  }
-  config.max_disparity = 25;
-  CHECK(epipolar_line(make_epipolar_geometry(flat_rig(640, 480, 500, 0.2), config), 5, 5).s_max == 25.0f);
-}
-
-TEST_CASE("epipolar line: corrected by a rectification error it is that of a displaced and rolled right camera",
-          "[stereo][matching]") {
+TEST_CASE("epipolar line: corrected by a rectification error it is that of a displaced and rolled right camera") {
   constexpr double kRoll = 2e-3;  // rad
   StereoConfig config;
   config.max_disparity = 40;
@@ -200,8 +166,7 @@ TEST_CASE("epipolar line: corrected by a rectification error it is that of a dis
   }
 }
 
-TEST_CASE("epipolar line: an error of the second degree moves it to where the points of the line lie",
-          "[stereo][matching]") {
+TEST_CASE("epipolar line: an error of the second degree moves it to where the points of the line lie") {
   StereoConfig config;
   config.max_disparity = 40;
   // Without a roll, so that nothing moves along the lines.
@@ -228,11 +193,11 @@ TEST_CASE("epipolar line: an error of the second degree moves it to where the po
   }
 }
 
-TEST_CASE("epipolar geometry: refuses an unlimited search", "[stereo][matching]") {
+TEST_CASE("epipolar geometry: refuses an unlimited search") {
   CHECK_THROWS_AS(make_epipolar_geometry(flat_rig(), StereoConfig{}), UsageError);
 }
 
-TEST_CASE("stereo candidates: the lists match the definition", "[stereo][matching][device]") {
+TEST_CASE("stereo candidates: the lists match the definition", "[device]") {
   StereoConfig config;
   config.min_depth = 0.7;
   for (const auto& rig : {flat_rig(131, 77, 120, 0.12), crooked_rig()}) {
@@ -246,7 +211,7 @@ TEST_CASE("stereo candidates: the lists match the definition", "[stereo][matchin
   CHECK(check_everywhere(crooked_rig(), config, left, right) > 200);
 }
 
-TEST_CASE("stereo candidates: probes search farther than the other edges", "[stereo][matching][device]") {
+TEST_CASE("stereo candidates: probes search farther than the other edges", "[device]") {
   StereoConfig config;
   config.max_disparity = 5;
   for (const auto& rig : {flat_rig(131, 77, 120, 0.12), crooked_rig()}) {
@@ -259,8 +224,7 @@ TEST_CASE("stereo candidates: probes search farther than the other edges", "[ste
   }
 }
 
-TEST_CASE("stereo candidates: with a rectification error they lie around the corrected line",
-          "[stereo][matching][device]") {
+TEST_CASE("stereo candidates: with a rectification error they lie around the corrected line", "[device]") {
   StereoConfig config;
   config.min_depth = 0.7;
   const StereoRig rig = flat_rig(131, 77, 120, 0.12);
@@ -268,8 +232,7 @@ TEST_CASE("stereo candidates: with a rectification error they lie around the cor
   CHECK(check_everywhere(rig, config, left, right, {0, 0}, {0.9, 0.6, -0.4, 0, 2, -1}) > 60);
 }
 
-TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",
-          "[stereo][matching][device][oclgrind]") {
+TEST_CASE("stereo candidates: small and empty lists, and lines outside the image", "[device][oclgrind]") {
   StereoConfig config;
   config.min_depth = 0.7;
   const StereoRig rig = crooked_rig();
@@ -286,7 +249,7 @@ TEST_CASE("stereo candidates: small and empty lists, and lines outside the image
   }
 }
 
-TEST_CASE("stereo candidates: lists longer than the initial capacity are complete", "[stereo][matching][device]") {
+TEST_CASE("stereo candidates: lists longer than the initial capacity are complete", "[device]") {
   const StereoRig rig = flat_rig(161, 21, 100, 0.1);
   StereoConfig config;
   config.max_disparity = 200;

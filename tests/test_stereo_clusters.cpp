@@ -1,6 +1,5 @@
 #include "device/stereo_matching.hpp"
 #include "matching.hpp"
-#include "quadedge/camera.hpp"
 #include "reference/stereo_matching.hpp"
 
 using namespace quadedge;
@@ -82,55 +81,60 @@ struct ClusterLists {
 
 }  // namespace
 
-TEST_CASE("stereo clusters: split at gaps, represented by the most similar member", "[stereo][matching]") {
-  const ClusterLists lists(
-      {{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}, {}, {{7, 0, 0.9}, {8, 0, 0.95}}});
-  const auto clusters = lists.clusters();
-  // 3, 3.9, 4.5 form a chain (gaps 0.9, 0.6); 5.5 follows a gap of exactly 1, and so does 8 after 7.
-  CHECK(clusters.first == std::vector<std::int32_t>{0, 2, 2, 4});
-  CHECK(clusters.position == std::vector<double>{3.9, 5.5, 7, 8});
-  CHECK(clusters.anchor == std::vector<std::int32_t>{2, 0, 4, 5});
-  CHECK(clusters.similarity == std::vector<double>{0.9, 0.8, 0.9, 0.95});
-  // 10, 12, 8 degrees at distances d = 0.9, 0, 0.6 with weights exp(-d^2 / 8).
-  const double a = std::exp(-0.81 / 8), c = std::exp(-0.36 / 8);
-  CHECK(clusters.direction[0] / kDegree == Approx((10 * a + 12 + 8 * c) / (a + 1 + c)).margin(1e-3));
+TEST_CASE("stereo clusters: hand calculations") {
+  std::vector<ClusterLists::Member> chain;
+  for (int k = 0; k < 12; ++k) chain.push_back({0.5 * k, 20, 0.8 + 0.01 * k});
+  struct Row {
+    const char* what;
+    std::vector<std::vector<ClusterLists::Member>> members;
+    std::vector<std::size_t> dead;
+    std::vector<std::int32_t> first, anchor;
+  };
+  for (const Row& row : {
+           Row{"gaps of 0.9 and 0.6 make a chain, one of exactly 1 splits",
+               {{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}, {}, {{7, 0, 0.9}, {8, 0, 0.95}}},
+               {},
+               {0, 2, 2, 4},
+               {2, 0, 4, 5}},
+           {"178 and -179 degrees differ by 3, 30 and 55 by more than 20, 10 and -170 are opposite",
+            {{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}},
+            {},
+            {0, 1, 3, 5},
+            {0, 2, 3, 4, 5}},
+           {"among equally similar members the first by number",
+            {{{1.5, 20, 0.9}, {1, 20, 0.9}},
+             {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}},
+             {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}},
+            {},
+            {0, 1, 2, 3},
+            {0, 2, 6}},
+           {"at most ten members", {chain}, {}, {0, 2}, {9, 11}},
+           {"without rejected members, which leave a gap of 2 px", {chain}, {5, 6, 7}, {0, 2}, {4, 11}},
+       }) {
+    INFO(row.what);
+    ClusterLists lists(row.members);
+    for (const std::size_t member : row.dead) lists.scores.state[member] = 7;
+    const auto clusters = lists.clusters();
+    CHECK(clusters.first == row.first);
+    REQUIRE(clusters.anchor == row.anchor);
+    for (std::size_t k = 0; k < row.anchor.size(); ++k) {
+      const auto of = static_cast<std::size_t>(row.anchor[k]);
+      CHECK(clusters.position[k] == lists.refined.position[of]);
+      CHECK(clusters.similarity[k] == lists.refined.similarity[of]);
+    }
+  }
+  // Directions at distances d from the anchor have weights exp(-d^2 / 8): 10, 12, 8 degrees at 0.9, 0, 0.6 px, and,
+  // around the full turn, 178 and 181 at 0 and 0.5 px.
+  const auto direction = [](std::vector<ClusterLists::Member> members) {
+    return ClusterLists({std::move(members)}).clusters().direction[0] / kDegree;
+  };
+  const double a = std::exp(-0.81 / 8), c = std::exp(-0.36 / 8), w = std::exp(-0.25 / 8);
+  CHECK(direction({{3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}) ==
+        Approx((10 * a + 12 + 8 * c) / (a + 1 + c)).margin(1e-3));
+  CHECK(std::abs(std::remainder(direction({{1, 178, 0.9}, {1.5, -179, 0.9}}) - (178 + 181 * w) / (1 + w), 360)) < 6e-3);
 }
 
-TEST_CASE("stereo clusters: directions are compared and averaged around the full turn", "[stereo][matching]") {
-  // 178 and -179 degrees differ by 3; 30 and 55 by 25, above the limit of 20; 10 and -170 are opposite.
-  const auto clusters =
-      ClusterLists(
-          {{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}})
-          .clusters();
-  CHECK(clusters.first == std::vector<std::int32_t>{0, 1, 3, 5});
-  // 178 with weight 1, 181 with weight exp(-0.25 / 8).
-  const double w = std::exp(-0.25 / 8);
-  CHECK(std::abs(std::remainder(clusters.direction[0] - (178 + 181 * w) / (1 + w) * kDegree, 2 * kPi)) < 1e-4);
-  CHECK(clusters.direction[2] == Approx(55 * kDegree));
-}
-
-TEST_CASE("stereo clusters: among equally similar members the first by number represents the cluster",
-          "[stereo][matching]") {
-  const auto clusters = ClusterLists({{{1.5, 20, 0.9}, {1, 20, 0.9}},
-                                      {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}},
-                                      {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}})
-                            .clusters();
-  CHECK(clusters.anchor == std::vector<std::int32_t>{0, 2, 6});
-}
-
-TEST_CASE("stereo clusters: limited in size, without rejected members", "[stereo][matching]") {
-  std::vector<ClusterLists::Member> row;
-  for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20, 0.8 + 0.01 * k});
-  ClusterLists lists({row});
-  CHECK(lists.clusters().first == std::vector<std::int32_t>{0, 2});  // 10 and 2
-  CHECK(lists.clusters().position == std::vector<double>{4.5, 5.5});
-  for (const std::size_t dead : {5, 6, 7}) lists.scores.state[dead] = 7;  // a gap of 2 px in the middle
-  const auto clusters = lists.clusters();
-  CHECK(clusters.first == std::vector<std::int32_t>{0, 2});
-  CHECK(clusters.position == std::vector<double>{2, 5.5});
-}
-
-TEST_CASE("stereo clusters: devices agree with the reference on random lists", "[stereo][matching][device]") {
+TEST_CASE("stereo clusters: devices agree with the reference on random lists", "[device]") {
   Random random(19);
   std::vector<std::vector<ClusterLists::Member>> rows;
   for (int i = 0; i < 251; ++i) {
@@ -145,7 +149,7 @@ TEST_CASE("stereo clusters: devices agree with the reference on random lists", "
   lists.compare_devices(1);
 }
 
-TEST_CASE("stereo clusters: few edges, and none", "[stereo][matching][device][oclgrind]") {
+TEST_CASE("stereo clusters: few edges, and none", "[device][oclgrind]") {
   ClusterLists({{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}}, {}, {{7, 0, 0.9}}}).compare_devices(0);
   ClusterLists({}).compare_devices(0);
 }

@@ -1,7 +1,6 @@
 #include "describing.hpp"
 #include "device/stereo_matching.hpp"
 #include "matching.hpp"
-#include "quadedge/camera.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "reference/stereo_matching.hpp"
 
@@ -94,25 +93,7 @@ struct MutualScene {
 
 }  // namespace
 
-TEST_CASE("stereo mutual: an edge's choice lies on its epipolar line", "[stereo][matching][device]") {
-  MutualScene scene;
-  scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}, {70, 40, 1.6}}, 71);
-  scene.right = make_edges({{33.7, 30, 1.2}, {53.7, 30, -1.0}, {43.7, 40, 1.6}}, 71);
-  scene.add(0, 6.3, 1.2, 0.97);
-  scene.add(1, 6.3, 1.25, 0.99);
-  scene.add(2, 6.35, 1.1, 0.96);
-  scene.add_none();
-  const auto edges = scene.match();
-  CHECK(edges.left_index == std::vector<std::int32_t>{0, 1, 2});
-  CHECK(edges.right_index == std::vector<std::int32_t>{0, 1, 2});
-  CHECK(edges.right_x[0] == Approx(40 - 6.3));
-  CHECK(edges.right_x[1] == Approx(60 - 6.3));
-  CHECK(edges.right_x[2] == Approx(50 - 6.35));
-  CHECK(edges.ncc == std::vector<float>{0.97f, 0.99f, 0.96f});
-  scene.compare_devices();
-}
-
-TEST_CASE("stereo mutual: one right edge serves only neighbours of its best left edge", "[stereo][matching][device]") {
+TEST_CASE("stereo mutual: one right edge serves only neighbours of its best left edge", "[device]") {
   MutualScene scene;
   scene.left = make_edges({{40, 30, 1.2}, {41, 30, 1.2}, {43, 30, 1.2}}, 71);
   scene.right = make_edges({{33.7, 30, 1.2}}, 71);
@@ -137,7 +118,7 @@ TEST_CASE("stereo mutual: one right edge serves only neighbours of its best left
 }
 
 TEST_CASE("stereo mutual: devices agree with the reference on random choices, on few and on none",
-          "[stereo][matching][device][oclgrind]") {
+          "[device][oclgrind]") {
   Random random(29);
   for (const int count : {301, 1, 0}) {
     MutualScene scene;

@@ -1,9 +1,6 @@
-#include <optional>
-
 #include "device/stereo_matching.hpp"
 #include "geometry/disparity_range.hpp"
 #include "matching.hpp"
-#include "quadedge/camera.hpp"
 #include "reference/stereo_matching.hpp"
 
 using namespace quadedge;
@@ -153,18 +150,7 @@ std::size_t right_choices(const RelaxationScene& scene, const std::vector<double
 
 }  // namespace
 
-TEST_CASE("stereo relaxation: neighbours decide where similarities are close", "[stereo][matching]") {
-  RelaxationScene scene = wall(10, 0, 0);
-  const auto some = scene.left.size() / 2;
-  const Edge edge = {46.5, 35.5, kUpright};
-  scene.add(edge, {{10, kUpright, 0.9}, {18, kUpright, 0.92}});
-  CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == 10);
-  CHECK(scene.chosen(scene.relax(), some) == 10);
-  scene.config.relaxation_rounds = 0;
-  CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == 18);
-}
-
-TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead", "[stereo][matching]") {
+TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead") {
   // Full support is worth ((1 + floor) / floor)^2 = 441 = exp(0.244 / scale).
   for (const auto& [lead, position] : {std::pair(0.2, 10.0), std::pair(0.3, 18.0)}) {
     RelaxationScene scene = wall(10, 0, 0);
@@ -173,7 +159,7 @@ TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead", "[stereo
   }
 }
 
-TEST_CASE("stereo relaxation: a few unambiguous edges resolve a repeated texture", "[stereo][matching]") {
+TEST_CASE("stereo relaxation: a few unambiguous edges resolve a repeated texture") {
   RelaxationScene scene = wall(10, 8, 0.003);  // a period of 8 px: the wrong cluster is more similar everywhere
   CHECK(scene.chosen(scene.relax(), 100) == 18);
   // One edge in seven is not repeated.
@@ -182,7 +168,7 @@ TEST_CASE("stereo relaxation: a few unambiguous edges resolve a repeated texture
 }
 
 TEST_CASE("stereo relaxation: a coarse disparity decides where all neighbours agree on the wrong candidates",
-          "[stereo][matching][device][oclgrind]") {
+          "[device][oclgrind]") {
   RelaxationScene scene = wall(10, 8, 0.003);
   const Image left = image_of(97, 71, [](double x, double y) { return smooth_grey(3 * x, y); }),
               right = image_of(97, 71, [](double x, double y) { return smooth_grey(3 * (x + 10), y); });
@@ -194,7 +180,7 @@ TEST_CASE("stereo relaxation: a coarse disparity decides where all neighbours ag
   scene.compare_devices(0);
 }
 
-TEST_CASE("stereo relaxation: candidates that neighbours support need less similarity", "[stereo][matching]") {
+TEST_CASE("stereo relaxation: candidates that neighbours support need less similarity") {
   RelaxationScene scene = wall(10, 0, 0);
   const auto wall_size = scene.left.size();
   scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}});    // supported
@@ -214,7 +200,7 @@ TEST_CASE("stereo relaxation: candidates that neighbours support need less simil
   CHECK(alone.relax().chosen == std::vector<std::int32_t>{-1, 2});
 }
 
-TEST_CASE("stereo relaxation: among equal beliefs the first candidate is chosen", "[stereo][matching][device]") {
+TEST_CASE("stereo relaxation: among equal beliefs the first candidate is chosen", "[device]") {
   RelaxationScene scene(flat_rig(97, 71));
   scene.add({46.5, 35.5, kUpright}, {{8, kUpright, 0.9}, {12, kUpright, 0.9}});
   scene.add({52.5, 35.5, kUpright}, {{10, kUpright, 0.9}});
@@ -224,8 +210,7 @@ TEST_CASE("stereo relaxation: among equal beliefs the first candidate is chosen"
   scene.compare_devices(0);
 }
 
-TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one with two different cameras",
-          "[stereo][matching][device]") {
+TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one with two different cameras", "[device]") {
   StereoRig flat = flat_rig(143, 97, 120, 0.25);
   for (const StereoRig& rig : {flat, crooked_rig()}) {
     RelaxationScene scene(rig);
@@ -240,7 +225,7 @@ TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one wit
 }
 
 TEST_CASE("stereo relaxation: devices agree with the reference on random clusters, on few edges and on none",
-          "[stereo][matching][device][oclgrind]") {
+          "[device][oclgrind]") {
   Random random(31);
   for (const int count : {401, 1, 0}) {
     RelaxationScene scene(flat_rig(97, 71));

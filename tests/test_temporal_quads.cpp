@@ -84,22 +84,7 @@ struct QuadScene {
 
 }  // namespace
 
-TEST_CASE("temporal agreement: a candidate needs a surviving counterpart in the other list", "[temporal][matching]") {
-  // Row 0: targets 4, 7, 9 on the left; 9, 4, 7 on the right, of which 7 is rejected. Row 1: target 4 on the left,
-  // which only row 0 has on the right.
-  const reference::Candidates left{{0, 3, 4}, {4, 7, 9, 4}}, right{{0, 3, 4}, {9, 4, 7, 5}};
-  auto scores = fresh_scores(4), other = fresh_scores(4);
-  scores.state[2] = 5;
-  other.state[2] = 3;
-  other.ncc = {0.5f, 0.7f, 0.6f, 0.8f};
-  const auto agreement = reference::temporal_agreement(left, scores, right, other);
-  CHECK(scores.state ==
-        std::vector<std::uint8_t>{0, order_of(TemporalFilter::agreement), 5, order_of(TemporalFilter::agreement)});
-  CHECK(agreement[0] == Approx(0.8));
-}
-
-TEST_CASE("temporal best: chained positions form one group, others compete, ties go to the first",
-          "[temporal][matching]") {
+TEST_CASE("temporal best: chained positions form one group, others compete, ties go to the first") {
   StereoEdges current;
   add(current, 5, 5, 10);
   add(current, 6.4, 5, 12);
@@ -125,8 +110,7 @@ TEST_CASE("temporal best: chained positions form one group, others compete, ties
   CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).competing_clusters[0] == 3);
 }
 
-TEST_CASE("temporal best: the predicted position decides between similar candidates, up to its weight",
-          "[temporal][matching]") {
+TEST_CASE("temporal best: the predicted position decides between similar candidates, up to its weight") {
   StereoEdges current;
   add(current, 20, 20, 0);
   add(current, 21.5, 20, 0);
@@ -142,14 +126,14 @@ TEST_CASE("temporal best: the predicted position decides between similar candida
   CHECK(reference::temporal_best(lists, scores, {0.94f, 0.9f}, current, config, search).current[0] == 0);
 }
 
-TEST_CASE("temporal quads: devices agree with the reference", "[temporal][matching][device]") {
+TEST_CASE("temporal quads: devices agree with the reference", "[device]") {
   const QuadScene scene(300, 14, 5);
   CHECK(scene.match().size() > 100);
   scene.compare_devices();
   QuadScene(100, 9, 6, 7).compare_devices();
 }
 
-TEST_CASE("temporal quads: few candidates, and none", "[temporal][matching][device][oclgrind]") {
+TEST_CASE("temporal quads: few candidates, and none", "[device][oclgrind]") {
   for (const auto& [rows, most] : {std::pair(3, 5), std::pair(2, 0), std::pair(0, 0)})
     QuadScene(rows, most, 7).compare_devices();
 }
