@@ -2,27 +2,11 @@
 /// throws.
 /// To add an attack, add a row.
 
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <sys/stat.h>
-
 #include "benchmark/variant_comparison.hpp"
 #include "calibration_files.hpp"
-#include "devices.hpp"
 #include "frontends.hpp"
-#include "quadedge/calibration.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/evaluation.hpp"
-#include "quadedge/match_stereo.hpp"
-#include "quadedge/odometry.hpp"
-#include "quadedge/trajectory.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
-using calibration_files::Rig;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -38,13 +22,6 @@ struct Caller {
   TemporaryFolder folder;
 
   void track() { StereoOdometry(rig, device, config).track(frame); }
-  /// Reads a calibration of Kalibr's with a change.
-  void read_kalibr(const std::function<void(Rig&)>& change) const {
-    Rig changed;
-    change(changed);
-    dataset_files::write_text(folder / "camchain.yaml", calibration_files::kalibr_chain(changed, "T_cn_cnm1"));
-    read_calibration(folder / "camchain.yaml");
-  }
   void distort() {
     StereoCalibration calibration = pinhole_calibration(rig);
     calibration.left.model = calibration.right.model = LensModel::radial_tangential;
@@ -78,8 +55,23 @@ const std::vector<LibraryAttack>& library_attacks() {
        [](C c) { c.distort(), c.frame.left = c.small.view(); }, "80x60 pixels, the calibration expects 160x100"},
       {"an image of another bit depth", [](C c) { c.frame.right = c.deep.view(); }, "right"},
       {"images of another bit depth than the rig's", [](C c) { c.rig.max_value = 65535; }, "65535"},
-      {"rows that overlap", [](C c) { c.frame.left.stride = 10; }, "stride"},
-      {"rows that run backwards", [](C c) { c.frame.left.stride = -160; }, "stride"},
+      {"rows that overlap", [](C c) { c.frame.left.stride = 159; },
+       "left image has a stride of 159 bytes, expected at least the 160"},
+      {"rows that overlap, for edges alone",
+       [](C c) {
+         c.frame.left.stride = 159;
+         detect_edges(c.frame.left, c.device, c.config);
+       },
+       "159"},
+      {"rows that are one", [](C c) { c.frame.right.stride = 0; }, "right image has a stride of 0 bytes"},
+      {"rows that run backwards", [](C c) { c.frame.left.stride = -160; }, "stride of -160"},
+      {"rows of words that overlap",
+       [](C c) {
+         c.rig.max_value = 65535;
+         c.frame.left = c.frame.right = c.deep.view();
+         c.frame.right.stride = 319;
+       },
+       "right image has a stride of 319 bytes, expected at least the 320"},
       {"a timestamp that goes back",
        [](C c) {
          StereoOdometry odometry(c.rig, c.device, c.config);
@@ -103,6 +95,7 @@ const std::vector<LibraryAttack>& library_attacks() {
       {"a focal length of zero", [](C c) { c.rig.left.fx = 0; }, ""},
       {"a focal length of NaN", [](C c) { c.rig.right.fy = kNoNumber; }, ""},
       {"an invalid rotation", [](C c) { c.rig.right_from_left.linear() *= 2; }, ""},
+      {"a mirrored rotation", [](C c) { c.rig.right_from_left.linear()(2, 2) = -1; }, "right-handed"},
       {"a rotation with NaN", [](C c) { c.rig.right_from_left.linear()(1, 2) = kNoNumber; }, "rotation"},
       {"a translation with NaN", [](C c) { c.rig.right_from_left.translation().z() = kNoNumber; }, "baseline"},
       {"a transform whose last row is not that of a rigid one", [](C c) { c.rig.right_from_left.matrix()(3, 0) = 1; },
@@ -137,26 +130,14 @@ const std::vector<LibraryAttack>& library_attacks() {
        "80"},
       {"a missing recording", [](C) { open_dataset("/no/such/recording"); }, "no/such"},
       {"a missing calibration", [](C) { read_calibration("/no/such.yaml"); }, "no/such"},
-      {"a calibration whose focal length is absurd",
-       [](C c) { c.read_kalibr([](Rig& rig) { rig.left_intrinsics = "458.654, 1e308, 367.215, 248.375"; }); },
-       "camchain.yaml (cam0.intrinsics): found a focal length fy of 1e+308"},
-      {"a calibration whose focal length is nearly zero",
-       [](C c) { c.read_kalibr([](Rig& rig) { rig.right_intrinsics = "457.587, 1e-300, 379.999, 255.238"; }); },
-       "camchain.yaml (cam1.intrinsics): found a focal length fy of 1e-300"},
-      {"a calibration whose principal point is absurd",
-       [](C c) { c.read_kalibr([](Rig& rig) { rig.left_intrinsics = "458.654, 457.296, 1e308, 248.375"; }); },
-       "camchain.yaml (cam0.intrinsics): found a principal point cx of 1e+308"},
-      {"a calibration whose coefficient is absurd",
-       [](C c) { c.read_kalibr([](Rig& rig) { rig.right_distortion = "-0.28, 1e308, 0, 0"; }); },
-       "camchain.yaml (cam1.distortion_coeffs): found a coefficient 1"},
       {"cameras of very different resolutions", [](C c) { c.rig.right.fx *= 20, c.rig.right.fy *= 20; },
        "a ratio of at most 16"},
       {"a ROS calibration without the image's height",
        [](C c) {
          auto [left, right] = calibration_files::ros_camera_infos({});
          left.erase(left.find("image_height"), std::string("image_height: 480\n").size());
-         dataset_files::write_text(c.folder / "left.yaml", left);
-         dataset_files::write_text(c.folder / "right.yaml", right);
+         write_text(c.folder / "left.yaml", left);
+         write_text(c.folder / "right.yaml", right);
          read_calibration(c.folder / "left.yaml," + c.folder / "right.yaml");
        },
        "left.yaml: found no entry image_height"},
@@ -208,7 +189,7 @@ std::string message_of(const LibraryAttack& attack, Caller& caller) {
 
 }  // namespace
 
-TEST_CASE("attack: an invalid call throws an error that explains it", "[odometry]") {
+TEST_CASE("attack: an invalid call throws an error that explains it") {
   CHECK_NOTHROW(Caller().track());
   for (const auto& attack : library_attacks()) {
     DYNAMIC_SECTION(attack.name) {

@@ -81,7 +81,7 @@ std::pair<double, double> known_and_right(const std::vector<float>& positions, c
 
 }  // namespace
 
-TEST_CASE("coarse disparity: a wall of boards that differ a little is found at its own disparity", "[stereo]") {
+TEST_CASE("coarse disparity: a wall of boards that differ a little is found at its own disparity") {
   StereoRig rig = flat_rig(260, 60);
   for (const double offset : {0.0, 7.0, -4.5}) {
     rig.right.cx = rig.left.cx + offset;
@@ -97,14 +97,12 @@ TEST_CASE("coarse disparity: a wall of boards that differ a little is found at i
   }
 }
 
-TEST_CASE("coarse disparity: breaks the tie between the boards of a wall", "[stereo][device]") {
+TEST_CASE("coarse disparity: breaks the tie between the boards of a wall", "[device]") {
   constexpr double kDisparity = 17;
   StereoRig rig = flat_rig(301, 101, 300);
   rig.max_disparity = 60;
   const auto [left, right] = views(rig, kDisparity, Boards(12));
-  std::vector<std::string> devices = all_devices();
-  devices.emplace_back("reference");
-  for (const std::string& name : devices) {
+  for (const std::string& name : all_devices_and_reference()) {
     Device device(name, kept_programs());
     double matched[2] = {0, 0}, correct[2] = {0, 0};
     for (const bool consults : {false, true}) {
@@ -123,7 +121,7 @@ TEST_CASE("coarse disparity: breaks the tie between the boards of a wall", "[ste
   }
 }
 
-TEST_CASE("coarse disparity: what the right image does not show stays unknown", "[stereo]") {
+TEST_CASE("coarse disparity: what the right image does not show stays unknown") {
   // A near board in front of a far wall hides the part of the wall to its left.
   const StereoRig rig = flat_rig(200, 60);
   const Image texture = random_blocks(400, 60, 5), near_texture = random_blocks(400, 60, 6);
@@ -153,7 +151,7 @@ TEST_CASE("coarse disparity: what the right image does not show stays unknown", 
   CHECK(known < hidden / 4);
 }
 
-TEST_CASE("coarse disparity: only rectified rigs are searched", "[stereo]") {
+TEST_CASE("coarse disparity: only rectified rigs are searched") {
   const StereoConfig config = range_of(40);
   StereoRig rig = flat_rig();
   CHECK(coarse_search(rig, make_epipolar_geometry(rig, config)));
@@ -168,8 +166,7 @@ TEST_CASE("coarse disparity: only rectified rigs are searched", "[stereo]") {
   CHECK_FALSE(coarse_search(tiny, make_epipolar_geometry(tiny, config)));
 }
 
-TEST_CASE("coarse disparity: every device and variant gives exactly the reference's positions",
-          "[stereo][device][oclgrind]") {
+TEST_CASE("coarse disparity: every device and variant gives exactly the reference's positions", "[device][oclgrind]") {
   struct Case {
     int width, height, right_width, right_height, max_value;
     double right_cx, range;

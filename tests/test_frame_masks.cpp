@@ -1,14 +1,6 @@
-#include <catch2/catch.hpp>
-
 #include "common/images.hpp"
 #include "dataset_files.hpp"
-#include "devices.hpp"
 #include "program.hpp"
-#include "quadedge/calibration.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/odometry.hpp"
-#include "quadedge/synthetic.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -18,11 +10,7 @@ namespace {
 constexpr int kFrames = 8;
 
 SyntheticOptions scene(double mover, const std::string& lens = "pinhole") {
-  SyntheticOptions options;
-  options.frames = kFrames;
-  options.width = 320;
-  options.height = 200;
-  options.focal = 184;
+  auto options = rendering(320, 200, 184, kFrames, 4);
   options.mover = mover;
   options.lens = lens;
   return options;
@@ -98,7 +86,7 @@ double worst(const Walk& walk, const std::vector<FrameResult>& results, int& sta
 
 }  // namespace
 
-TEST_CASE("frame masks: with a walker in half of the view masked, every pose is right", "[odometry][device]") {
+TEST_CASE("frame masks: with a walker in half of the view masked, every pose is right", "[device]") {
   REQUIRE(walk().hidden > 0.4);
   for (const auto& name : all_devices()) {
     INFO(name);
@@ -111,15 +99,14 @@ TEST_CASE("frame masks: with a walker in half of the view masked, every pose is 
   CHECK(worst(walk(), track(walk(), all_devices().front(), Masks::none), stated) < 0.02);
 }
 
-TEST_CASE("frame masks: they refer to the recorded image of a lens", "[odometry][device]") {
+TEST_CASE("frame masks: they refer to the recorded image of a lens", "[device]") {
   const Walk distorted("radtan");
   int stated = 0;
   CHECK(worst(distorted, track(distorted, all_devices().front(), Masks::of_walker), stated) < 0.006);
   CHECK(stated == kFrames);
 }
 
-TEST_CASE("frame masks: masks that hide nothing change nothing, and the reference masks the same",
-          "[odometry][device]") {
+TEST_CASE("frame masks: masks that hide nothing change nothing, and the reference masks the same", "[device]") {
   const auto none = track(walk(), all_devices().front(), Masks::none),
              white = track(walk(), all_devices().front(), Masks::white);
   for (std::size_t i = 0; i < none.size(); ++i) {
@@ -135,7 +122,7 @@ TEST_CASE("frame masks: masks that hide nothing change nothing, and the referenc
   }
 }
 
-TEST_CASE("frame masks: one of another size or depth is an error, and the next frame is tracked", "[odometry]") {
+TEST_CASE("frame masks: one of another size or depth is an error, and the next frame is tracked") {
   Device device("reference");
   StereoOdometry odometry(walk().walked.rig(), device);
   StereoFrame frame = walk().pairs[0].view();
@@ -147,21 +134,6 @@ TEST_CASE("frame masks: one of another size or depth is an error, and the next f
   CHECK_THROWS_WITH(odometry.track(frame), Contains("the right mask") && Contains("8 bits"));
   frame.right_mask = {};
   CHECK(odometry.track(frame).status == FrameStatus::first);
-}
-
-TEST_CASE("frame masks: borders grow by the margin in all directions, corners included", "[odometry]") {
-  PixelMask mask{40, 30, std::vector<std::uint8_t>(1200)};
-  mask.hidden[static_cast<std::size_t>(7 * 40 + 2)] = mask.hidden[static_cast<std::size_t>(29 * 40 + 39)] = 1;
-  for (const int margin : {1, 3, 10, 50}) {
-    const PixelMask wide = with_border(mask, margin);
-    for (int y = 0; y < 30; ++y)
-      for (int x = 0; x < 40; ++x) {
-        const auto near = [&](int column, int row) {
-          return std::max(std::abs(x - column), std::abs(y - row)) <= margin;
-        };
-        REQUIRE(wide.hidden[static_cast<std::size_t>(40 * y + x)] == (near(2, 7) || near(39, 29) ? 1 : 0));
-      }
-  }
 }
 
 TEST_CASE("run: --masks reads a mask per image", "[cli][device]") {
@@ -186,7 +158,7 @@ TEST_CASE("run: --masks reads a mask per image", "[cli][device]") {
   refused("left/000001.png: found no file");
 }
 
-TEST_CASE("frame masks: masks that hide everything are named where there are no edges", "[odometry]") {
+TEST_CASE("frame masks: masks that hide everything are named where there are no edges") {
   Device device("reference");
   StereoOdometry odometry(walk().walked.rig(), device);
   StereoFrame frame = walk().pairs[0].view();
@@ -197,7 +169,7 @@ TEST_CASE("frame masks: masks that hide everything are named where there are no 
   CHECK_THAT(result.message, Contains("the masks hide 100 % of the left image"));
 }
 
-TEST_CASE("frame masks: a mask in the alpha channel is refused, an opaque one is read", "[dataset]") {
+TEST_CASE("frame masks: a mask in the alpha channel is refused, an opaque one is read") {
   const TemporaryFolder folder;
   const std::string file = folder / "alpha.png";
   StereoRig rig = walk().walked.rig();

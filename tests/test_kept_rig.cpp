@@ -1,7 +1,4 @@
-#include <cmath>
-
 #include "common/layouts.hpp"
-#include "devices.hpp"
 #include "frontends.hpp"
 #include "motion/motion_search.hpp"
 #include "reference/edge_descriptions.hpp"
@@ -14,12 +11,6 @@ namespace {
 const RenderedScene& kept_room() {
   static const RenderedScene scene("room", 320, 200, 2, 6);
   return scene;
-}
-
-std::vector<std::string> devices_and_reference() {
-  std::vector<std::string> names = all_devices();
-  names.emplace_back("reference");
-  return names;
 }
 
 }  // namespace
@@ -51,7 +42,7 @@ TEST_CASE("kept frame edges: at most half a megabyte, and patches and descriptor
 }
 
 TEST_CASE("kept frame edges: once restored they give the motion that the frame itself gives", "[device]") {
-  for (const std::string& name : devices_and_reference()) {
+  for (const std::string& name : all_devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
@@ -84,7 +75,7 @@ TEST_CASE("kept frame edges: once restored they give the motion that the frame i
 }
 
 TEST_CASE("kept frame edges: restoring one leaves the current frame and the frame numbers alone", "[device]") {
-  for (const std::string& name : devices_and_reference()) {
+  for (const std::string& name : all_devices_and_reference()) {
     INFO(name);
     Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(kept_room().rig, device, kept_room().config);
