@@ -1,5 +1,5 @@
-/// \file use_in_threads.cpp  First use of OpenCL by several threads at once, and use in forked processes. Each trial
-/// needs a process that has not used OpenCL yet, so this is a program, not a test case: it forks one per trial.
+/// \file use_in_threads.cpp  First use of OpenCL by several threads at once. Each trial needs a process that has not
+/// used OpenCL yet, so this is a program, not a test case: it forks one per trial.
 ///   use_in_threads TRIALS
 
 #include <atomic>
@@ -147,31 +147,6 @@ int status_of_fork(const std::function<void()>& work, std::FILE* errors = nullpt
   return status;
 }
 
-void require_device_error(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const DeviceError& error) {
-    if (std::string(error.what()).find("forked") != std::string::npos) return;
-    throw;
-  }
-  throw Error(ExitCode::internal, "no error was thrown in the forked process");
-}
-
-/// Forks a process that has tracked: in the child its device is refused and the C++ reference works.
-void fork_after_tracking() {
-  const Room room;
-  Tracker tracker(room, "auto");
-  track(tracker, room);
-  const int status = status_of_fork([&] {
-    require_device_error([&] { tracker.odometry.track(room.pairs[2].view()); });
-    require_device_error([] { Device("auto"); });
-    Tracker reference(room, "reference");
-    track(reference, room);
-  });
-  if (status != 0) throw Error(ExitCode::internal, "the child ended with status " + std::to_string(status));
-  tracker.odometry.track(room.pairs[2].view());  // the parent continues
-}
-
 /// PoCL 3.1 failed an assertion of its own in one of 140 of these trials (doc/limits.md): one is repeated.
 constexpr const char* kFaultOfPocl = "pocl_release_dlhandle_cache";
 
@@ -203,7 +178,6 @@ int main(int count, char** arguments) {
   }
   const int failures = failures_of("built and tracked in 4 threads", trials, build_and_track_in_threads) +
                        failures_of("built in turn, tracked in 4 threads", trials, build_in_turn_and_track_in_threads) +
-                       failures_of("one device shared by 4 threads", trials, share_a_device_in_threads) +
-                       failures_of("used in a fork of a process that has tracked", 1, fork_after_tracking);
+                       failures_of("one device shared by 4 threads", trials, share_a_device_in_threads);
   return failures == 0 ? 0 : 1;
 }

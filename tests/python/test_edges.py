@@ -7,13 +7,66 @@ import quadedge
 
 
 def test_edges_agree_with_the_command(command, room_folder, tmp_path):
-    image = sorted((room_folder / "rgb").glob("*.png"))[0]
-    command("edges", image, "--csv", tmp_path / "edges.csv", "--quiet")
-    expected = numpy.loadtxt(tmp_path / "edges.csv", delimiter=",", skiprows=1)
+    image, table = sorted((room_folder / "rgb").glob("*.png"))[0], tmp_path / "edges.csv"
+    call = ("edges", image, "--csv", table, "--draw", tmp_path / "edges.png", "--quiet")
+    command(*call)
+    heading, *rows = table.read_text().splitlines()
+    assert heading == "x,y,direction_rad,strength"
+    assert {len(number.partition(".")[2]) for row in rows for number in row.split(",")} == {6}
+    expected = numpy.loadtxt(table, delimiter=",", skiprows=1)
     edges = quadedge.detect_edges(quadedge.read_grey_image(image))
     found = numpy.stack([edges.x, edges.y, edges.direction, edges.strength], axis=1)
     assert len(edges) == len(expected) > 500
     numpy.testing.assert_allclose(found, expected, atol=6e-7)  # six decimals
+    assert (found[:, :2] > 0).all() and (found[:, :2] < [319, 199]).all() and (abs(found[:, 2]) < 3.1416).all()
+    assert (found[:, 3] > 1.9).all()  # the threshold applies at the pixel, the strength is that of the edge
+    assert (tmp_path / "edges.png").stat().st_size > 1000
+    command(*call, code=2)  # the files exist
+    command("edges", image, "--csv", tmp_path / "absent" / "edges.csv", code=3)
+
+
+def test_matches_agree_with_the_command(command, room_folder, tmp_path):
+    left, right = (sorted((room_folder / side).glob("*.png"))[1] for side in ("rgb", "rgb2"))
+    rig, table, cloud, picture = (tmp_path / name for name in ("rig.yaml", "m.csv", "m.ply", "m.png"))
+    command("check", room_folder, "--write-calibration", rig, "--quiet")
+    command("match", left, right, "--calibration", rig, "--csv", table, "--ply", cloud, "--draw", picture)
+    assert table.read_text().splitlines()[0] == ("left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,"
+                                                 "ncc,x_m,y_m,z_m")
+    expected = numpy.genfromtxt(table, delimiter=",", skip_header=1)
+    images = [quadedge.read_grey_image(file) for file in (left, right)]
+    edges = quadedge.match(*images, quadedge.Rig.from_file(rig))
+    found = numpy.column_stack([edges.left, edges.left_direction, edges.right, edges.right_direction, edges.ncc,
+                                edges.xyz])
+    numpy.testing.assert_allclose(found[:, :7], expected[:, :7], atol=6e-7)
+    numpy.testing.assert_allclose(found[:, 7:], expected[:, 7:], rtol=1e-4, atol=6e-7)
+    detected = quadedge.detect_edges(images[0])
+    assert set(zip(edges.left[:, 0], edges.left[:, 1])) <= set(zip(detected.x, detected.y))
+    points = numpy.isfinite(found[:, 9]).sum()
+    assert points > len(found) / 2 and f"element vertex {points}\n".encode() in cloud.read_bytes()[:200]
+    assert picture.read_bytes()[1:4] == b"PNG"
+    # Rectified images without a calibration have matches but no points.
+    call = ("match", left, right, "--stereo.max_disparity", 40, "--csv", tmp_path / "plain.csv")
+    command(*call)
+    plain = numpy.genfromtxt(tmp_path / "plain.csv", delimiter=",", skip_header=1)
+    assert len(plain) > 200 and numpy.isnan(plain[:, 7:]).all()
+    assert (plain[:, 0] - plain[:, 3] > -1).all() and (plain[:, 0] - plain[:, 3] < 41).all()
+    command(*call, code=2)  # the file exists
+    assert "--calibration" in command(*call[:-1], tmp_path / "o.csv", "--ply", tmp_path / "o.ply", code=2).stderr
+
+
+@pytest.mark.parametrize("shape, depth, calibrated, words", [
+    ((24, 32), "uint8", False, ("other.png", "24 rows")), ((200, 320), "uint16", False, ("other.png", "65535")),
+    ((24, 32), "uint8", True, ("other.png", "32 x 24")), (None, "", False, ("other.png",))])
+def test_images_that_are_no_pair_are_refused(command, room_folder, tmp_path, shape, depth, calibrated, words):
+    import PIL.Image
+
+    left, other, rig = sorted((room_folder / "rgb").glob("*.png"))[1], tmp_path / "other.png", tmp_path / "rig.yaml"
+    command("check", room_folder, "--write-calibration", rig, "--quiet")
+    if shape:
+        PIL.Image.fromarray(numpy.zeros(shape, depth)).save(other)
+    done = command("match", left, other, *(("--calibration", rig) if calibrated else ()), code=3)
+    assert all(word in done.stderr for word in words)
+    command("match", left, code=2)
 
 
 def test_a_device_can_be_reused(frames):

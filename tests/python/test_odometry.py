@@ -54,12 +54,6 @@ def test_poses_equal_the_commands_byte_for_byte(command, room_folder, tmp_path, 
     assert write(again, tmp_path / "again.txt") == expected
 
 
-def test_poses_of_the_recorded_flight(command, flight_folder, tmp_path):
-    command("run", flight_folder, "--frames", "0:6", "-o", tmp_path / "out", "--quiet")
-    results = track_all(quadedge.open_dataset(flight_folder, last_frame=6))
-    assert write(results, tmp_path / "ours.txt") == (tmp_path / "out" / "trajectory.txt").read_bytes()
-
-
 def test_result_has_pose_and_covariance(room):
     first, second = track_all(room)[:2]
     assert first.status == "first" and second.status == "tracked"

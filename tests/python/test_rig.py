@@ -94,8 +94,3 @@ def test_the_flights_own_calibration_files(flight_folder):
     assert quadedge.Rig.from_file(files, size=(752, 480)).left.width == rig.left.width
     with pytest.raises(quadedge.DataError, match="size: found 640 x 480 pixels, expected 752 x 480, as .*sensor.yaml"):
         quadedge.Rig.from_file(files, size=(640, 480))
-
-
-def test_an_error_about_a_missing_calibration_names_the_file(tmp_path):
-    with pytest.raises(quadedge.DataError, match="no_such.yaml"):
-        quadedge.Rig.from_file(tmp_path / "no_such.yaml")
