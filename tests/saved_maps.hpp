@@ -1,27 +1,16 @@
 #pragma once
 /// \file saved_maps.hpp  Maps of small rendered recordings, for tests.
 
-#include <string>
-
-#include "devices.hpp"
-#include "quadedge/localiser.hpp"
-#include "quadedge/map.hpp"
-#include "quadedge/odometry.hpp"
-#include "quadedge/synthetic.hpp"
+#include "testing.hpp"
 
 namespace saved_maps {
 
 /// A recording of a scene in small images.
 inline quadedge::SyntheticOptions small(const std::string& scene, const std::string& path, int frames) {
-  quadedge::SyntheticOptions options;
+  auto options = rendering(320, 200, 184, frames, 2);
   options.scene = scene;
   options.path = path;
-  options.frames = frames;
-  options.width = 320;
-  options.height = 200;
-  options.focal = 184;
   options.baseline = 0.15;
-  options.supersampling = 2;
   return options;
 }
 

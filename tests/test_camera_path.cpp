@@ -1,16 +1,8 @@
 // The paths of the synthetic camera: smooth, inside their scenes, at the documented speeds, with motion blur.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/synthetic.hpp"
 #include "scenes/path.hpp"
 #include "scenes/render.hpp"
 #include "scenes/scenes.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using Eigen::Isometry3d;
@@ -144,14 +136,9 @@ TEST_CASE("the drive path moves forward along its lane, turning and pitching slo
 
 TEST_CASE("the loop returns to its first pose exactly at the last frame, not before", "[synthetic]") {
   for (const int frames : {2, 12, 60, 300}) {
-    SyntheticOptions options;
+    auto options = rendering(32, 20, 20, frames, 1);
     options.path = "loop";
-    options.frames = frames;
-    options.width = 32;
-    options.height = 20;
-    options.focal = 20.0;
     options.noise = 0.0;
-    options.supersampling = 1;
     const SyntheticSequence sequence(options);
     CAPTURE(frames);
     CHECK(sequence.world_from_left(frames - 1).matrix() == Eigen::Matrix4d::Identity());
@@ -202,14 +189,9 @@ TEST_CASE("no path leaves its scene or comes near a surface", "[long][synthetic]
 TEST_CASE("no visible surface exceeds the largest disparity, on any path", "[long][synthetic]") {
   for (const std::string& scene : synthetic_scenes()) {
     for (const std::string& path : synthetic_paths()) {
-      SyntheticOptions options;
+      auto options = rendering(157, 83, 90, path == "ellipse" ? 1000 : 60, 1);
       options.scene = scene;
       options.path = path;
-      options.frames = path == "ellipse" ? 1000 : 60;
-      options.width = 157;
-      options.height = 83;
-      options.focal = 90.0;
-      options.supersampling = 1;
       const SyntheticSequence sequence(options);
       double nearest = 1e9;
       const int step = path == "ellipse" ? 29 : 12;

@@ -1,8 +1,7 @@
-#include <catch2/catch.hpp>
 #include <opencv2/calib3d.hpp>
 
 #include "geometry/lens_mapping.hpp"
-#include "quadedge/camera.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 
@@ -31,6 +30,7 @@ std::vector<Lens> typical_lenses() {
       lens_of(LensModel::field_of_view, {0.93}),
       lens_of(LensModel::double_sphere, {-0.2, 0.58}),
       lens_of(LensModel::double_sphere, {0.3, 0.4}),
+      lens_of(LensModel::extended_unified, {0.57, 1.2}),
       lens_of(LensModel::omnidirectional, {0.9, -0.1, 0.05, 1e-4, -1e-4}),
       lens_of(LensModel::omnidirectional, {1.2, -0.2, 0.1, 1e-4, -1e-4}),
   };
@@ -38,7 +38,7 @@ std::vector<Lens> typical_lenses() {
 
 }  // namespace
 
-TEST_CASE("lens: radial, tangential, rational, prism and tilted coefficients agree with OpenCV to 1e-9 px", "[lens]") {
+TEST_CASE("lens: radial, tangential, rational, prism and tilted coefficients agree with OpenCV to 1e-9 px") {
   int counts = 0;
   for (const Lens& lens : typical_lenses()) {
     if (lens.model != LensModel::radial_tangential || lens.parameters.empty()) continue;
@@ -61,7 +61,7 @@ TEST_CASE("lens: radial, tangential, rational, prism and tilted coefficients agr
   CHECK(counts == 5);
 }
 
-TEST_CASE("lens: equidistant agrees with OpenCV's fisheye model to 1e-9 px", "[lens]") {
+TEST_CASE("lens: equidistant agrees with OpenCV's fisheye model to 1e-9 px") {
   for (const Lens& lens : typical_lenses()) {
     if (lens.model != LensModel::equidistant) continue;
     const LensMapping mapping(lens);
@@ -80,7 +80,7 @@ TEST_CASE("lens: equidistant agrees with OpenCV's fisheye model to 1e-9 px", "[l
   }
 }
 
-TEST_CASE("lens: projection inverts unprojection to 1e-9 px in every model", "[lens]") {
+TEST_CASE("lens: projection inverts unprojection to 1e-9 px in every model") {
   for (const Lens& lens : typical_lenses()) {
     INFO(to_string(lens.model) << ", " << lens.parameters.size() << " parameters");
     const LensMapping mapping(lens);
@@ -100,7 +100,7 @@ TEST_CASE("lens: projection inverts unprojection to 1e-9 px in every model", "[l
   }
 }
 
-TEST_CASE("lens: special parameters give known projections", "[lens]") {
+TEST_CASE("lens: special parameters give known projections") {
   const double f = 458.654;
   const auto radius = [&](LensModel model, std::vector<double> parameters, double angle) {
     Lens lens = lens_of(model, std::move(parameters));
@@ -114,13 +114,16 @@ TEST_CASE("lens: special parameters give known projections", "[lens]") {
     CHECK(radius(LensModel::double_sphere, {0, 0.5}, angle) == Approx(2 * f * std::tan(angle / 2)).epsilon(1e-12));
     CHECK(radius(LensModel::omnidirectional, {1}, angle) == Approx(f * std::tan(angle / 2)).epsilon(1e-12));
     CHECK(radius(LensModel::omnidirectional, {0}, angle) == Approx(f * std::tan(angle)).epsilon(1e-12));
+    // alpha d + (1 - alpha) z = (1 - alpha) (z + xi d) with xi = alpha / (1 - alpha): focal lengths by 1 / (1 - alpha).
+    CHECK(radius(LensModel::extended_unified, {0.6, 1}, angle) ==
+          Approx(radius(LensModel::omnidirectional, {0.6 / 0.4}, angle) / 0.4).epsilon(1e-12));
     // tan(w / 2) = 1 / 2 leaves atan(tan(angle)) = angle.
     const double w = 2 * std::atan(0.5);
     CHECK(radius(LensModel::field_of_view, {w}, angle) == Approx(f * angle / w).epsilon(1e-12));
   }
 }
 
-TEST_CASE("lens: the scale on the axis equals the scale of small angles", "[lens]") {
+TEST_CASE("lens: the scale on the axis equals the scale of small angles") {
   for (const Lens& lens : typical_lenses()) {
     INFO(to_string(lens.model));
     const LensMapping mapping(lens);
@@ -130,7 +133,7 @@ TEST_CASE("lens: the scale on the axis equals the scale of small angles", "[lens
   }
 }
 
-TEST_CASE("lens: nothing projects beyond the angle where the image folds back", "[lens]") {
+TEST_CASE("lens: nothing projects beyond the angle where the image folds back") {
   // r (1 - 0.3 r^2) is largest at r^2 = 1 / 0.9.
   const double turn = std::sqrt(1 / 0.9);
   const LensMapping radial(lens_of(LensModel::radial_tangential, {-0.3, 0, 0, 0}));

@@ -1,7 +1,3 @@
-#include <cmath>
-
-#include "quadedge/camera.hpp"
-#include "quadedge/error.hpp"
 #include "saved_maps.hpp"
 #include "scene_corridor.hpp"
 
@@ -49,28 +45,16 @@ TEST_CASE("localiser: frames between those of the map are located, on all device
   }
 }
 
-TEST_CASE("localiser: half and double light change nothing", "[device]") {
-  for (const double light : {0.5, 2.0}) {
-    INFO(light);
+TEST_CASE("localiser: half and double light, and other cameras than the map's", "[device]") {
+  const auto located = [](int step, const std::function<void(SyntheticOptions&)>& change) {
     SyntheticOptions other = saved_maps::walk("room");
-    other.light = light;
-    const LocatedWalk walk = locate_walk(saved_maps::room_map(), other, 12);
-    CHECK(walk.located >= 0.9 * walk.frames);
-  }
-}
-
-TEST_CASE("localiser: other cameras than the map's", "[device]") {
-  SyntheticOptions longer = saved_maps::walk("room");
-  longer.focal *= 1.15;
-  longer.baseline = 0.1;
-  const LocatedWalk near = locate_walk(saved_maps::room_map(), longer, 6);
-  CHECK(near.located >= 0.8 * near.frames);
-  SyntheticOptions finer = saved_maps::walk("room");
-  finer.width *= 2;
-  finer.height *= 2;
-  finer.focal *= 2;
-  const LocatedWalk far = locate_walk(saved_maps::room_map(), finer, 6);
-  CHECK(far.located >= 0.9 * far.frames);
+    change(other);
+    const LocatedWalk walk = locate_walk(saved_maps::room_map(), other, step);
+    return static_cast<double>(walk.located) / walk.frames;
+  };
+  for (const double light : {0.5, 2.0}) CHECK(located(12, [&](auto& other) { other.light = light; }) >= 0.9);
+  CHECK(located(6, [](auto& other) { other.focal *= 1.15, other.baseline = 0.1; }) >= 0.8);
+  CHECK(located(6, [](auto& other) { other.width *= 2, other.height *= 2, other.focal *= 2; }) >= 0.9);
 }
 
 TEST_CASE("localiser: a recording is followed, and lost frames are found again", "[device]") {

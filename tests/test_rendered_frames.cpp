@@ -1,9 +1,5 @@
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
-
 #include "data/rendered_frames.hpp"
-#include "temporary_folder.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using data::RenderedFrames;
@@ -11,15 +7,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-SyntheticOptions small_scene(int frames = 3) {
-  SyntheticOptions options;
-  options.frames = frames;
-  options.width = 64;
-  options.height = 40;
-  options.focal = 36;
-  options.supersampling = 2;
-  return options;
-}
+SyntheticOptions small_scene(int frames = 3) { return rendering(64, 40, 36, frames, 2); }
 
 /// Reads all frames and compares them with the renderer's. \returns the number of frames that had to be rendered
 int rendered_frames(const SyntheticOptions& options, const std::string& folder,

@@ -1,16 +1,8 @@
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
-
 #include "dataset_files.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/trajectory.hpp"
-#include "temporary_folder.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-using dataset_files::write_text;
 
 namespace {
 
@@ -28,7 +20,7 @@ Trajectory winding(int count) {
 
 }  // namespace
 
-TEST_CASE("trajectory: a TUM file keeps timestamps to the nanosecond and poses up to rounding", "[trajectory]") {
+TEST_CASE("trajectory: a TUM file keeps timestamps to the nanosecond and poses up to rounding") {
   const TemporaryFolder folder;
   const Trajectory written = winding(12);
   write_tum(folder / "t.txt", written);
@@ -42,7 +34,7 @@ TEST_CASE("trajectory: a TUM file keeps timestamps to the nanosecond and poses u
   }
 }
 
-TEST_CASE("trajectory: a TUM file keeps the segments in comments", "[trajectory]") {
+TEST_CASE("trajectory: a TUM file keeps the segments in comments") {
   const TemporaryFolder folder;
   Trajectory written = winding(6);
   for (std::size_t i = 2; i < 6; ++i) written[i].segment = i < 5 ? 1 : 4;
@@ -64,24 +56,7 @@ TEST_CASE("trajectory: a TUM file keeps the segments in comments", "[trajectory]
   CHECK_THROWS_WITH(read_tum(folder / "c.txt"), Contains("c.txt:4: found segment 2 after segment 2"));
 }
 
-TEST_CASE("trajectory: split into its segments", "[trajectory]") {
-  Trajectory poses(5);
-  const int segments[] = {0, 0, 2, 2, 3};
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    poses[i].stamp_ns = static_cast<std::int64_t>(i);
-    poses[i].segment = segments[i];
-  }
-  const auto parts = split_segments(poses);
-  REQUIRE(parts.size() == 3);
-  CHECK(parts[0].size() == 2);
-  CHECK(parts[1].size() == 2);
-  CHECK(parts[1][0].stamp_ns == 2);
-  CHECK(parts[2].size() == 1);
-  CHECK(parts[2][0].segment == 3);
-  CHECK(split_segments({}).empty());
-}
-
-TEST_CASE("trajectory: a KITTI file keeps the matrices", "[trajectory]") {
+TEST_CASE("trajectory: a KITTI file keeps the matrices") {
   const TemporaryFolder folder;
   const Trajectory written = winding(5);
   write_kitti(folder / "k.txt", written);
@@ -94,7 +69,7 @@ TEST_CASE("trajectory: a KITTI file keeps the matrices", "[trajectory]") {
   CHECK_THROWS_WITH(read_kitti(folder / "k.txt", {5, 6}), Contains("5 poses") && Contains("2"));
 }
 
-TEST_CASE("trajectory: timestamps are decimal numbers, not doubles", "[trajectory]") {
+TEST_CASE("trajectory: timestamps are decimal numbers, not doubles") {
   const TemporaryFolder folder;
   write_text(folder / "t.txt",
              "# comment\r\n-1.5 0 0 0 0 0 0 1\r\n0.0000000014 0 0 0 0 0 0 1\n0.0000000015 0 0 0 0 0 0 1\n"
@@ -111,7 +86,7 @@ TEST_CASE("trajectory: timestamps are decimal numbers, not doubles", "[trajector
   CHECK_THAT(read_text(folder / "n.txt"), Contains("\n-0.000000001 0"));
 }
 
-TEST_CASE("trajectory: the file format follows from the number of columns", "[trajectory]") {
+TEST_CASE("trajectory: the file format follows from the number of columns") {
   const TemporaryFolder folder;
   write_tum(folder / "t.txt", winding(3));
   write_kitti(folder / "k.txt", winding(3));
@@ -124,7 +99,7 @@ TEST_CASE("trajectory: the file format follows from the number of columns", "[tr
   CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"), Contains("no pose"));
 }
 
-TEST_CASE("trajectory: errors about bad rows name the file and the line", "[trajectory]") {
+TEST_CASE("trajectory: errors about bad rows name the file and the line") {
   const TemporaryFolder folder;
   const std::string good = "1 0 0 0 0 0 0 1\n", file = folder / "t.txt";
   const auto fault = [&](const std::string& row, const std::string& found) {
@@ -142,7 +117,7 @@ TEST_CASE("trajectory: errors about bad rows name the file and the line", "[traj
   CHECK_THROWS_WITH(read_kitti(file), StartsWith(file + ":2") && Contains("not a rotation"));
 }
 
-TEST_CASE("trajectory: a failed write is an error and leaves the old file unchanged", "[trajectory]") {
+TEST_CASE("trajectory: a failed write is an error and leaves the old file unchanged") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(write_tum(folder / "absent/t.txt", winding(2)),
                     Contains("absent/t.txt") && Contains("No such file"));
@@ -161,7 +136,7 @@ TEST_CASE("trajectory: a failed write is an error and leaves the old file unchan
   CHECK_THROWS_AS(write_tum(folder / "taken", winding(2)), DataError);
 }
 
-TEST_CASE("trajectory: CSV files of EuRoC, TUM-VI and VINS-Fusion, and ORB-SLAM3's nanoseconds", "[trajectory]") {
+TEST_CASE("trajectory: CSV files of EuRoC, TUM-VI and VINS-Fusion, and ORB-SLAM3's nanoseconds") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
     std::ofstream(folder / "file") << text;
