@@ -43,7 +43,7 @@ MOST_LINES = {
     "python": 10580,
     "ros2": 90,
     "scripts": 2265,
-    "tests": 34143,
+    "tests": 31761,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.
