@@ -4,9 +4,8 @@
 // Needs edge_detection.cl. In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or, with
 // AT_PIXELS, of edge_detection_tile.cl (flags over the image), which it thins out in place. An image's epipolar lines
 // are numbered by EpipolarRows in the same way in both images, so that an edge and its counterpart are kept together.
-// First the maxima of both images are weighed by their number of edges at a spacing of 1 px, then the spacing is
-// computed from the budget, then the maxima are selected. All sums are integers, so their order does not matter.
-// Reference: host/workbench/reference/edge_detection.cpp.
+// The maxima of both images are weighed by their number of edges at a spacing of 1 px, which determines the spacing.
+// All sums are integers, so their order does not matter. Reference: host/workbench/reference/edge_detection.cpp.
 
 // The functions below for one maximum and for sixteen, with the same operations: T is float or float16, I int or int16.
 // crossing: the number of the epipolar line of a maximum; step: its difference between neighbouring maxima of the
@@ -72,11 +71,9 @@ DEFINE_LATTICE(float, int, )
 DEFINE_LATTICE(float16, int16, 16)
 #endif
 
-// spacing[0] = distance of the lattice's lines at which the image with more edges has about `budget` of them, but no
-// larger than `most` unless it then has kDenseBudget times that number [px]; 0: all maxima are kept. The tally starts
-// anew. One work-item.
+// spacing[0] = distance of the lattice's lines [px] by edges.budget and edges.max_spacing (`most`); 0: all maxima are
+// kept. The tally starts anew. One work-item.
 kernel void edge_selection_spacing(const int budget, const float most, global int* tally, global float* spacing) {
-  if (get_global_id(0) > 0) return;
   const float even = (float)max(tally[0], tally[1]) / ((float)kSelectionUnit / kSelectionSample * (float)budget);
   const float wanted = max(min(even, most), even / kDenseBudget);
   spacing[0] = wanted > kClosestSelection ? rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0f;

@@ -91,12 +91,10 @@ TEST_CASE("limits: memory_fit keeps what fits and refuses images that fill the m
   CHECK_THAT(fit.message, Contains("512 MB") && Contains("59084 edges per image"));
   config.edges.budget = 100000;
   CHECK_THAT(frontend::fit_memory(rig, config, 512'000'000).message, Contains("edges.budget (100000) is reduced"));
-  // 0.75 * 512 MB - 16 MB - 160 B * 453,620 - 5000 B * 50,000 leave 45,420,800 B
-  config.edges.budget = 50000;
-  CHECK_FALSE(frontend::fits_beside(rig, config, 1, 512'000'000));  // dense textures have up to 87,500 edges
-  config.edges.max_spacing = 0;
-  CHECK(frontend::fits_beside(rig, config, 45'420'800, 512'000'000));
-  CHECK_FALSE(frontend::fits_beside(rig, config, 45'420'801, 512'000'000));
+  // 0.75 * 512 MB - 16 MB - 160 B * 453,620 - 1.75 * 5000 B * 24,000 leave 85,420,800 B
+  config.edges.budget = 24000;
+  CHECK(frontend::fits_beside(rig, config, 85'420'800, 512'000'000));
+  CHECK_FALSE(frontend::fits_beside(rig, config, 85'420'801, 512'000'000));
   rig.left.width = rig.left.height = 2000;
   CHECK_THROWS_WITH(frontend::fit_memory(rig, config, 512'000'000), Contains("2000x2000") && Contains("656 MB"));
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "common/layouts.hpp"
@@ -101,11 +100,6 @@ struct ThresholdLimits {
   double per_noise;  ///< per grey level of the noise's standard deviation
   double per_step;   ///< per grey level between adjacent values of the recorded image
 };
-
-/// Distance of edges of a curve up to which the budget holds [px].
-inline float largest_spacing(const EdgesConfig& config) {
-  return config.max_spacing > 0 ? static_cast<float>(config.max_spacing) : std::numeric_limits<float>::max();
-}
 
 /// White noise of standard deviation 1 has gradients of 1 / (sqrt(8 pi) sigma^2) along either axis; a step of height 1
 /// has a gradient of 1 / (sqrt(2 pi) sigma).

@@ -181,7 +181,7 @@ void EdgeMask::run(EdgeMaxima& maxima) {
 EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const EdgeMaxima& maxima)
     : context_(context),
       budget_(config.budget),
-      most_(largest_spacing(config)),
+      most_(static_cast<float>(config.max_spacing)),
       local_size_(context.is_cpu() ? 1 : 64),
       weighing_group_(std::min<std::size_t>(64, context.limits().group_items)) {
   spacing_.write(context, {0.0F});

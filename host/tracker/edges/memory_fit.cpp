@@ -36,7 +36,7 @@ double bytes_for_edges(const StereoRig& rig, const Config& config, std::size_t m
 }
 
 double wanted_edges(const StereoRig& rig, const EdgesConfig& edges) {
-  const double most = edges.max_spacing > 0 ? static_cast<double>(kDenseBudget) * edges.budget : edges.budget;
+  const double most = kDenseBudget * static_cast<float>(edges.budget);
   return std::min<double>(edges.max_edges, edges.budget == 0 ? kEdgesPerPixel * pixels(rig) : most);
 }
 
@@ -54,7 +54,7 @@ MemoryFit fit_memory(const StereoRig& rig, const Config& config, std::size_t mem
   }
   const int budget = static_cast<int>(room);
   fit.config.edges.budget = budget;
-  fit.config.edges.max_spacing = 0;
+  fit.config.edges.max_spacing = 1000;  // never more
   fit.config.edges.max_edges = std::min(config.edges.max_edges, config.is_paper() ? budget : 2 * budget);
   fit.message =
       "the device memory of " + megabytes(static_cast<double>(memory_bytes)) + " holds about " +

@@ -420,7 +420,7 @@ float selection_spacing(const SelectionArguments& left_arguments, const Gradient
   const double most = std::max(weight_of_all(left_arguments, left), weight_of_all(right_arguments, right));
   const float even =
       static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(config.budget));
-  const float wanted = std::max(std::min(even, largest_spacing(config)), even / kDenseBudget);
+  const float wanted = std::max(std::min(even, static_cast<float>(config.max_spacing)), even / kDenseBudget);
   return wanted > kClosestSelection ? std::rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0F;
 }
 
@@ -432,10 +432,8 @@ std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments,
     const Crossing at = crossing(arguments, maxima, i);
     const bool searched = arguments.slack > 1.0F;
     bool chosen = meets(at, spacing * density_of(at.sine), searched ? kSearchedWidth : 1.0F);
-    if (searched) {
-      for (const float sine : {at.sine * arguments.slack, at.sine / arguments.slack})
-        chosen = chosen || meets(at, spacing * density_of(sine), kSearchedWidth);
-    }
+    for (const float sine : {at.sine * arguments.slack, at.sine / arguments.slack})
+      chosen = chosen || (searched && meets(at, spacing * density_of(sine), kSearchedWidth));
     kept[i] = at.sine >= arguments.min_sine && chosen ? 1 : 0;
   }
   return kept;
