@@ -2,8 +2,9 @@
 
 Peers run on the same machine in the same call, on pairs that OpenCV has rectified (alpha 0); their poses are turned
 back to the recorded left camera. QuadEdge gets the recording as it is. With "learned rig", each half of a recording is
-tracked with the calibration that `quadedge calibrate` learned from the other half. A peer that is not given is left
-out, one that fails is named with the reason. A recording that is missing keeps what evidence.json has.
+tracked with the calibration that `quadedge calibrate` learned from the other half. A peer that fails is named with the
+reason. Of a peer that is not given, and of a recording that is missing, what evidence.json has is kept; times of such a
+peer are not, since those of a table are of one machine.
 """
 
 import json
@@ -229,7 +230,9 @@ def measure_recordings(programs):
         if not (options.recordings / name).is_dir():
             continue
         recording = Recording(name, options.recordings / name, options.work / "evidence" / name)
-        rows = [row for row in rows if row["recording"] != name]
+        rows = [row for row in rows if row["recording"] != name or row["system"] not in systems]
+        for run in (run for row in rows if row["recording"] == name for run in row["runs"]):
+            run.pop("latency_ms", None), run.pop("processor_s", None)
         for system in systems:
             if "learned" in system and len(recording.stamps) <= HALVES.get(name, math.inf):
                 continue
