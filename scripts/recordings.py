@@ -1,10 +1,9 @@
 """Errors of QuadEdge and of other systems on whole recordings (scripts/measure.py --only evidence).
 
-Peers run on the same machine in the same call, on pairs that OpenCV has rectified (alpha 0); their poses are turned
-back to the recorded left camera. QuadEdge gets the recording as it is. With "learned rig", each half of a recording is
-tracked with the calibration that `quadedge calibrate` learned from the other half. A peer that fails is named with the
-reason. Of a peer that is not given, and of a recording that is missing, what evidence.json has is kept; times of such a
-peer are not, since those of a table are of one machine.
+Peers run in the same call, on pairs that OpenCV has rectified (alpha 0); their poses are turned back to the recorded
+left camera. QuadEdge gets the recording as it is, with "learned rig" each half of it with the calibration that
+`quadedge calibrate` learned from the other half. A peer that fails is named with the reason; one that is not given
+keeps what evidence.json has but the times of its machine, a recording that is missing keeps everything.
 """
 
 import json
@@ -16,9 +15,8 @@ import sys
 
 from harness import REPOSITORY, Problem, commit, positions, report
 
-# Name, official name, lengths of sub-paths [m], source, features of ORB-SLAM3's own settings. The truth of Karlsruhe
-# has no orientation that could be used, so only its length is compared, with that of the inertial system's positions at
-# the frames [m] in path_length.txt.
+# Name, official name, lengths of sub-paths [m], source, features of ORB-SLAM3's own settings. Karlsruhe's truth has no
+# usable orientation: its length is compared with that of the inertial system's positions [m] in path_length.txt.
 RECORDINGS = {
     "street": ("KITTI street", "KITTI raw, 2011_09_26, 14:05, unrectified cameras 0 and 1", (10, 20, 50, 100, 200),
                "https://www.cvlibs.net/datasets/kitti/raw_data.php", 2000),
@@ -46,8 +44,7 @@ class Recording:
 
     def __init__(self, name, folder, work, frames=slice(None), rig=None):
         self.name, self.folder, self.work, self.frames, self.rig = name, folder, work, frames, rig
-        self.pairs = work / "rectified"
-        self.rotation = None  # rectified_from_left, if the images had to be rectified
+        self.pairs, self.rotation = work / "rectified", None  # rectified_from_left, if images had to be rectified
         truth, length = folder / "truth.txt", folder / "path_length.txt"
         self.truth = truth if truth.exists() else None
         self.true_length = float(length.read_text(encoding="ascii")) if length.exists() else None
@@ -231,7 +228,7 @@ def measure_recordings(programs):
             continue
         recording = Recording(name, options.recordings / name, options.work / "evidence" / name)
         rows = [row for row in rows if row["recording"] != name or row["system"] not in systems]
-        for run in (run for row in rows if row["recording"] == name for run in row["runs"]):
+        for run in sum((row["runs"] for row in rows if row["recording"] == name), []):
             run.pop("latency_ms", None), run.pop("processor_s", None)
         for system in systems:
             if "learned" in system and len(recording.stamps) <= HALVES.get(name, math.inf):

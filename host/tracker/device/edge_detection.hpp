@@ -130,9 +130,8 @@ class EdgeMask {
   opencl::Kernel<void(cl_int pixels, const cl_uchar* mask, cl_uchar* flags)> pixels_;
 };
 
-/// Stage 2c: which maxima become edges.
-/// Reduces the maxima of a stereo pair to about edges.budget per image, or more (edges.max_spacing): those where curves cross evenly spaced epipolar
-/// lines. The spacing stays on the device, so the host does not wait.
+/// Stage 2c: which maxima become edges: about edges.budget per image, or more (edges.max_spacing), where curves cross
+/// evenly spaced epipolar lines. The spacing stays on the device, so the host does not wait.
 class EdgeSelection {
  public:
   /// \param maxima the argument of later calls of run()

@@ -418,8 +418,7 @@ float selection_spacing(const SelectionArguments& left_arguments, const Gradient
                         const SelectionArguments& right_arguments, const GradientMaxima& right,
                         const EdgesConfig& config) {
   const double most = std::max(weight_of_all(left_arguments, left), weight_of_all(right_arguments, right));
-  const float even =
-      static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(config.budget));
+  const float even = static_cast<float>(most) / (float{kSelectionUnit} * static_cast<float>(config.budget));
   const float wanted = std::max(std::min(even, static_cast<float>(config.max_spacing)), even / kDenseBudget);
   return wanted > kClosestSelection ? std::rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0F;
 }

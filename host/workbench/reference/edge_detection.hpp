@@ -125,7 +125,8 @@ GradientMaxima maxima_of(const ReferenceEdges& edges);
 
 /// Distance of the lattice's lines by edges.budget and edges.max_spacing [px]; 0: all maxima of both images are kept.
 float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
-                        const SelectionArguments& right_arguments, const GradientMaxima& right, const EdgesConfig& config);
+                        const SelectionArguments& right_arguments, const GradientMaxima& right,
+                        const EdgesConfig& config);
 
 /// Which maxima of an image become edges, one flag each.
 std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments, const GradientMaxima& maxima,
