@@ -95,7 +95,7 @@ void SharedLens::add(const StereoRig& rig, const pose::ScoringArrays& quads, con
   if (Eigen::AngleAxisd(current_from_base.linear()).angle() < kLensTurn || turns_++ % kLensEvery != 0) return;
   if (error().sigma[0] < kSettledFocal) return;
   const auto inliers = static_cast<std::size_t>(std::count(inlier.begin(), inlier.end(), 1));
-  const std::size_t every = inliers / kLensQuads + 1;
+  const std::size_t every = inliers / (2 * kLensQuads) + 1;
   const QuadProjection projection(rig, quads, current_from_base);
   rows_.clear();
   std::size_t seen = 0;

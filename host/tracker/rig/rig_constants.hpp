@@ -126,7 +126,7 @@ constexpr double kUnevenBrightness = 1.5, kUnevenSaturation = 0.15;
 // Lens errors that both cameras share (shared_lens.cpp).
 
 /// A motion that turns by this [rad] counts, every kLensEvery-th of them, since successive ones share their edges;
-/// quads of it that are looked at, about.
+/// quads of it that are looked at, about twice as many, and rows that are needed.
 constexpr double kLensTurn = 0.005;
 constexpr int kLensEvery = 3;
 constexpr std::size_t kLensQuads = 150;

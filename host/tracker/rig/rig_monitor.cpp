@@ -71,7 +71,7 @@ Warning late_camera(double frames) {
 }  // namespace
 
 RigMonitor::RigMonitor(const StereoRig& rig, bool auto_mask)
-    : rig_(rig), auto_mask_(auto_mask), corner_matcher_(rig), times_(rig.right, kTimeMemory) {}
+    : rig_(rig), auto_mask_(auto_mask), corner_matcher_(rig), times_(rig.left, kTimeMemory) {}
 
 std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
@@ -189,6 +189,7 @@ void RigMonitor::judge_time(const std::vector<CornerMatch>& found, RigReport& re
     if (!match.is_aligned || !match.is_unique || !match.motion) continue;
     motions.push_back(match.motion->norm());
     moved.push_back(match);
+    moved.back().right = match.left;  // where the motion is known
   }
   const double motion = motions.empty() ? RigEvidence::kUnknown : upper_median(motions);
   if (motion > kMinImageMotion) times_.add(moved);
@@ -209,6 +210,7 @@ std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& cu
     const Eigen::Vector3d last =
         last_from_current.linear() * rig_.left.ray(match.left) + last_from_current.translation() * match.inverse_depth;
     if (last.z() > 0) match.motion = match.left - rig_.left.project(last);
+    match.right = match.left;
   }
   const auto stands = [](const CornerMatch& match) { return !match.motion; };
   matches.erase(std::remove_if(matches.begin(), matches.end(), stands), matches.end());

@@ -36,7 +36,7 @@ class RigMonitor {
   /// Adds the image motion of the frame passed to judge() since the last one; reports a camera that seems to lag.
   std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);
   /// The distances from the lines that were seen so far are those of another rig.
-  void forget_motions() { times_ = RowModel(rig_.right, kTimeMemory); }
+  void forget_motions() { times_ = RowModel(rig_.left, kTimeMemory); }
 
   /// Checks a single frame without edges, as `quadedge check` does. \param max_disparity of the cascade [px]
   static RigReport examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity);
