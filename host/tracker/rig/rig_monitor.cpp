@@ -205,19 +205,17 @@ void RigMonitor::judge_time(const std::vector<CornerMatch>& found, RigReport& re
 std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& current_from_last) {
   if (searched_ && doubts_time(*searched_)) return std::nullopt;  // edges then lie where matches were looked for
   const Eigen::Isometry3d last_from_current = current_from_last.inverse();
-  std::vector<CornerMatch>& matches = corner_matches_;
-  for (CornerMatch& match : matches) {
+  for (CornerMatch& match : corner_matches_) {
     const Eigen::Vector3d last =
         last_from_current.linear() * rig_.left.ray(match.left) + last_from_current.translation() * match.inverse_depth;
     if (last.z() > 0) match.motion = match.left - rig_.left.project(last);
     match.right = match.left;
   }
   const auto stands = [](const CornerMatch& match) { return !match.motion; };
-  matches.erase(std::remove_if(matches.begin(), matches.end(), stands), matches.end());
-  times_.add(matches);
-  const double time_offset = times_.delay();
-  if (time_offset == 0) return std::nullopt;
-  return RigFinding{late_camera(time_offset)};
+  corner_matches_.erase(std::remove_if(corner_matches_.begin(), corner_matches_.end(), stands), corner_matches_.end());
+  times_.add(corner_matches_);
+  const double late = times_.delay();
+  return late == 0 ? std::nullopt : std::optional(RigFinding{late_camera(late)});
 }
 
 RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
