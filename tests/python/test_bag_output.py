@@ -38,7 +38,7 @@ def made_up_result(stamp: int, **values):
 
 def test_odometry_of_ambiguous_frames_is_unknown_or_withheld(boarded, tmp_path):
     room, pairs = boarded
-    with quadedge.Odometry(room, preset="fast") as odometry:
+    with quadedge.Odometry(room) as odometry:
         files = quadedge.ResultFiles(tmp_path / "run", odometry, "room")
         results = [odometry.track(100 * number, *pair) for number, pair in enumerate(pairs)]
         for result in results:

@@ -40,9 +40,9 @@ def play_pairs(robot, pairs, first_stamp: int) -> list[int]:
 def test_pairs_with_an_ambiguous_motion(withheld, boarded, tmp_path):
     room, pairs = boarded
     with Robot(room.rig) as robot:
-        robot.start(tmp_path, "--cloud", *["--withhold-ambiguous"] * withheld)
+        robot.start(tmp_path, "--preset", "default", "--cloud", *["--withhold-ambiguous"] * withheld)
         stamps = play_pairs(robot, pairs, SECOND)
-        with quadedge.Odometry(robot.stated_rig, preset="fast") as odometry:
+        with quadedge.Odometry(robot.stated_rig) as odometry:
             results = [odometry.track(stamp, *pair) for stamp, pair in zip(stamps, pairs)]
         flagged = {result.stamp_ns for result in results if result.ambiguous_motion}
         assert len(flagged) >= 2 and all(result.is_tracked for result in results)
