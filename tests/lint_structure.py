@@ -30,7 +30,7 @@ MOST_LINES = {
     "host/tracker/places": 2305,
     "host/tracker/rig": 4118,
     "host/workbench/benchmark": 1085,
-    "host/workbench/cli": 4300,
+    "host/workbench/cli": 4332,
     "host/workbench/data": 5955,
     "host/workbench/data/calibrations": 2143,
     "host/workbench/oracle": 437,

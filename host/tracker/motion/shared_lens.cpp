@@ -95,13 +95,13 @@ void SharedLens::add(const StereoRig& rig, const pose::ScoringArrays& quads, con
   if (Eigen::AngleAxisd(current_from_base.linear()).angle() < kLensTurn || turns_++ % kLensEvery != 0) return;
   if (error().sigma[0] < kSettledFocal) return;
   const auto inliers = static_cast<std::size_t>(std::count(inlier.begin(), inlier.end(), 1));
-  const std::size_t every = inliers / (2 * kLensQuads) + 1;
+  const std::size_t every = inliers / kLensQuads + 1;
   const QuadProjection projection(rig, quads, current_from_base);
   rows_.clear();
   std::size_t seen = 0;
   for (std::size_t q = 0; q < quads.size(); ++q)
     if (inlier[q] != 0 && seen++ % every == 0) projection.add(q, rows_);
-  if (rows_.size() < kLensQuads) return;
+  if (rows_.size() < kLensRows) return;
   fit_.terms.setZero();
   Fit::Matrix prior = Fit::Matrix::Zero();
   prior.bottomRightCorner<kShared, kShared>() = information_before();

@@ -126,10 +126,10 @@ constexpr double kUnevenBrightness = 1.5, kUnevenSaturation = 0.15;
 // Lens errors that both cameras share (shared_lens.cpp).
 
 /// A motion that turns by this [rad] counts, every kLensEvery-th of them, since successive ones share their edges;
-/// quads of it that are looked at, about twice as many, and rows that are needed.
+/// quads of it that are looked at, about, and the least number of their rows.
 constexpr double kLensTurn = 0.005;
 constexpr int kLensEvery = 3;
-constexpr std::size_t kLensQuads = 150;
+constexpr std::size_t kLensQuads = 300, kLensRows = 150;
 /// Noise of an edge across itself, and of a disparity [px].
 constexpr double kLensEdgeSigma = 0.12, kLensDisparitySigma = 0.2;
 /// How far focal lengths (as a part) and k1 may be off, as standard deviations, before anything is known.

@@ -1,9 +1,10 @@
 /// \file command_calibrate.cpp  quadedge calibrate: the calibration of a rig, learned from a recording with it.
 #include <cstdio>
 
-#include "cli/calibration.hpp"
+#include "cli/calibration_export.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/rig_learning.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "output/calibration_report.hpp"

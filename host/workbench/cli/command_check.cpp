@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "cli/calibration.hpp"
+#include "cli/calibration_check.hpp"
+#include "cli/calibration_export.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/source_options.hpp"

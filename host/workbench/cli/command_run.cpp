@@ -1,8 +1,8 @@
 /// \file command_run.cpp  quadedge run and demo: one recording, of a data set, of the user's cameras or built in, to a
 /// trajectory.
-#include "cli/calibration.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/rig_learning.hpp"
 #include "cli/sequence_run.hpp"
 #include "cli/source_options.hpp"
 #include "output/output_folder.hpp"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "cli/calibration.hpp"
+#include "cli/calibration_check.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 
