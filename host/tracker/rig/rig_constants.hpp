@@ -1,6 +1,6 @@
 #pragma once
-/// \file rig_constants.hpp  Constants that decide whether images fit the calibration (doc/method.md section 7,
-/// which lists what valid recordings have). No recording has needed to adjust them.
+/// \file rig_constants.hpp  Constants that decide whether images fit the calibration (doc/method.md section 7). No
+/// recording has needed to adjust them.
 
 #include <cstddef>
 
