@@ -168,7 +168,7 @@ TEST_CASE("odometry: images that do not fit the calibration are lost with a reas
   }
 }
 
-TEST_CASE("odometry: all warnings of one kind come with the first frame that has any") {
+TEST_CASE("odometry: all warnings of one kind come with the first frame that has any", "[device]") {
   // Only the left part of both images, so that both principal points lie outside.
   StereoRig cropped = room().rig;
   cropped.left.width = cropped.right.width = 110;

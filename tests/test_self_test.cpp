@@ -1,6 +1,5 @@
 /// \file test_self_test.cpp  The self-test: correct devices pass, faulty ones are reported.
 #include "device/stage.hpp"
-#include "device/variants.hpp"
 #include "edges/self_test_data.hpp"
 #include "program.hpp"
 #include "self_test_now.hpp"
@@ -68,10 +67,11 @@ TEST_CASE("self-test: a long loop reaches its end on every device", "[selftest][
   }
 }
 
-TEST_CASE("self-test: a driver that ends long loops early is reported, although small frames are right", "[selftest]") {
+TEST_CASE("self-test: a driver that ends long loops early is reported, although small frames are right",
+          "[selftest][device]") {
   const TemporaryFolder folder;
   copy_kernels(folder / "kernels", "long_loop.cl", "i < rounds", "i < min(rounds, 65535)");
-  DeviceOptions options;
+  DeviceOptions options = kept_programs();
   options.kernel_folder = folder / "kernels";
   Device device(all_devices().front(), options);
   const auto result = self_test(device);
@@ -95,7 +95,8 @@ TEST_CASE("self-test: a faulty device is refused with the stage's name, and --tr
   CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"verdict\": \"failed\""));
 }
 
-TEST_CASE("self-test: the verdict is cached and shown by `devices`, and a damaged one is ignored", "[selftest][cli]") {
+TEST_CASE("self-test: the verdict is cached and shown by `devices`, and a damaged one is ignored",
+          "[selftest][cli][device]") {
   const TemporaryFolder folder;
   const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
   const auto devices = [&] { return run_program({"devices"}, environment).out; };
@@ -150,7 +151,7 @@ TEST_CASE("self-test: where division is not rounded correctly, programs are buil
   limits.exact_divide_sqrt = GENERATE(true, false);
   const bool offered = list_devices().front().single_precision.exact_divide_sqrt;
   if (*limits.exact_divide_sqrt && !offered) return;  // the driver would refuse the option
-  Device device = opencl::open_limited("0", {}, limits);
+  Device device = opencl::open_limited("0", kept_programs(), limits);
   CHECK(device.info().single_precision.exact_divide_sqrt == *limits.exact_divide_sqrt);
   CHECK(self_test(device).passed());
   REQUIRE_FALSE(device.context()->programs().empty());
