@@ -2,7 +2,6 @@
 /// \file describing.hpp  Random edges and images on devices, shared by the tests of side patches and SIFT descriptors.
 
 #include "device/edge_descriptions.hpp"
-#include "device/variants.hpp"
 #include "reference/edge_descriptions.hpp"
 #include "stage_rows.hpp"
 

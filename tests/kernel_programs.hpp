@@ -3,7 +3,6 @@
 
 #include <CL/opencl.hpp>
 
-#include "device/context.hpp"
 #include "device/kernel_sources.hpp"
 #include "testing.hpp"
 

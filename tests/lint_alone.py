@@ -18,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from changed_files import changed_since_release, included_by
+from lint_tidy import flags_of
 
 
 def precompile(unit: dict, result: str) -> subprocess.CompletedProcess:
@@ -30,9 +31,7 @@ def precompile(unit: dict, result: str) -> subprocess.CompletedProcess:
             front = ["-include-pch", f"{header}.pch"]
         else:
             source, result = header, f"{header}.pch"
-    flags = [word for i, word in enumerate(command)
-             if word.startswith(("-D", "-I", "-std")) or word == "-isystem" or command[i - 1] == "-isystem"]
-    call = ["clang++", *flags, *front, "-w", "-x", "c++-header", str(source), "-o", result]
+    call = ["clang++", *flags_of(unit["command"]), *front, "-w", "-x", "c++-header", str(source), "-o", result]
     return subprocess.run(call, cwd=unit["directory"], capture_output=True, text=True, check=False)
 
 

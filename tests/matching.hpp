@@ -5,7 +5,6 @@
 #include "device/device_edges.hpp"
 #include "device/images.hpp"
 #include "device/stereo_matching.hpp"
-#include "device/variants.hpp"
 #include "reference/candidates.hpp"
 #include "stage_rows.hpp"
 

@@ -1,5 +1,4 @@
 /// \file test_device_limits.cpp  Simulated devices with tighter limits than the available ones.
-#include "device/variants.hpp"
 #include "edges/memory_fit.hpp"
 #include "frontends.hpp"
 

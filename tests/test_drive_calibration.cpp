@@ -1,8 +1,5 @@
 /// \file test_drive_calibration.cpp  A rig learned from a drive: from made-up points with every lens model, from
 /// rendered frames, and by the commands.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
 
 #include "dataset_files.hpp"
 #include "geometry/calibration.hpp"
@@ -10,9 +7,6 @@
 #include "matching.hpp"
 #include "output/calibration_report.hpp"
 #include "program.hpp"
-#include "quadedge/drive_calibration.hpp"
-#include "quadedge/error.hpp"
-#include "quadedge/synthetic.hpp"
 #include "rig/corner_flow.hpp"
 #include "rig/pair_adjustment.hpp"
 #include "rig/pair_collection.hpp"
@@ -79,31 +73,20 @@ double largest_displacement(const StereoCalibration& one, const StereoCalibratio
   return largest;
 }
 
+SyntheticOptions small_room(int frames) { return rendering(400, 208, 230, frames, 2); }
+
 /// The room from every fifth place of the path, small.
 const std::vector<StereoPair>& room_frames() {
   static const std::vector<StereoPair> frames = [] {
-    SyntheticOptions options;
-    options.width = 400;
-    options.height = 208;
-    options.focal = 230;
-    options.supersampling = 2;
-    options.frames = 64;
-    const SyntheticSequence sequence(options);
+    const SyntheticSequence sequence(small_room(64));
     std::vector<StereoPair> rendered;
-    for (int i = 0; i < options.frames; i += 5) rendered.push_back(sequence.pair(i));
+    for (int i = 0; i < sequence.frames(); i += 5) rendered.push_back(sequence.pair(i));
     return rendered;
   }();
   return frames;
 }
 
-StereoCalibration room_calibration() {
-  SyntheticOptions options;
-  options.width = 400;
-  options.height = 208;
-  options.focal = 230;
-  options.frames = 1;
-  return SyntheticSequence(options).calibration();
-}
+StereoCalibration room_calibration() { return SyntheticSequence(small_room(1)).calibration(); }
 
 DriveCalibration learned_in_room(const StereoCalibration& given) {
   DriveCalibrator calibrator(given, make_rig(given));

@@ -1,5 +1,4 @@
 #include "device/edge_detection.hpp"
-#include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
 #include "frontends.hpp"

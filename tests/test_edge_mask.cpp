@@ -1,6 +1,5 @@
 #include "common/images.hpp"
 #include "device/edge_detection.hpp"
-#include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "edges/common_view.hpp"
 #include "frontends.hpp"

@@ -1,18 +1,6 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "device/edge_detection.hpp"
-#include "device/variants.hpp"
-#include "devices.hpp"
 #include "edge_images.hpp"
 #include "geometry/epipolar_geometry.hpp"
-#include "quadedge/camera.hpp"
 #include "reference/edge_detection.hpp"
 
 using namespace quadedge;

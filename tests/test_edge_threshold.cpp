@@ -1,5 +1,4 @@
 #include "device/edge_detection.hpp"
-#include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "reference/edge_detection.hpp"
 #include "stage_rows.hpp"

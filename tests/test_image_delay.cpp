@@ -1,10 +1,5 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-
 #include "dataset_files.hpp"
 #include "frontends.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/odometry.hpp"
 #include "rig/image_delay.hpp"
 #include "rig/rig_monitor.hpp"
 

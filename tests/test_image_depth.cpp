@@ -1,5 +1,4 @@
 /// \file test_image_depth.cpp  Images of 12 and 16 bits, from single stages to the trajectory.
-#include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "frontends.hpp"
 

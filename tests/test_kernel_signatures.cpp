@@ -2,7 +2,6 @@
 /// groups that are too large for a kernel.
 #include "device/kernel.hpp"
 #include "device/stage.hpp"
-#include "device/variants.hpp"
 #include "frontends.hpp"
 #include "kernel_programs.hpp"
 

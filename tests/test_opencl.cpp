@@ -1,5 +1,4 @@
 #include "device/kernel.hpp"
-#include "device/variants.hpp"
 #include "testing.hpp"
 
 using namespace quadedge;

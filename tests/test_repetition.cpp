@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "scenes/reflectance.hpp"
 #include "scenes/render.hpp"
 #include "scenes/scenes.hpp"

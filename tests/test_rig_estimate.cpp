@@ -1,8 +1,3 @@
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "common/numeric.hpp"
 #include "frontends.hpp"
 #include "generated_quads.hpp"
@@ -10,11 +5,6 @@
 #include "geometry/oriented_point.hpp"
 #include "motion/latest_frame.hpp"
 #include "motion/motion_search.hpp"
-#include "quadedge/localiser.hpp"
-#include "quadedge/map.hpp"
-#include "quadedge/match_stereo.hpp"
-#include "quadedge/odometry.hpp"
-#include "quadedge/point_cloud.hpp"
 
 using namespace quadedge;
 using namespace matching;

@@ -1,9 +1,5 @@
-#include <catch2/catch.hpp>
-#include <random>
-
 #include "edge_images.hpp"
 #include "frontends.hpp"
-#include "quadedge/odometry.hpp"
 #include "rig/interlacing.hpp"
 #include "rig/rig_constants.hpp"
 #include "rig/rig_monitor.hpp"

@@ -1,13 +1,9 @@
 /// \file test_shared_lens.cpp  Lens errors that both cameras share, in made-up motions and in recordings.
-#include <catch2/catch.hpp>
 
 #include "dataset_files.hpp"
-#include "devices.hpp"
 #include "generated_quads.hpp"
 #include "motion/motion.hpp"
 #include "motion/shared_lens.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/odometry.hpp"
 #include "rig/rig_finding.hpp"
 
 using namespace quadedge;

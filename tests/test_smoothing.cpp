@@ -1,6 +1,5 @@
 #include "common/filter_limits.hpp"
 #include "device/images.hpp"
-#include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "edges/noise_gate.hpp"
 #include "frontends.hpp"

@@ -1,12 +1,7 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <random>
-
-#include "quadedge/camera.hpp"
-#include "quadedge/image.hpp"
 #include "rig/rig_constants.hpp"
 #include "rig/rig_finding.hpp"
 #include "rig/static_region.hpp"
+#include "testing.hpp"
 
 using namespace quadedge;
 using namespace quadedge::rig;

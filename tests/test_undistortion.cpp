@@ -1,5 +1,4 @@
 #include "device/images.hpp"
-#include "device/variants.hpp"
 #include "edge_images.hpp"
 #include "geometry/undistortion.hpp"
 #include "stage_rows.hpp"
