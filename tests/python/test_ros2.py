@@ -263,7 +263,7 @@ def fast_dds(tmp_path_factory):
     folder = tmp_path_factory.mktemp("fastdds")
     (folder / "Messages.idl").write_text(idl(KINDS) + TRIGGER)
     subprocess.run(["fastddsgen", "-replace", "Messages.idl"], cwd=folder, check=True, capture_output=True)
-    subprocess.run(["c++", "-std=c++17", "-O1", "-w", f"-I{folder}", Path(__file__).parent / "fastdds_side.cpp",
+    subprocess.run(["c++", "-std=c++17", "-w", f"-I{folder}", Path(__file__).parent / "fastdds_side.cpp",
                     "Messages.cxx", "MessagesPubSubTypes.cxx", "-lfastrtps", "-lfastcdr", "-o", "side"],
                    cwd=folder, check=True)  # fmt: skip
     return folder / "side"
