@@ -20,6 +20,10 @@ const std::vector<ProcessAttack> kProcessAttacks = {
     {"standard error is a full disk", "$QUADEDGE run $DATA -o $OUT --frames 0:2 2>/dev/full", 0, ""},
     {"results go to a full disk", "$QUADEDGE edges $DATA/rgb/0.000000000.png --csv /dev/full --force", 3, "/dev/full",
      false},
+    {"the trace goes to a full disk, and the results do not",
+     "$QUADEDGE run $DATA -o $OUT --frames 0:2 --trace /dev/full --force && exit 99; code=$?; "
+     "grep -q frames_tracked $OUT/report.json || exit 98; exit $code",
+     3, "/dev/full"},
     {"results go into a file", "touch $OUT; $QUADEDGE run $DATA -o $OUT", 3, "Not a directory", false},
     {"results go to an impossible folder", "$QUADEDGE run $DATA -o /dev/null/out", 3, "/dev/null", false},
     {"the size of files is limited, and the driver writes its kernels",

@@ -6,42 +6,6 @@
 using Catch::Matchers::Contains;
 using dataset_files::real_data;
 
-TEST_CASE("cli: the flight has the same trajectory with every calibration format", "[cli][device]") {
-  const std::string flight = real_data("euroc_mh_01_easy"), kalibr = real_data("calibrations");
-  if (flight.empty() || kalibr.empty()) return;
-  const TemporaryFolder folder;
-  const std::string sensors = flight + "/mav0/cam0/sensor.yaml," + flight + "/mav0/cam1/sensor.yaml";
-  const Words check = {"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"};
-  run_well(check);
-  check_error(check, 2, {"--force"});
-  calibration_files::Rig rig;
-  const auto body_from = [&](const char* camera) {
-    const std::string text = read_text(flight + "/mav0/" + camera + "/sensor.yaml"), from = "data: [";
-    const auto at = text.find(from) + from.size();
-    const auto values = calibration_files::values_of(text.substr(at, text.find(']', at) - at));
-    Eigen::Matrix4d matrix;
-    for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
-    return Eigen::Isometry3d(matrix);
-  };
-  rig.body_from_left = body_from("cam0");
-  rig.body_from_right = body_from("cam1");
-  calibration_files::write_opencv(rig, folder / "stereo.yml");
-  const auto infos = calibration_files::ros_camera_infos(rig);
-  write_text(folder / "left.yaml", infos.first);
-  write_text(folder / "right.yaml", infos.second);
-  const Words run = {"run", flight, "--frames", "0:8", "--quiet", "-o"};
-  const auto trajectory = [&](const std::string& name, const std::string& calibration) {
-    run_well(run + Words{folder / name} + (calibration.empty() ? Words() : Words{"--calibration", calibration}));
-    return read_text(folder / (name + "/poses.csv"));
-  };
-  const std::string expected = trajectory("layout", "");
-  CHECK(trajectory("euroc", sensors) == expected);
-  CHECK(trajectory("kalibr", kalibr + "/kalibr_euroc_mav.yaml") == expected);
-  CHECK(trajectory("opencv", folder / "stereo.yml") == expected);
-  CHECK(trajectory("ros", (folder / "left.yaml") + "," + (folder / "right.yaml")) == expected);
-  CHECK(trajectory("native", folder / "native.yaml") == expected);
-}
-
 TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with its exit code", "[cli]") {
   const TemporaryFolder folder;
   const std::string flight = dataset_files::write_euroc(folder / "flight");

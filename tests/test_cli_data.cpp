@@ -8,11 +8,6 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
-TEST_CASE("synth: writes a sequence that passes check", "[cli]") {
-  CHECK_THAT(run_well({"check", small_sequence()}).out,
-             Contains("eth3d-slam") && Contains("320") && Contains("200") && Contains("0 errors, 0 warnings"));
-}
-
 TEST_CASE("synth: refuses an existing folder without --force", "[cli]") {
   const TemporaryFolder folder;
   const Words synth = {"synth", folder / "s", "--frames", "1", "--size", "160x100", "--quiet"};

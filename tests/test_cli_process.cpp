@@ -1,6 +1,4 @@
 /// \file test_cli_process.cpp  The program as a process: closed streams, limits, permissions, and two at once.
-#include <nlohmann/json.hpp>
-
 #include "background_program.hpp"
 
 using Catch::Matchers::Contains;
@@ -74,13 +72,6 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
       CHECK_FALSE(fs::exists(folder / "out/trajectory.txt"));
     }
   }
-}
-
-TEST_CASE("process: the report is written even if the trace cannot be written", "[cli][device]") {
-  const TemporaryFolder folder;
-  check_error({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"}, 3,
-              {"/dev/full"});
-  CHECK(nlohmann::json::parse(read_text(folder / "out/report.json"))["frames_tracked"] == 1);
 }
 
 TEST_CASE("process: unreadable folders are recorded with code 3, and the others are processed", "[cli]") {

@@ -16,14 +16,6 @@ Words compare_arguments(const Words& more) {
   return Words{"compare", "--size", "160x100", "--edges", "0", "--repetitions", "1", "--quiet"} + more;
 }
 
-DeviceInfo made_up_device() {
-  DeviceInfo device;
-  device.name = "Device (R) 1";
-  device.platform = "Platform";
-  device.driver = "1.0";
-  return device;
-}
-
 /// Runs the small sequence with a folder of saved variants.
 ProgramResult run_with_saved(const std::string& configuration, const std::string& out, const Words& more = {}) {
   return run_program(Words{"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet"} + more,
@@ -126,20 +118,6 @@ TEST_CASE("compare: run refuses an invalid variants file, or another device's, b
   changed = good;
   changed["schema"] = 99;
   refused(changed.dump(), "99");
-}
-
-TEST_CASE("compare: variants files are read as they were written, and a missing one is empty") {
-  const TemporaryFolder folder;
-  const DeviceInfo device = made_up_device();
-  const std::string path = folder / ("new/" + bench::variants_file_name(device));
-  CHECK(bench::variants_file_name(device) == "variants-Device-R-1.json");
-  CHECK(bench::read_variants_file(path, device).empty());
-  const std::map<std::string, std::string> variants = {{"edge_detection", "tile64"}, {"sift", "edge"}};
-  bench::write_variants_file(path, device, variants);
-  CHECK(bench::read_variants_file(path, device) == variants);
-  DeviceInfo other = device;
-  other.platform = "another";
-  CHECK_THROWS_AS(bench::read_variants_file(path, other), UsageError);
 }
 
 TEST_CASE("compare: a variant with a different result is refused and never saved as the best", "[cli][device]") {

@@ -60,16 +60,6 @@ TEST_CASE("odometry: the C++ reference tracks too and agrees with the devices", 
   }
 }
 
-TEST_CASE("odometry: a repeated frame has not moved", "[device]") {
-  Tracker odometry;
-  odometry.track(room().frame(0));
-  for (int k = 0; k < 2; ++k) {
-    const auto result = odometry.track(room().frame(0));
-    CHECK(result.status == FrameStatus::tracked);
-    check_pose(result.world_from_left, Eigen::Isometry3d::Identity(), 1e-4, 1e-3);
-  }
-}
-
 TEST_CASE("odometry: one processor gives the same bytes as several", "[device]") {
   const RenderedScene off = room_with_rows_off_by(0.8);
   auto several = track(room(), all_devices().front(), room().config);

@@ -242,15 +242,6 @@ def test_results_and_rigs_can_be_pickled(room, frames, odometry, tmp_path):
     assert poses[0] == poses[1]
 
 
-def test_distorted_images_of_another_size_are_refused(tmp_path):
-    with quadedge.Odometry(distorted_rig(tmp_path)) as odometry:
-        with pytest.raises(quadedge.DataError, match="left image has 160x100 pixels, the calibration expects 320x200"):
-            odometry.track(0, LEFT[:100, :160], RIGHT)
-        with pytest.raises(quadedge.DataError, match="right image has 640x400 pixels, the calibration expects 320x200"):
-            odometry.track(0, LEFT, numpy.zeros((400, 640), numpy.uint8))
-        assert odometry.track(0, LEFT, RIGHT).reference_frame == -1
-
-
 def test_a_device_by_its_index(room):
     by_index = quadedge.Odometry(room, device=0)
     assert by_index.device.index == 0 and quadedge.Device(numpy.int64(0)).info.index == 0

@@ -150,15 +150,6 @@ def test_results_that_cannot_be_written_stop_no_odometry(robot, frames, tmp_path
     robot.end()
 
 
-def test_stamps_that_go_back_a_little(robot, frames, tmp_path):
-    robot.start(tmp_path)
-    stamp = robot.play(frames, 10 * SECOND)
-    for number in range(6):
-        robot.send(stamp - 300_000_000 + number * 50_000_000, frames[5].left, frames[5].right)
-        robot.listen(0.3)
-    robot.said("the stamps of /stereo/left/image_raw went back by 0.250 s")
-
-
 def test_a_mount_that_comes_late(robot, frames, tmp_path):
     robot.start(tmp_path)
     stamp = robot.play(frames[:3], SECOND)
