@@ -43,7 +43,7 @@ MOST_LINES = {
     "python": 10445,
     "ros2": 90,
     "scripts": 2191,
-    "tests": 31761,
+    "tests": 31534,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.
