@@ -118,4 +118,4 @@ TEST_CASE("constants: doc/configuration.md lists those of the program") {
   CHECK(page == configuration_page());
 }
 
-TEST_CASE("write doc/configuration.md") { write_text(kPage, configuration_page()); }
+TEST_CASE("write doc/configuration.md", "[.]") { write_text(kPage, configuration_page()); }
