@@ -17,7 +17,6 @@ from ..session import say_on_stderr
 from ..shell import exit_code
 from .counts import Tolerance
 from .document import document, summary
-from .drawing import drawings
 from .observer import observe
 from .sources import RecordedSource, RenderedSource
 
@@ -43,9 +42,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--scene-seed", type=int, default=7, help="seed of the built-in scenes")
     parser.add_argument("--tolerance", type=float, default=1.0,
                         help="largest distance of a veridical match from the true position [px]")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the tables and distributions as JSON")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the tables as JSON")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also write every table as CSV")
-    parser.add_argument("--html", type=Path, metavar="FILE", help="also make a page with tables, plots and drawings")
+    parser.add_argument("--html", type=Path, metavar="FILE", help="also make a page with tables and plots")
     parser.add_argument("--device", default=os.environ.get("QUADEDGE_DEVICE", "auto"),
                         help="as for `quadedge run`; also QUADEDGE_DEVICE")
     parser.add_argument("--preset", default="default", help="fast, default, dense, or paper: the paper's own method")
@@ -139,8 +138,7 @@ def _evaluate(options: argparse.Namespace, words: list[str]) -> None:
     _print("all" if len(results) > 1 else results[0].name, summary(results), sum(len(one.frames) for one in results))
     command = shlex.join([*NAME.split(), *sys.argv[1:]])
     content = document(results, device, config, options.paths, tolerance, command)
-    shown = enumerate(results) if options.html else ()
-    page = matching_page(content, {one.name: drawings(f"drawing_{number}", one, tolerance) for number, one in shown})
+    page = matching_page(content)
     try:
         if options.json:
             write_atomically(options.json, json.dumps(content, indent=2) + "\n")

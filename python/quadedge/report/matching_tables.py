@@ -111,19 +111,14 @@ def summary_tables(summary: dict, prefix: str = "") -> list[Table]:
     return tables
 
 
-def frame_counts(pairs: list[dict]) -> pandas.DataFrame:
-    """Numbers of every frame; those of matches in time only where there are any."""
+def count_table(pairs: list[dict]) -> Table:
+    """Numbers of edges, stereo edges, temporal matches and quads per frame, of these only where there are any."""
     frames = [frame for pair in pairs for frame in pair["counts"]]
     counts = pandas.DataFrame(frames, columns=list(QUANTITIES), dtype=float)
     counts.loc[~(counts["temporal_left"] > 0), IN_TIME] = None
-    return counts
-
-
-def count_table(pairs: list[dict]) -> Table:
-    """Numbers of edges, stereo edges, temporal matches and quads per frame."""
     columns = ("count", "mean", "std", "min", "50%", "max")
     table = Table("counts", "Counts of a frame", ["per frame", "frames", "mean", "std", "min", "median", "max"])
-    for key, row in frame_counts(pairs).describe().T.iterrows():
+    for key, row in counts.describe().T.iterrows():
         if row["count"]:
             table.add(QUANTITIES[key], *[_count(row[column]) for column in columns])
     return table
