@@ -342,11 +342,10 @@ MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::h
                    nb::handle right_mask) {
   const ImageArgument left_image(left, "the left image", self.max_value());
   const ImageArgument right_image(right, "the right image", self.max_value());
-  const auto hides_left = ImageArgument::mask(left_mask, "left_mask"),
-             hides_right = ImageArgument::mask(right_mask, "right_mask");
+  const ImageArgument hides_left = ImageArgument::mask(left_mask, "left_mask");
+  const ImageArgument hides_right = ImageArgument::mask(right_mask, "right_mask");
   const ReleasedGil released;
-  return self.track({stamp_ns, left_image.view(), right_image.view(), hides_left ? hides_left->view() : ImageView(),
-                     hides_right ? hides_right->view() : ImageView()});
+  return self.track({stamp_ns, left_image.view(), right_image.view(), hides_left.view(), hides_right.view()});
 }
 
 void bind_result_files(nb::module_& module) {

@@ -19,27 +19,25 @@ void call(const PythonTap& tap, const char* method, const Arguments&... argument
 
 const char* name_of(Side side) { return side == Side::left ? "left" : "right"; }
 
+template <class Filter, int size>
+void bind_filter(nb::module_& module, const char* name, const char* const (&names)[size], const char* help) {
+  static_assert(size == order_of(Filter::best) + 1);
+  nb::enum_<Filter> filter(module, name, nb::is_arithmetic(), help);
+  for (int order = 0; order < size; ++order) filter.value(names[order], static_cast<Filter>(order));
+  filter.def_prop_ro(
+      "title", [](Filter self) { return std::string(to_string(self)); }, "Name in tables.");
+}
+
 void bind_filters(nb::module_& module) {
-  const auto title = [](auto filter) { return std::string(to_string(filter)); };
-  nb::enum_<StereoFilter> stereo(module, "StereoFilter", nb::is_arithmetic(),
-                                 "Stereo cascade; the value is the row of Table 1.");
-  for (int order = 0; order <= order_of(StereoFilter::best); ++order) {
-    static constexpr const char* kNames[] = {
-        "baseline",         "epipolar_distance", "disparity",  "orientation", "sift",       "ncc", "nearly_best_ncc",
-        "nearly_best_sift", "refinement",        "similarity", "relaxation",  "one_to_one", "best"};
-    stereo.value(kNames[order], static_cast<StereoFilter>(order));
-  }
-  stereo.def_prop_ro(
-      "title", [title](StereoFilter self) { return title(self); }, "Name in tables.");
-  nb::enum_<TemporalFilter> temporal(module, "TemporalFilter", nb::is_arithmetic(),
-                                     "Temporal cascade; the value is the row of Table 2.");
-  for (int order = 0; order <= order_of(TemporalFilter::best); ++order) {
-    static constexpr const char* kNames[] = {"baseline",        "displacement",     "orientation", "ncc",       "sift",
-                                             "nearly_best_ncc", "nearly_best_sift", "refinement",  "agreement", "best"};
-    temporal.value(kNames[order], static_cast<TemporalFilter>(order));
-  }
-  temporal.def_prop_ro(
-      "title", [title](TemporalFilter self) { return title(self); }, "Name in tables.");
+  bind_filter<StereoFilter>(
+      module, "StereoFilter",
+      {"baseline", "epipolar_distance", "disparity", "orientation", "sift", "ncc", "nearly_best_ncc",
+       "nearly_best_sift", "refinement", "similarity", "relaxation", "one_to_one", "best"},
+      "Stereo cascade; the value is the row of Table 1.");
+  bind_filter<TemporalFilter>(module, "TemporalFilter",
+                              {"baseline", "displacement", "orientation", "ncc", "sift", "nearly_best_ncc",
+                               "nearly_best_sift", "refinement", "agreement", "best"},
+                              "Temporal cascade; the value is the row of Table 2.");
 }
 
 void bind_candidates(nb::module_& module) {
