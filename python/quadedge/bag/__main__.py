@@ -37,9 +37,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--restarts", action="store_true",
                         help="start a new segment of the trajectory where a stamp goes back: a clock was set, or a "
                              "simulation restarted")
-    parser.add_argument("--optical-axes", action="store_true",
-                        help="write odometry of the left camera with optical axes (x right, y down, z forward) instead "
-                             "of base_link with those of REP 103 (x forward, y left, z up)")
     parser.add_argument("--withhold-ambiguous", action="store_true",
                         help="write no odometry of frames with an ambiguous motion; by default with variances of 1e6")
     parser.add_argument("--device", help="auto, cpu, gpu, reference, an index, or a part of a name")
@@ -112,8 +109,7 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
     code = _run_program(recording, options, more)
     if code in (0, _TOO_FEW_TRACKED):
         shutil.rmtree(folder, ignore_errors=True)
-        file = write_mcap(folder, read_frames(options.output),
-                          optical_axes=options.optical_axes, withhold_ambiguous=options.withhold_ambiguous)
+        file = write_mcap(folder, read_frames(options.output), withhold_ambiguous=options.withhold_ambiguous)
         print(f"odometry   {file}")
     return code
 
