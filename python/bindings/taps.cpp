@@ -101,28 +101,26 @@ void bind_taps(nb::module_& module) {
       "exception, track() ends with it; call Odometry.restart() before the next frame.")
       .def(nb::init<>())
       .def(
-          "edges", [](PythonTap&, nb::handle, nb::handle) {}, "left"_a, "right"_a,
-          nb::sig("def edges(self, left: Edges, right: Edges) -> None"), "Called after edge detection of a frame.")
+          "edges", [](PythonTap&, const EdgeSet&, const EdgeSet&) {}, "left"_a, "right"_a,
+          "Called after edge detection of a frame.")
       .def(
-          "stereo_filter", [](PythonTap&, nb::handle, nb::handle) {}, "filter"_a, "candidates"_a,
-          nb::sig("def stereo_filter(self, filter: StereoFilter, candidates: Candidates) -> None"),
+          "stereo_filter", [](PythonTap&, StereoFilter, const CandidateLists&) {}, "filter"_a, "candidates"_a,
           "Called after every stereo filter between the baseline and the best. Rows are left edges, targets right "
           "edges.")
       .def(
-          "stereo", [](PythonTap&, nb::handle) {}, "edges"_a, nb::sig("def stereo(self, edges: StereoEdges) -> None"),
+          "stereo", [](PythonTap&, const StereoEdgesInSpace&) {}, "edges"_a,
           "Called with the final stereo edges of a frame. Their points follow the calibration, without the disparity\n"
           "offset that Odometry.edges() adds.")
       .def(
-          "temporal_search", [](PythonTap&, nb::handle) {}, "search"_a,
-          nb::sig("def temporal_search(self, search: Search) -> None"), "Called before every temporal search.")
+          "temporal_search", [](PythonTap&, const ObservedSearch&) {}, "search"_a,
+          "Called before every temporal search.")
       .def(
-          "temporal_filter", [](PythonTap&, nb::handle, const std::string&, nb::handle) {}, "filter"_a, "side"_a,
-          "candidates"_a,
-          nb::sig("def temporal_filter(self, filter: TemporalFilter, side: str, candidates: Candidates) -> None"),
+          "temporal_filter", [](PythonTap&, TemporalFilter, const std::string&, const CandidateLists&) {}, "filter"_a,
+          "side"_a, "candidates"_a,
           "Called after every filter of that search between the baseline and the best; side is \"left\" or \"right\".\n"
           "Row r is stereo edge r * step of the base; targets are current stereo edges.")
       .def(
-          "quads", [](PythonTap&, nb::handle) {}, "quads"_a, nb::sig("def quads(self, quads: Quads) -> None"),
+          "quads", [](PythonTap&, const Quads&) {}, "quads"_a,
           "Called with the quads of that search, whose ``inlier`` is empty.");
 }
 
