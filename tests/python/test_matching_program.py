@@ -89,9 +89,9 @@ def test_a_stricter_threshold_keeps_less_and_constants_are_checked():
     loose, strict = (quadedge.evaluate_matching(quadedge.synthetic("room", frames=1, width=320, height=200),
                                                 config={"stereo.ncc_min": value})["pooled"] for value in (0.3, 0.9))
     assert strict["stereo"][5]["kept"] < loose["stereo"][5]["kept"]
-    for words, message in ((("--stereo.ncc_min", "high"), "--stereo.ncc_min high: expected a number"),
+    for words, message in ((("--stereo.ncc_min", "high"), 'stereo.ncc_min: expected a number, found "high"'),
                            (("--stereo.ncc_mim", "0.5"), "did you mean 'stereo.ncc_min'"),
-                           (("--pose.refine", "1"), "--pose.refine 1: expected true or false"),
+                           (("--pose.refine", "1"), "pose.refine: expected true or false, found 1"),
                            (("--seed",), "--seed: expected --CONSTANT VALUE"),
                            (("--frames", "-1"), "--frames -1: expected 0 or more"),
                            (("--tolerance", "0"), "--tolerance: expected more than 0"),

@@ -5,6 +5,7 @@ import json
 import os
 import shlex
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from .. import configuration, open_dataset, synthetic
@@ -54,15 +55,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _constant(text: str, default, key: str):
-    """The value of an option, of the type of the constant's default. Raises UsageError."""
-    try:
-        if isinstance(default, bool):
-            return {"true": True, "false": False}[text]
-        return type(default)(text)
-    except (KeyError, ValueError):
-        kind = {bool: "true or false", int: "a whole number", float: "a number"}[type(default)]
-        raise UsageError(f"--{key} {text}: expected {kind}") from None
+def _value(text: str):
+    """A number, true or false, where the text is one; else the text."""
+    with suppress(ValueError):
+        return json.loads(text)
+    return text
 
 
 def configured(preset: str, file: str | None, words: list[str]) -> dict:
@@ -77,7 +74,7 @@ def configured(preset: str, file: str | None, words: list[str]) -> dict:
         if key == "variant":
             chosen.setdefault(key, list(values.get(key, []))).append(text)
         else:
-            chosen[key] = _constant(text, values[key], key) if key in values else text
+            chosen[key] = _value(text)
     return configuration(preset, values | chosen)
 
 
