@@ -11,6 +11,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+#include <type_traits>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
@@ -118,7 +119,7 @@ class Odometry {
   };
   /// Runs `work(Running&)` without any other work on the device. \throws UsageError after close().
   template <class Work>
-  auto alone(const Work& work) {
+  std::invoke_result_t<const Work&, Running&> alone(const Work& work) {
     const std::lock_guard<std::mutex> lock(in_use_);
     if (!running_) throw UsageError("the odometry is closed");
     return work(*running_);
@@ -135,7 +136,7 @@ class Odometry {
   std::mutex in_use_;
 };
 
-void bind_evidence(nb::module_& module) {
+void bind_counts(nb::module_& module) {
   nb::class_<FrameCounts>(module, "FrameCounts", "Numbers of edges and quads of one frame.")
       .def_ro("edges_left", &FrameCounts::edges_left, "Edges detected in the left image.")
       .def_ro("edges_right", &FrameCounts::edges_right, "Edges detected in the right image.")
@@ -145,20 +146,6 @@ void bind_evidence(nb::module_& module) {
       .def_ro("temporal_right", &FrameCounts::temporal_right, "The same in the right image.")
       .def_ro("quads", &FrameCounts::quads, "Stereo edges matched with those of the earlier frame.")
       .def_ro("inliers", &FrameCounts::inliers, "Quads that agree with the estimated motion.");
-  nb::class_<RigEvidence>(module, "RigEvidence",
-                          "How well one frame's images agree with the calibration; NaN where nothing could\n"
-                          "be measured.")
-      .def_ro("matched_ratio", &RigEvidence::matched_ratio, "Share of the left edges that have a stereo match, 0 to 1.")
-      .def_ro("epipolar_residual", &RigEvidence::epipolar_residual,
-              "Median distance of matched patches from their epipolar lines [px].")
-      .def_ro("epipolar_correction", &RigEvidence::epipolar_correction,
-              "Largest distance from the epipolar lines that the stereo search allowed for [px].")
-      .def_ro("searched_residual", &RigEvidence::searched_residual,
-              "Median distance from the epipolar line of corners searched for in a wide band around it [px];\n"
-              "measured in some frames only.")
-      .def_ro("found_ratio", &RigEvidence::found_ratio, "Share of these corners that were found, 0 to 1.")
-      .def_ro("on_line_ratio", &RigEvidence::on_line_ratio,
-              "Share of the found corners within 1 px of their epipolar line, 0 to 1.");
 }
 
 void bind_warning(nb::module_& module) {
@@ -217,13 +204,7 @@ void bind_diagnostics(nb::module_& module) {
             return std::tuple(box[0], box[1], box[2], box[3]);
           },
           "Bounds of the largest group of adjacent moving cells in the left image: left, top, right, bottom [px].\n"
-          "None without any.")
-      .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
-      .def_prop_ro(
-          "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
-          "(6, 11) float64: derivative of the pose in the frame of the keyframe with respect to the calibration "
-          "errors\n"
-          "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
+          "None without any.");
   def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,
                "(6, 6) float64: covariance, in the convention of ROS's PoseWithCovariance (x, y, z [m], then rotation\n"
                "about x, y, z [rad]), of the pose in the left camera frame of the keyframe, the inverse of\n"
@@ -373,7 +354,7 @@ constexpr const char* kOdometryHelp =
 
 /// LONG: one statement per member.
 void bind_odometry(nb::module_& module) {
-  bind_evidence(module);
+  bind_counts(module);
   bind_warning(module);
   bind_timing(module);
   bind_diagnostics(module);

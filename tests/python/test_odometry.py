@@ -64,7 +64,7 @@ def test_result_has_pose_and_covariance(room):
     assert second.counts.quads >= second.counts.inliers > 100
     assert second.timing.latency_ms > 0 and second.timing.stages
     assert second.predicted_world_from_left is None
-    assert second.diagnostics.base_frame == 0 and second.diagnostics.rig_evidence.matched_ratio > 0.3
+    assert second.diagnostics.base_frame == 0
 
 
 def test_the_covariance_of_the_motion_has_the_translation_first(room):
@@ -75,7 +75,6 @@ def test_the_covariance_of_the_motion_has_the_translation_first(room):
     turn = result.current_from_reference[:3, :3].T
     rotation = turn @ result.relative_covariance[3:, 3:] @ turn.T
     numpy.testing.assert_allclose(rotation, result.diagnostics.covariance_in_reference[3:, 3:], rtol=1e-9)
-    assert result.diagnostics.rig_sensitivity.shape == (6, 11)
 
 
 def test_warnings_have_a_kind_and_come_once(room, frames):

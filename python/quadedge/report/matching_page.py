@@ -3,7 +3,7 @@
 import numpy as np
 
 from .figure import Figure
-from .matching_tables import POOLS, count_table, overview_table, summary_tables
+from .matching_tables import POOLS, overview_table, summary_tables
 from .numbers import exists, percent, significant
 from .page import Facts, Figures, Page, Section, Tile
 from .run_tables import configuration_table, device_text, origin
@@ -28,7 +28,6 @@ def matching_page(content: dict) -> Page:
                                  explained="matching.md#terms"))
     for number, pair in enumerate(pairs if len(pairs) > 1 else []):
         page.sections.append(Section(f"Tables of {pair['name']}", summary_tables(pair, f"{number}_"), 3, fold=True))
-    page.sections.append(Section("Counts per frame", [count_table(pairs)]))
     page.sections.append(Section("Configuration", [configuration_table(content)], fold=True,
                                  explained="configuration.md"))
     return page
