@@ -6,10 +6,8 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy
 
@@ -51,21 +49,6 @@ def _pgm(image: numpy.ndarray) -> bytes:
     return b"P5\n%d %d\n%d\n" % (width, height, maximum) + image.astype(image.dtype.newbyteorder(">")).tobytes()
 
 
-@contextmanager
-def _input_of(process: subprocess.Popen) -> Iterator[BinaryIO]:
-    """The standard input of a program that may end early. Interrupts the program if the body fails."""
-    try:
-        with suppress(BrokenPipeError, KeyboardInterrupt):  # Ctrl-C reaches the program, too, which keeps its results
-            yield process.stdin
-    except Exception:
-        process.send_signal(signal.SIGINT)
-        raise
-    finally:
-        with suppress(BrokenPipeError):
-            process.stdin.close()
-        process.wait()
-
-
 def _run_program(recording: Recording, options: argparse.Namespace, more: list[str]) -> int:
     """Tracks the recording with `quadedge run` and returns its exit code."""
     with tempfile.TemporaryDirectory() as folder:
@@ -78,10 +61,18 @@ def _run_program(recording: Recording, options: argparse.Namespace, more: list[s
             if value := getattr(options, name):
                 command += [f"--{name}", value]
         process = subprocess.Popen(command, stdin=subprocess.PIPE)
-        with _input_of(process) as pipe:
+        try:
             for frame in recording:
-                pipe.write(_pgm(frame.left))
-                pipe.write(_pgm(frame.right))
+                process.stdin.write(_pgm(frame.left) + _pgm(frame.right))
+        except (BrokenPipeError, KeyboardInterrupt):  # it has ended; Ctrl-C reaches it, too, and it keeps its results
+            pass
+        except Exception:
+            process.send_signal(signal.SIGINT)
+            raise
+        finally:
+            with suppress(BrokenPipeError):
+                process.stdin.close()
+            process.wait()
         code = process.returncode
         return code if code >= 0 else 128 - code  # of a signal, as shells report it
 

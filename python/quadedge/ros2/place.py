@@ -4,18 +4,15 @@ from dataclasses import dataclass
 
 import numpy
 
-from ..estimates import Estimates, of_base
+from ..estimates import Estimate, Estimates, of_base
 from ..ros_messages import BODY_FROM_OPTICAL
 
 
 @dataclass
-class Placed:
-    """The base at the time of one tracked pair. What is None is not known."""
+class Placed(Estimate):
+    """The base at the time of one tracked pair, in odom."""
 
-    pose: numpy.ndarray  #: (4, 4) of the base in odom [m]
-    covariance: numpy.ndarray | None  #: (6, 6) of it [m, rad], along the axes of odom
-    twist: tuple[numpy.ndarray, numpy.ndarray] | None  #: (6) along the axes of the base [m/s, rad/s], and (6, 6)
-    map_from_odom: numpy.ndarray | None  #: (4, 4) [m]
+    map_from_odom: numpy.ndarray | None  #: (4, 4) [m]; None: not known
 
 
 class Place:
