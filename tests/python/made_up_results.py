@@ -135,4 +135,5 @@ def made_up_matching(names: list[str], frames: int) -> dict:
     """What `python -m quadedge.matching --json` writes of the named data sets of `frames` frames each."""
     return ORIGIN | {
         "device": DEVICE, "input": names, "tolerance_px": 1.0, "wrong_px": 10.0,
-        "pairs": [{"name": name, "frames": frames} | _summary() for name in names], "pooled": _summary()} | CONFIGURATION
+        "pairs": [{"name": name, "frames": frames} | _summary() for name in names],
+        "pooled": _summary()} | CONFIGURATION

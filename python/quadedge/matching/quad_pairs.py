@@ -47,9 +47,9 @@ def check_constraints(before: np.ndarray, now: np.ndarray) -> np.ndarray:
     crosses = [np.maximum(np.abs(a), np.abs(b)) < np.cos(np.radians(MIN_ANGLE))
                for a, b in ((first, first_now), (second, second_now))]
     informative = np.minimum(np.abs(determinant), np.abs(determinant_now)) > MIN_DETERMINANT
-    return np.stack([apart & (np.abs(length - length_now) < LENGTH * length), apart & (np.abs(first - first_now) < ANGLE),
-                     apart & (np.abs(second - second_now) < ANGLE), np.abs(tangents - tangents_now) < TANGENT,
-                     apart & (crosses[0] | crosses[1]),
+    return np.stack([apart & (np.abs(length - length_now) < LENGTH * length),
+                     apart & (np.abs(first - first_now) < ANGLE), apart & (np.abs(second - second_now) < ANGLE),
+                     np.abs(tangents - tangents_now) < TANGENT, apart & (crosses[0] | crosses[1]),
                      apart & (~informative | ((determinant > 0) == (determinant_now > 0)))])
 
 

@@ -36,7 +36,8 @@ def read_float_map(file: Path) -> np.ndarray:
                 raise ValueError(f"its pixels are of the mode {opened.mode}")
             return np.array(opened, np.float32)
     except (OSError, SyntaxError, ValueError) as problem:
-        raise DataError(f"{file}: {problem}, expected a PFM file of one float per pixel") from problem
+        reason = getattr(problem, "strerror", None) or problem
+        raise DataError(f"{file}: {reason}, expected a PFM file of one float per pixel") from problem
 
 
 def _check_size(values: np.ndarray, camera, file: Path) -> np.ndarray:
