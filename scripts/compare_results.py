@@ -3,10 +3,9 @@
 
   scripts/compare_results.py OLD NEW [--data DIR] [--quick] [--work DIR]
 
-OLD and NEW are `quadedge` programs. DIR contains recorded data (default: QUADEDGE_DATA); without it, only the
-built-in scenes that both programs can render are run. Both trajectory files and the edges of one image are compared
-byte by byte, and every column of frames.csv that both write except the times; of a message, only its presence is
-compared.
+OLD and NEW are `quadedge` programs. DIR contains recorded data (default: QUADEDGE_DATA); without it, only the built-in
+scenes are run. Both trajectory files and the edges of one image are compared byte by byte, and every column of
+frames.csv that both write except the times; of a message, only its presence is compared.
 The results of OLD are kept in the work folder and reused.
 Exit code: 0 identical, 1 some differ, 2 a run failed.
 """
@@ -18,38 +17,32 @@ import pathlib
 import subprocess
 import sys
 
+# Name of the results, a folder or a CSV file of edges -> arguments; those of recorded data have its folder first.
 RECORDED = {
-    "kitti_06": ["kitti_odometry", "--sequence", "06"],
-    "kitti_01": ["kitti_odometry", "--sequence", "01"],
-    "euroc_at_rest": ["euroc_v1_01_easy_at_rest"],
-    "euroc_keyframes": ["euroc_v1_01_easy_keyframes"],
-    "euroc_flight": ["euroc_mh_01_easy"],
+    "kitti_06": ["run", "kitti_odometry", "--sequence", "06"],
+    "kitti_01": ["run", "kitti_odometry", "--sequence", "01"],
+    "euroc_at_rest": ["run", "euroc_v1_01_easy_at_rest"],
+    "euroc_keyframes": ["run", "euroc_v1_01_easy_keyframes"],
+    "euroc_flight": ["run", "euroc_mh_01_easy"],
+    "edges.csv": ["edges", "kitti_odometry/sequences/06/image_0/000000.png"],
 }
-SCENES = ("room", "cables", "facade")
-IMAGE = "kitti_odometry/sequences/06/image_0/000000.png"
+SCENES = ("cables", "facade", "room")
 
 
-def scenes_of(program):
-    """The built-in scenes that a program can render."""
-    help_text = subprocess.run([program, "demo", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
-    return {scene for scene in SCENES if scene in help_text}
-
-
-def jobs(data, quick, scenes):
-    """Name and arguments of every run; each writes a folder, or a CSV file of edges."""
-    frames = ["--frames", "0:6"] if quick else []
-    if data:
-        for name, (folder, *options) in RECORDED.items():
-            yield name, ["run", str(data / folder), *options, *frames, "--quiet", "--force", "--output"]
-        yield "edges.csv", ["edges", str(data / IMAGE), "--force", "--csv"]
-    for scene in scenes:
-        yield scene, ["demo", "--scene", scene, "--frames", "4" if quick else "60", "--quiet", "--force", "--output"]
+def jobs(data, quick):
+    """Name and arguments of every run, but for the place of its results."""
+    for name, (command, place, *options) in RECORDED.items() if data else ():
+        frames = ["--frames", "0:6"] if quick and command == "run" else []
+        yield name, [command, str(pathlib.Path(data) / place), *options, *frames, "--force"]
+    for scene in SCENES:
+        yield scene, ["demo", "--scene", scene, "--frames", "4" if quick else "60", "--force"]
 
 
 def run(program, name, arguments, folder):
     """Exit codes 0 and 5 (few frames tracked) are results; any other code ends the comparison."""
-    done = subprocess.run([program, *arguments, str(folder / name)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                          text=True)
+    output = ["--csv"] if name.endswith(".csv") else ["--quiet", "--output"]
+    done = subprocess.run([program, *arguments, *output, str(folder / name)], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True)
     if done.returncode not in (0, 5):
         print(f"{name}: {program} ended with code {done.returncode}: {done.stderr.strip()}", file=sys.stderr)
         sys.exit(2)
@@ -78,18 +71,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old")
     parser.add_argument("new")
-    parser.add_argument("--data", type=pathlib.Path, default=os.environ.get("QUADEDGE_DATA"))
+    parser.add_argument("--data", default=os.environ.get("QUADEDGE_DATA"))
     parser.add_argument("--quick", action="store_true", help="a few frames of each sequence")
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("compare_results"))
     options = parser.parse_args()
-    data = pathlib.Path(options.data) if options.data else None
-    kind = "quick" if options.quick else "whole"
-    old, new = options.work / f"old_{kind}", options.work / f"new_{kind}"
-    old.mkdir(parents=True, exist_ok=True)
-    new.mkdir(parents=True, exist_ok=True)
+    old, new = (options.work / f"{which}_{'quick' if options.quick else 'whole'}" for which in ("old", "new"))
+    for folder in (old, new):
+        folder.mkdir(parents=True, exist_ok=True)
     different = 0
-    scenes = sorted(scenes_of(options.old) & scenes_of(options.new))
-    for name, arguments in jobs(data, options.quick, scenes):
+    for name, arguments in jobs(options.data, options.quick):
         if not (old / name).exists():
             run(options.old, name, arguments, old)
         run(options.new, name, arguments, new)

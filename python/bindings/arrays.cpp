@@ -102,14 +102,14 @@ ImageArgument::ImageArgument(nb::handle object, const std::string& name, int max
   view_ = {pixels, width, height, row, words ? max_value : kMaxValue8};
 }
 
-std::unique_ptr<ImageArgument> ImageArgument::mask(nb::handle object, const std::string& name) {
-  if (object.is_none()) return nullptr;
+ImageArgument ImageArgument::mask(nb::handle object, const std::string& name) {
+  if (object.is_none()) return {};
   if (!nb::ndarray_check(object))
     throw nb::type_error((name + " is " + type_of(object) + ", " + kExpectedMask).c_str());
   const std::string type = nb::cast<std::string>(nb::str(nb::handle(nb::object(object.attr("dtype")))));
   if (type != "uint8" && type != "torch.uint8")
     throw nb::type_error((name + " is an array of " + type + ", " + kExpectedMask).c_str());
-  return std::make_unique<ImageArgument>(object, name, kMaxValue8);
+  return ImageArgument(object, name, kMaxValue8);
 }
 
 nb::object pixels_of(const Image& image, nb::handle owner) {

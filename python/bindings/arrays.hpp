@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <functional>
-#include <memory>
 #include <nanobind/ndarray.h>
 #include <optional>
 #include <string>
@@ -35,6 +34,14 @@ ArrayView<T> view_of(const std::vector<T>& values) {
 template <class Self, class T, class Of>
 auto view_of(std::vector<T> Of::*values) {
   return [values](const Self& self) { return view_of(self.*values); };
+}
+
+/// (N,) over one member of every row of a vector.
+template <class Row, class Allocator, class T>
+ArrayView<T> view_of(const std::vector<Row, Allocator>& rows, T Row::*member) {
+  static_assert(sizeof(Row) % sizeof(T) == 0);
+  const void* first = rows.empty() ? nullptr : &(rows.front().*member);
+  return ArrayView<T>(first, {rows.size()}, {}, {sizeof(Row) / sizeof(T)});
 }
 
 /// (rows, columns) over a matrix of fixed or dynamic size; strides express Eigen's column-major order.
@@ -112,13 +119,14 @@ class ImageArgument {
   ///     negative strides along a row.
   ImageArgument(nb::handle object, const std::string& name, int max_value);
   /// A mask of uint8, height x width, or None, which is empty. Not copied, unless its rows are strided.
-  static std::unique_ptr<ImageArgument> mask(nb::handle object, const std::string& name);
+  static ImageArgument mask(nb::handle object, const std::string& name);
   ImageArgument(const ImageArgument&) = delete;
   ImageArgument& operator=(const ImageArgument&) = delete;
   /// Empty images and strides shorter than a row are left to the library to refuse.
   const ImageView& view() const { return view_; }
 
  private:
+  ImageArgument() = default;
   nb::ndarray<nb::ro, nb::device::cpu> array_;
   std::vector<std::uint8_t> copy_;
   ImageView view_;

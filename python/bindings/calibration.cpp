@@ -59,7 +59,6 @@ void bind_calibration(nb::module_& module) {
       .def_ro("unseen_learned", &Self::unseen_learned, "The same with a calibration learned from other frames [px].")
       .def(
           "rig", [](const Self& self, double fov) { return make_rig(self.calibration, fov); }, "fov"_a = 0.0,
-          nb::sig("def rig(self, fov: float = 0) -> Rig"),
           "The rig to track with: the learned one if it is better, else the given one. fov: as in Rig.from_file().")
       .def(
           "write",
@@ -67,7 +66,6 @@ void bind_calibration(nb::module_& module) {
             write_calibration(path.string(), self.calibration, format);
           },
           "path"_a, "format"_a = "native",
-          nb::sig("def write(self, path: str | os.PathLike, format: str = 'native') -> None"),
           "Writes the calibration to use. format: \"native\", QuadEdge's own; \"kalibr\"; \"opencv\"; or \"ros\" with\n"
           "the path \"LEFT,RIGHT\". Rig.from_file() and the program read all of them.\n\n"
           "Raises UsageError if the format cannot hold the lenses.")
@@ -75,7 +73,6 @@ void bind_calibration(nb::module_& module) {
 
   module.def(
       "calibrate", &calibrate, "dataset"_a, nb::kw_only(), "most_pairs"_a = 200,
-      nb::sig("def calibrate(dataset: Dataset, *, most_pairs: int = 200) -> Calibration"),
       "Learns the calibration of the rig that made a recording, as `quadedge calibrate` does, but from all of its\n"
       "frames. Identical frames give identical results; no device is needed.\n\n"
       "most_pairs: pairs of frames to keep: of a longer recording so many to twice as many, evenly spread.\n\n"

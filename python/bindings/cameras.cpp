@@ -2,10 +2,10 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <utility>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
-#include "pickling.hpp"
 #include "quadedge/calibration.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -14,12 +14,9 @@ namespace quadedge::python {
 namespace {
 
 void bind_camera(nb::module_& module) {
-  nb::class_<PinholeCamera> camera(
-      module, "PinholeCamera",
-      "An ideal pinhole camera: x right, y down, z forward. Image positions are in pixels;\n"
-      "the centre of the top-left pixel is (0, 0). Can be pickled and copied.");
-  add_pickling(camera);
-  camera
+  nb::class_<PinholeCamera>(module, "PinholeCamera",
+                            "An ideal pinhole camera: x right, y down, z forward. Image positions are in pixels;\n"
+                            "the centre of the top-left pixel is (0, 0).")
       .def(
           "__init__",
           [](PinholeCamera* self, double fx, double fy, double cx, double cy, int width, int height) {
@@ -66,31 +63,28 @@ StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std
 
 // LONG: a line per member.
 void bind_rig(nb::module_& module) {
-  nb::class_<StereoRig> rig(
-      module, "Rig",
-      "Two rigidly mounted cameras. The images need neither be rectified nor be of equal size. Can\n"
-      "be pickled and copied.");
-  add_pickling(rig);
-  rig.def(
-         "__init__",
-         [](StereoRig* self, const PinholeCamera& left, const PinholeCamera& right, const nb::object& right_from_left,
-            int max_value) {
-           StereoRig made;
-           made.left = left;
-           made.right = right;
-           made.right_from_left = transform_from(right_from_left, "right_from_left");
-           made.max_value = max_value;
-           check_rig(made, "stereo rig");
-           new (self) StereoRig(std::move(made));
-         },
-         nb::sig("def __init__(self, left: PinholeCamera, right: PinholeCamera, right_from_left: "
-                 "numpy.typing.ArrayLike, max_value: int = 255) -> None"),
-         "left"_a, "right"_a, "right_from_left"_a, "max_value"_a = kMaxValue8,
-         "right_from_left: (4, 4), maps points from the left to the right camera frame [m]; for a rectified rig the\n"
-         "identity with -baseline as the x translation.\n"
-         "max_value: value of a saturated pixel: 255 for uint8 images, for example 4095 or 65535 for uint16.\n\n"
-         "Raises DataError for a focal length, image size or baseline that is not positive and finite, and for a\n"
-         "right_from_left that is not a rigid transform.")
+  nb::class_<StereoRig>(module, "Rig",
+                        "Two rigidly mounted cameras. The images need neither be rectified nor be of equal size.")
+      .def(
+          "__init__",
+          [](StereoRig* self, const PinholeCamera& left, const PinholeCamera& right, const nb::object& right_from_left,
+             int max_value) {
+            StereoRig made;
+            made.left = left;
+            made.right = right;
+            made.right_from_left = transform_from(right_from_left, "right_from_left");
+            made.max_value = max_value;
+            check_rig(made, "stereo rig");
+            new (self) StereoRig(std::move(made));
+          },
+          nb::sig("def __init__(self, left: PinholeCamera, right: PinholeCamera, right_from_left: "
+                  "numpy.typing.ArrayLike, max_value: int = 255) -> None"),
+          "left"_a, "right"_a, "right_from_left"_a, "max_value"_a = kMaxValue8,
+          "right_from_left: (4, 4), maps points from the left to the right camera frame [m]; for a rectified rig the\n"
+          "identity with -baseline as the x translation.\n"
+          "max_value: value of a saturated pixel: 255 for uint8 images, for example 4095 or 65535 for uint16.\n\n"
+          "Raises DataError for a focal length, image size or baseline that is not positive and finite, and for a\n"
+          "right_from_left that is not a rigid transform.")
       .def_static(
           "from_file", &rig_from_file, "files"_a, nb::kw_only(), "fov"_a = 0.0, "mask"_a = nb::none(),
           "size"_a = nb::none(), "max_value"_a = kMaxValue8, "rectified"_a = false,

@@ -9,28 +9,14 @@
 namespace quadedge::python {
 namespace {
 
-/// A string as a TOML (and JSON) literal.
-std::string quoted(nb::handle text) {
-  return nb::cast<std::string>(nb::module_::import_("json").attr("dumps")(text, "ensure_ascii"_a = false));
-}
-
-/// A value as a TOML literal. \throws TypeError.
+/// A value as JSON writes it, which is TOML. \throws TypeError for what JSON does not have.
 std::string toml_value(const std::string& key, nb::handle value) {
-  if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value) ? "true" : "false";
-  if (nb::isinstance<nb::str>(value)) return quoted(value);
-  if (nb::isinstance<nb::float_>(value)) return nb::cast<std::string>(nb::repr(nb::float_(value)));
-  if (PyIndex_Check(value.ptr())) return nb::cast<std::string>(nb::str(nb::int_(value)));
-  if (nb::isinstance<nb::list>(value) || nb::isinstance<nb::tuple>(value)) {
-    std::string texts;
-    for (const auto& element : value) {
-      if (!nb::isinstance<nb::str>(element)) throw nb::type_error(("config: " + key + ": expected strings").c_str());
-      texts += (texts.empty() ? "" : ", ") + quoted(element);
-    }
-    return "[" + texts + "]";
+  if (value.is_none()) {
+    throw nb::type_error(("config: " + key + " is NoneType, expected a number, a string, True or False").c_str());
   }
-  throw nb::type_error(("config: " + key + " is " + nb::cast<std::string>(nb::str(value.type().attr("__name__"))) +
-                        ", expected a number, a string, True or False")
-                           .c_str());
+  const nb::object index = nb::module_::import_("operator").attr("index");  // for whole numbers of numpy
+  return nb::cast<std::string>(
+      nb::module_::import_("json").attr("dumps")(value, "ensure_ascii"_a = false, "default"_a = index));
 }
 
 bool is_bare(const std::string& key) {
@@ -44,7 +30,7 @@ Config with_dict(const nb::dict& config, const Config& base) {
     if (!nb::isinstance<nb::str>(name)) throw nb::type_error("config: expected strings as keys");
     const auto key = nb::cast<std::string>(name);
     if (key == "device") throw UsageError("config: the device is a separate argument, device=");
-    text += (is_bare(key) ? key : quoted(name)) + " = " + toml_value(key, value) + "\n";
+    text += (is_bare(key) ? key : toml_value(key, name)) + " = " + toml_value(key, value) + "\n";
   }
   return read_config_text(text, "config", base);
 }

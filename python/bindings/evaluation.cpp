@@ -11,15 +11,11 @@ namespace quadedge::python {
 namespace {
 
 using PerPose = TrajectoryEvaluation::PerPose;
-static_assert(sizeof(PerPose) % sizeof(double) == 0);
 
 /// (N,) over one column of the rows.
 template <class T>
 auto column(T PerPose::*field) {
-  return [field](const TrajectoryEvaluation& self) {
-    const void* first = self.per_pose.empty() ? nullptr : &(self.per_pose.front().*field);
-    return ArrayView<T>(first, {self.per_pose.size()}, {}, {sizeof(PerPose) / sizeof(T)});
-  };
+  return [field](const TrajectoryEvaluation& self) { return view_of(self.per_pose, field); };
 }
 
 }  // namespace

@@ -26,13 +26,11 @@ class LoadedMap {
                         nb::handle right_mask) {
     const ImageArgument left_image(left, "the left image", max_value_of(rig_));
     const ImageArgument right_image(right, "the right image", max_value_of(rig_));
-    const auto hides_left = ImageArgument::mask(left_mask, "left_mask"),
-               hides_right = ImageArgument::mask(right_mask, "right_mask");
+    const ImageArgument hides_left = ImageArgument::mask(left_mask, "left_mask");
+    const ImageArgument hides_right = ImageArgument::mask(right_mask, "right_mask");
     const ReleasedGil released;
     const std::lock_guard<std::mutex> alone(in_use_);
-    return localiser_->locate({stamp_ns, left_image.view(), right_image.view(),
-                               hides_left ? hides_left->view() : ImageView(),
-                               hides_right ? hides_right->view() : ImageView()});
+    return localiser_->locate({stamp_ns, left_image.view(), right_image.view(), hides_left.view(), hides_right.view()});
   }
   const StereoRig& rig() const { return rig_; }
   const StereoRig& map_rig() const { return map_.rig(); }

@@ -11,11 +11,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+#include <type_traits>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "edges.hpp"
-#include "pickling.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/map.hpp"
 #include "quadedge/result_files.hpp"
@@ -28,9 +28,6 @@ namespace {
 struct MappedResult : FrameResult {
   std::optional<Eigen::Isometry3d> map_from_odometry;
 };
-auto members(MappedResult& self) {
-  return std::tuple_cat(quadedge::python::members(static_cast<FrameResult&>(self)), std::tie(self.map_from_odometry));
-}
 
 /// The edges and quads of one frame.
 struct Details {
@@ -49,43 +46,39 @@ class Odometry {
         rig_(running_->odometry.rig()) {}
 
   MappedResult track(const StereoFrame& frame) {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    MappedResult result{running().odometry.track(frame), std::nullopt};
-    if (std::optional<Map>& map = running().map) {
-      map->add(result);
-      result.map_from_odometry = map->map_from_odometry();
-    }
-    return result;
+    return alone([&](Running& running) {
+      MappedResult result{running.odometry.track(frame), std::nullopt};
+      if (running.map) {
+        running.map->add(result);
+        result.map_from_odometry = running.map->map_from_odometry();
+      }
+      return result;
+    });
   }
   void set_tap(PythonTap* tap) {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    if (tap != nullptr) tap->watch(running().odometry.rig());
-    running().odometry.set_tap(tap);
+    alone([&](Running& running) {
+      if (tap != nullptr) tap->watch(running.odometry.rig());
+      running.odometry.set_tap(tap);
+    });
   }
   void restart() {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    running().odometry.restart();
+    alone([](Running& running) { running.odometry.restart(); });
   }
   Trajectory map_trajectory() {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    return map().trajectory();
+    return alone([](Running& running) { return running.finished_map().trajectory(); });
   }
   void save_map(const std::filesystem::path& file) {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    write_map(file.string(), map().saved());
+    alone([&](Running& running) { write_map(file.string(), running.finished_map().saved()); });
   }
-  std::unique_ptr<ResultFiles> result_files(const std::string& folder, const ResultOrigin& origin, bool force) {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    return std::make_unique<ResultFiles>(folder, running().odometry, origin, force);
+  ResultFiles result_files(const std::string& folder, const ResultOrigin& origin, bool force) {
+    return alone([&](Running& running) { return ResultFiles(folder, running.odometry, origin, force); });
   }
   StereoEdgesInSpace edges() {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    FrameDetails found = running().odometry.details();
+    FrameDetails found = alone([](Running& running) { return running.odometry.details(); });
     return in_space(std::move(found.stereo), found.rig);
   }
   Details details() {
-    const std::lock_guard<std::mutex> alone(in_use_);
-    FrameDetails found = running().odometry.details();
+    FrameDetails found = alone([](Running& running) { return running.odometry.details(); });
     return {std::move(found.left_edges),
             std::move(found.right_edges),
             in_space(std::move(found.stereo), found.rig),
@@ -93,7 +86,7 @@ class Odometry {
             {std::move(found.quads), std::move(found.quad_inlier)}};
   }
   void close() {
-    const std::lock_guard<std::mutex> alone(in_use_);
+    const std::lock_guard<std::mutex> lock(in_use_);
     running_.reset();
   }
 
@@ -102,13 +95,11 @@ class Odometry {
   int max_value() const { return max_value_; }
   DeviceInfo device() {
     const ReleasedGil released;
-    const std::lock_guard<std::mutex> alone(in_use_);
-    return running().device.info();
+    return alone([](Running& running) { return running.device.info(); });
   }
   std::map<std::string, std::string> variants() {
     const ReleasedGil released;
-    const std::lock_guard<std::mutex> alone(in_use_);
-    return running().odometry.variants();
+    return alone([](Running& running) { return running.odometry.variants(); });
   }
 
  private:
@@ -117,18 +108,21 @@ class Odometry {
         : device(choice), odometry(rig, device, config) {
       if (loops) map.emplace(odometry);
     }
+    Map& finished_map() {
+      if (!map) throw UsageError("the odometry keeps no map: expected Odometry(rig, loops=True)");
+      map->finish();
+      return *map;
+    }
     Device device;
     StereoOdometry odometry;
     std::optional<Map> map;
   };
-  Running& running() {
+  /// Runs `work(Running&)` without any other work on the device. \throws UsageError after close().
+  template <class Work>
+  std::invoke_result_t<const Work&, Running&> alone(const Work& work) {
+    const std::lock_guard<std::mutex> lock(in_use_);
     if (!running_) throw UsageError("the odometry is closed");
-    return *running_;
-  }
-  Map& map() {
-    if (!running().map) throw UsageError("the odometry keeps no map: expected Odometry(rig, loops=True)");
-    running().map->finish();
-    return *running().map;
+    return work(*running_);
   }
   StereoEdgesInSpace in_space(StereoEdges edges, const RigEstimate& estimate) const {
     EdgePoints points = edge_points(edges, rig_, estimate);
@@ -142,10 +136,9 @@ class Odometry {
   std::mutex in_use_;
 };
 
-void bind_evidence(nb::module_& module) {
-  nb::class_<FrameCounts> counts(module, "FrameCounts", "Numbers of edges and quads of one frame.");
-  add_pickling(counts);
-  counts.def_ro("edges_left", &FrameCounts::edges_left, "Edges detected in the left image.")
+void bind_counts(nb::module_& module) {
+  nb::class_<FrameCounts>(module, "FrameCounts", "Numbers of edges and quads of one frame.")
+      .def_ro("edges_left", &FrameCounts::edges_left, "Edges detected in the left image.")
       .def_ro("edges_right", &FrameCounts::edges_right, "Edges detected in the right image.")
       .def_ro("stereo_edges", &FrameCounts::stereo_edges, "Edges matched between the left and the right image.")
       .def_ro("temporal_left", &FrameCounts::temporal_left,
@@ -153,29 +146,11 @@ void bind_evidence(nb::module_& module) {
       .def_ro("temporal_right", &FrameCounts::temporal_right, "The same in the right image.")
       .def_ro("quads", &FrameCounts::quads, "Stereo edges matched with those of the earlier frame.")
       .def_ro("inliers", &FrameCounts::inliers, "Quads that agree with the estimated motion.");
-  nb::class_<RigEvidence> evidence(module, "RigEvidence",
-                                   "How well one frame's images agree with the calibration; NaN where nothing could\n"
-                                   "be measured.");
-  add_pickling(evidence);
-  evidence
-      .def_ro("matched_ratio", &RigEvidence::matched_ratio, "Share of the left edges that have a stereo match, 0 to 1.")
-      .def_ro("epipolar_residual", &RigEvidence::epipolar_residual,
-              "Median distance of matched patches from their epipolar lines [px].")
-      .def_ro("epipolar_correction", &RigEvidence::epipolar_correction,
-              "Largest distance from the epipolar lines that the stereo search allowed for [px].")
-      .def_ro("searched_residual", &RigEvidence::searched_residual,
-              "Median distance from the epipolar line of corners searched for in a wide band around it [px];\n"
-              "measured in some frames only.")
-      .def_ro("found_ratio", &RigEvidence::found_ratio, "Share of these corners that were found, 0 to 1.")
-      .def_ro("on_line_ratio", &RigEvidence::on_line_ratio,
-              "Share of the found corners within 1 px of their epipolar line, 0 to 1.");
 }
 
 void bind_warning(nb::module_& module) {
   using Self = Warning;
-  nb::class_<Self> warning(module, "FrameWarning", "A warning that concerns a whole recording.");
-  add_pickling(warning);
-  warning
+  nb::class_<Self>(module, "FrameWarning", "A warning that concerns a whole recording.")
       .def_prop_ro(
           "kind", [](const Self& self) { return to_string(self.kind); },
           "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
@@ -190,9 +165,7 @@ void bind_warning(nb::module_& module) {
 
 void bind_timing(nb::module_& module) {
   using Self = FrameTiming;
-  nb::class_<Self> timing(module, "FrameTiming", "Computing time of one frame.");
-  add_pickling(timing);
-  timing
+  nb::class_<Self>(module, "FrameTiming", "Computing time of one frame.")
       .def_prop_ro(
           "stages",
           [](const Self& self) {
@@ -207,7 +180,6 @@ void bind_timing(nb::module_& module) {
 void bind_diagnostics(nb::module_& module) {
   using Self = FrameDiagnostics;
   nb::class_<Self> diagnostics(module, "FrameDiagnostics", "Internal quantities of one frame, for evaluation.");
-  add_pickling(diagnostics);
   diagnostics
       .def_ro("edge_threshold", &Self::edge_threshold,
               "Gradient threshold of the edges in both images [grey levels per px].")
@@ -232,13 +204,7 @@ void bind_diagnostics(nb::module_& module) {
             return std::tuple(box[0], box[1], box[2], box[3]);
           },
           "Bounds of the largest group of adjacent moving cells in the left image: left, top, right, bottom [px].\n"
-          "None without any.")
-      .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
-      .def_prop_ro(
-          "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
-          "(6, 11) float64: derivative of the pose in the frame of the keyframe with respect to the calibration "
-          "errors\n"
-          "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
+          "None without any.");
   def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,
                "(6, 6) float64: covariance, in the convention of ROS's PoseWithCovariance (x, y, z [m], then rotation\n"
                "about x, y, z [rad]), of the pose in the left camera frame of the keyframe, the inverse of\n"
@@ -283,8 +249,7 @@ void bind_poses(nb::class_<MappedResult>& result) {
 
 void bind_result(nb::module_& module) {
   using Self = MappedResult;
-  nb::class_<Self> result(module, "FrameResult", "The result of tracking one frame. Can be pickled and copied.");
-  add_pickling(result);
+  nb::class_<Self> result(module, "FrameResult", "The result of tracking one frame.");
   bind_poses(result);
   result.def_ro("stamp_ns", &Self::stamp_ns, "Time stamp of the frame [ns].")
       .def_prop_ro(
@@ -342,11 +307,10 @@ MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::h
                    nb::handle right_mask) {
   const ImageArgument left_image(left, "the left image", self.max_value());
   const ImageArgument right_image(right, "the right image", self.max_value());
-  const auto hides_left = ImageArgument::mask(left_mask, "left_mask"),
-             hides_right = ImageArgument::mask(right_mask, "right_mask");
+  const ImageArgument hides_left = ImageArgument::mask(left_mask, "left_mask");
+  const ImageArgument hides_right = ImageArgument::mask(right_mask, "right_mask");
   const ReleasedGil released;
-  return self.track({stamp_ns, left_image.view(), right_image.view(), hides_left ? hides_left->view() : ImageView(),
-                     hides_right ? hides_right->view() : ImageView()});
+  return self.track({stamp_ns, left_image.view(), right_image.view(), hides_left.view(), hides_right.view()});
 }
 
 void bind_result_files(nb::module_& module) {
@@ -362,7 +326,7 @@ void bind_result_files(nb::module_& module) {
           [](ResultFiles* self, const std::filesystem::path& folder, Odometry& odometry, const std::string& name,
              const std::string& command, bool force) {
             const ReleasedGil released;
-            new (self) ResultFiles(std::move(*odometry.result_files(folder.string(), {name, command}, force)));
+            new (self) ResultFiles(odometry.result_files(folder.string(), {name, command}, force));
           },
           "folder"_a, "odometry"_a, "name"_a, "command"_a = "", "force"_a = false)
       .def(
@@ -390,7 +354,7 @@ constexpr const char* kOdometryHelp =
 
 /// LONG: one statement per member.
 void bind_odometry(nb::module_& module) {
-  bind_evidence(module);
+  bind_counts(module);
   bind_warning(module);
   bind_timing(module);
   bind_diagnostics(module);

@@ -19,27 +19,25 @@ void call(const PythonTap& tap, const char* method, const Arguments&... argument
 
 const char* name_of(Side side) { return side == Side::left ? "left" : "right"; }
 
+template <class Filter, int size>
+void bind_filter(nb::module_& module, const char* name, const char* const (&names)[size], const char* help) {
+  static_assert(size == order_of(Filter::best) + 1);
+  nb::enum_<Filter> filter(module, name, nb::is_arithmetic(), help);
+  for (int order = 0; order < size; ++order) filter.value(names[order], static_cast<Filter>(order));
+  filter.def_prop_ro(
+      "title", [](Filter self) { return std::string(to_string(self)); }, "Name in tables.");
+}
+
 void bind_filters(nb::module_& module) {
-  const auto title = [](auto filter) { return std::string(to_string(filter)); };
-  nb::enum_<StereoFilter> stereo(module, "StereoFilter", nb::is_arithmetic(),
-                                 "Stereo cascade; the value is the row of Table 1.");
-  for (int order = 0; order <= order_of(StereoFilter::best); ++order) {
-    static constexpr const char* kNames[] = {
-        "baseline",         "epipolar_distance", "disparity",  "orientation", "sift",       "ncc", "nearly_best_ncc",
-        "nearly_best_sift", "refinement",        "similarity", "relaxation",  "one_to_one", "best"};
-    stereo.value(kNames[order], static_cast<StereoFilter>(order));
-  }
-  stereo.def_prop_ro(
-      "title", [title](StereoFilter self) { return title(self); }, "Name in tables.");
-  nb::enum_<TemporalFilter> temporal(module, "TemporalFilter", nb::is_arithmetic(),
-                                     "Temporal cascade; the value is the row of Table 2.");
-  for (int order = 0; order <= order_of(TemporalFilter::best); ++order) {
-    static constexpr const char* kNames[] = {"baseline",        "displacement",     "orientation", "ncc",       "sift",
-                                             "nearly_best_ncc", "nearly_best_sift", "refinement",  "agreement", "best"};
-    temporal.value(kNames[order], static_cast<TemporalFilter>(order));
-  }
-  temporal.def_prop_ro(
-      "title", [title](TemporalFilter self) { return title(self); }, "Name in tables.");
+  bind_filter<StereoFilter>(
+      module, "StereoFilter",
+      {"baseline", "epipolar_distance", "disparity", "orientation", "sift", "ncc", "nearly_best_ncc",
+       "nearly_best_sift", "refinement", "similarity", "relaxation", "one_to_one", "best"},
+      "Stereo cascade; the value is the row of Table 1.");
+  bind_filter<TemporalFilter>(module, "TemporalFilter",
+                              {"baseline", "displacement", "orientation", "ncc", "sift", "nearly_best_ncc",
+                               "nearly_best_sift", "refinement", "agreement", "best"},
+                              "Temporal cascade; the value is the row of Table 2.");
 }
 
 void bind_candidates(nb::module_& module) {
@@ -103,28 +101,26 @@ void bind_taps(nb::module_& module) {
       "exception, track() ends with it; call Odometry.restart() before the next frame.")
       .def(nb::init<>())
       .def(
-          "edges", [](PythonTap&, nb::handle, nb::handle) {}, "left"_a, "right"_a,
-          nb::sig("def edges(self, left: Edges, right: Edges) -> None"), "Called after edge detection of a frame.")
+          "edges", [](PythonTap&, const EdgeSet&, const EdgeSet&) {}, "left"_a, "right"_a,
+          "Called after edge detection of a frame.")
       .def(
-          "stereo_filter", [](PythonTap&, nb::handle, nb::handle) {}, "filter"_a, "candidates"_a,
-          nb::sig("def stereo_filter(self, filter: StereoFilter, candidates: Candidates) -> None"),
+          "stereo_filter", [](PythonTap&, StereoFilter, const CandidateLists&) {}, "filter"_a, "candidates"_a,
           "Called after every stereo filter between the baseline and the best. Rows are left edges, targets right "
           "edges.")
       .def(
-          "stereo", [](PythonTap&, nb::handle) {}, "edges"_a, nb::sig("def stereo(self, edges: StereoEdges) -> None"),
+          "stereo", [](PythonTap&, const StereoEdgesInSpace&) {}, "edges"_a,
           "Called with the final stereo edges of a frame. Their points follow the calibration, without the disparity\n"
           "offset that Odometry.edges() adds.")
       .def(
-          "temporal_search", [](PythonTap&, nb::handle) {}, "search"_a,
-          nb::sig("def temporal_search(self, search: Search) -> None"), "Called before every temporal search.")
+          "temporal_search", [](PythonTap&, const ObservedSearch&) {}, "search"_a,
+          "Called before every temporal search.")
       .def(
-          "temporal_filter", [](PythonTap&, nb::handle, const std::string&, nb::handle) {}, "filter"_a, "side"_a,
-          "candidates"_a,
-          nb::sig("def temporal_filter(self, filter: TemporalFilter, side: str, candidates: Candidates) -> None"),
+          "temporal_filter", [](PythonTap&, TemporalFilter, const std::string&, const CandidateLists&) {}, "filter"_a,
+          "side"_a, "candidates"_a,
           "Called after every filter of that search between the baseline and the best; side is \"left\" or \"right\".\n"
           "Row r is stereo edge r * step of the base; targets are current stereo edges.")
       .def(
-          "quads", [](PythonTap&, nb::handle) {}, "quads"_a, nb::sig("def quads(self, quads: Quads) -> None"),
+          "quads", [](PythonTap&, const Quads&) {}, "quads"_a,
           "Called with the quads of that search, whose ``inlier`` is empty.");
 }
 

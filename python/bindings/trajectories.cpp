@@ -12,10 +12,6 @@
 namespace quadedge::python {
 namespace {
 
-// The arrays of stamps and of poses are views of the same rows.
-static_assert(sizeof(StampedPose) % sizeof(double) == 0);
-constexpr std::int64_t kRow = sizeof(StampedPose) / sizeof(double), kRowOfInts = sizeof(StampedPose) / sizeof(int);
-
 using Segments = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::device::cpu>;
 
 Trajectory make_trajectory(const nb::ndarray<const std::int64_t, nb::ndim<1>, nb::device::cpu>& stamps_ns,
@@ -79,24 +75,17 @@ void bind_trajectories(nb::module_& module) {
            "A list with a Trajectory per segment: no measurement connects the poses of one with those of another.")
       .def("__len__", [](const Trajectory& self) { return self.size(); })
       .def_prop_ro(
-          "stamps_ns",
-          [](const Trajectory& self) {
-            const void* first = self.empty() ? nullptr : &self.front().stamp_ns;
-            return ArrayView<std::int64_t>(first, {self.size()}, {}, {kRow});
-          },
-          kView, "(N,) int64: time stamps [ns].")
+          "stamps_ns", [](const Trajectory& self) { return view_of(self, &StampedPose::stamp_ns); }, kView,
+          "(N,) int64: time stamps [ns].")
       .def_prop_ro(
-          "segments",
-          [](const Trajectory& self) {
-            const void* first = self.empty() ? nullptr : &self.front().segment;
-            return ArrayView<std::int32_t>(first, {self.size()}, {}, {kRowOfInts});
-          },
-          kView, "(N,) int32: number of each pose's segment, as in FrameResult.")
+          "segments", [](const Trajectory& self) { return view_of(self, &StampedPose::segment); }, kView,
+          "(N,) int32: number of each pose's segment, as in FrameResult.")
       .def_prop_ro(
           "poses",
           [](const Trajectory& self) {
+            static_assert(sizeof(StampedPose) % sizeof(double) == 0);
             const void* first = self.empty() ? nullptr : self.front().world_from_left.data();
-            return ArrayView<double>(first, {self.size(), 4, 4}, {}, {kRow, 1, 4});
+            return ArrayView<double>(first, {self.size(), 4, 4}, {}, {sizeof(StampedPose) / sizeof(double), 1, 4});
           },
           kView, "(N, 4, 4) float64, world_from_left [m].")
       .def("__repr__",

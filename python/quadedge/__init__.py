@@ -31,7 +31,7 @@ _COMPILED = (
     "Calibration", "Candidates", "Dataset", "Device", "DeviceInfo", "EdgePositions", "Edges", "ErrorStatistics",
     "Frame", "FrameCounts", "FrameDetails", "FrameDiagnostics", "FrameFiles", "FrameIterator", "FrameResult",
     "FrameTiming", "FrameWarning", "LearnedNumber", "Localisation", "Map", "Odometry", "PinholeCamera", "PoseErrors",
-    "Quads", "ResultFiles", "Rig", "RigEvidence", "Search", "StereoEdges", "StereoFilter", "SubPathErrors", "Synthetic",
+    "Quads", "ResultFiles", "Rig", "Search", "StereoEdges", "StereoFilter", "SubPathErrors", "Synthetic",
     "Tap", "TemporalFilter", "Trajectory", "TrajectoryEvaluation", "calibrate", "configuration", "dataset_formats",
     "decode_grey_image", "detect_edges", "devices", "evaluate_trajectory", "limit_threads", "match", "open_dataset",
     "open_stereo_source", "presets", "read_grey_image", "synthetic",

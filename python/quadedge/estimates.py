@@ -17,7 +17,7 @@ def _cross(v: numpy.ndarray) -> numpy.ndarray:
     return numpy.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
-def _moved(covariance: numpy.ndarray, rotation: numpy.ndarray, lever: numpy.ndarray) -> numpy.ndarray:
+def moved_covariance(covariance: numpy.ndarray, rotation: numpy.ndarray, lever: numpy.ndarray) -> numpy.ndarray:
     """A covariance (6, 6) of translation and rotation for a point at ``lever`` [m], along rotated axes."""
     jacobian = numpy.zeros((6, 6))
     jacobian[:3, :3] = jacobian[3:, 3:] = rotation
@@ -31,7 +31,7 @@ def of_base(pose: numpy.ndarray, covariance: numpy.ndarray | None, base_from_cam
     moved = base_from_camera @ pose @ camera_from_base
     if covariance is None:
         return moved, None
-    return moved, _moved(covariance, base_from_camera[:3, :3], pose[:3, :3] @ camera_from_base[:3, 3])
+    return moved, moved_covariance(covariance, base_from_camera[:3, :3], pose[:3, :3] @ camera_from_base[:3, 3])
 
 
 def _velocity(motion: numpy.ndarray, seconds: float) -> numpy.ndarray:
@@ -66,8 +66,8 @@ def twist_between(before, now, base_from_camera: numpy.ndarray) -> tuple[numpy.n
         return None
     camera_from_base = numpy.linalg.inv(base_from_camera)
     motion = base_from_camera @ numpy.linalg.inv(before.world_from_left) @ now.world_from_left @ camera_from_base
-    in_camera = _moved(reference, now.current_from_reference[:3, :3], numpy.zeros(3))
-    covariance = _moved(in_camera, base_from_camera[:3, :3], camera_from_base[:3, 3])
+    in_camera = moved_covariance(reference, now.current_from_reference[:3, :3], numpy.zeros(3))
+    covariance = moved_covariance(in_camera, base_from_camera[:3, :3], camera_from_base[:3, 3])
     return _velocity(motion, seconds), covariance / seconds**2
 
 

@@ -109,3 +109,12 @@ def poses(source, frames, **options) -> list:
     """The results of tracking frames; source: a rig or a data set."""
     with quadedge.Odometry(source, **options) as odometry:
         return [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in frames]
+
+
+def tum_of(results, folder: Path) -> bytes:
+    """The poses of the tracked ones in TUM's format, as `quadedge run` writes them."""
+    tracked = [result for result in results if result.is_tracked]
+    stamps, segments = ([getattr(result, name) for result in tracked] for name in ("stamp_ns", "segment"))
+    quadedge.Trajectory(numpy.array(stamps), numpy.array([result.world_from_left for result in tracked]),
+                        numpy.array(segments, numpy.int32)).write_tum(folder / "expected.txt")
+    return (folder / "expected.txt").read_bytes()

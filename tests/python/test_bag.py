@@ -22,7 +22,7 @@ def test_the_flight_from_each_kind_of_recording(flight_folder, tmp_path, kind):
             bag.image("/cam1/image_raw", frame.stamp_ns, frame.right)
     files = [flight_folder / "mav0" / camera / "sensor.yaml" for camera in ("cam0", "cam1")]
     recording = quadedge.bag.open_bag(bag.path, calibration=files)
-    assert len(recording) == 12 and recording.pairing.dropped == 0
+    assert len(recording) == 12 and "dropped" not in str(recording.pairing)
     assert (recording.topics.left, recording.topics.right) == ("/cam0/image_raw", "/cam1/image_raw")
     results, expected = poses(recording.rig, recording), poses(quadedge.Rig.from_file(files), dataset)
     assert all(result.is_tracked for result in results)
@@ -80,7 +80,7 @@ def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
         numpy.testing.assert_array_equal(frame.right, frames[i].right)
     pairing = recording.pairing
     assert (pairing.left_dropped, pairing.right_dropped, pairing.without_stamp) == (2, 2, 1)
-    assert pairing.dropped == 5 and pairing.largest_difference_ns == 3_000_000
+    assert pairing.largest_difference_ns == 3_000_000
     assert "2 left images without a right one" in str(pairing)
 
 

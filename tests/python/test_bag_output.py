@@ -13,10 +13,10 @@ import quadedge
 pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.bag cannot be tested")
 
 import quadedge.bag  # noqa: E402
-from bags import BagWriter, messages_of, poses, room_recording  # noqa: E402
+from bags import BagWriter, messages_of, poses, room_recording, tum_of  # noqa: E402
 from quadedge.estimates import Estimates  # noqa: E402
 from quadedge.result_files import rotations  # noqa: E402
-from quadedge.ros_messages import stamp_ns  # noqa: E402
+from quadedge.ros_messages import BODY_FROM_OPTICAL, stamp_ns  # noqa: E402
 from quadedge.run_frames import read_frames  # noqa: E402
 
 
@@ -61,22 +61,24 @@ def test_odometry_of_ambiguous_frames_is_unknown_or_withheld(boarded, tmp_path):
 
 def test_odometry_is_written_with_covariance(room, tmp_path):
     results = poses(room, room)
-    file = quadedge.bag.write_mcap(tmp_path / "odometry", results, optical_axes=True)
+    file = quadedge.bag.write_mcap(tmp_path / "odometry", results, child_frame="camera")
     assert file.suffix == ".mcap"
-    read, estimates = messages_of(tmp_path / "odometry"), Estimates(numpy.eye(4))
+    read, estimates = messages_of(tmp_path / "odometry"), Estimates(BODY_FROM_OPTICAL)
     assert len(read) == len(results)
-    assert read[0].header.frame_id == "odom" and read[0].child_frame_id == "left_camera"
+    assert read[0].header.frame_id == "odom" and read[0].child_frame_id == "camera"
+    axes = numpy.array([[0, 0, 1], [-1, 0, 0], [0, -1, 0]])  # forward, left, up
     for message, result in zip(read, results):
         assert stamp_ns(message) == result.stamp_ns
-        numpy.testing.assert_array_equal(position(message), result.world_from_left[:3, 3])
-        numpy.testing.assert_array_equal(message.pose.covariance.reshape(6, 6), result.covariance)
+        numpy.testing.assert_array_equal(position(message), axes @ result.world_from_left[:3, 3])
+        turned = numpy.kron(numpy.eye(2), axes)
+        numpy.testing.assert_allclose(message.pose.covariance.reshape(6, 6), turned @ result.covariance @ turned.T)
         twist = estimates.add(result).twist
         linear = message.twist.twist.linear
         assert [linear.x, linear.y, linear.z] == (list(twist[0][:3]) if twist else [0, 0, 0])
         assert message.twist.covariance[0] == (twist[1][0, 0] if twist else 1e6)
         turn = message.pose.pose.orientation
         numpy.testing.assert_allclose(rotations(numpy.array([[turn.x, turn.y, turn.z, turn.w]]))[0],
-                                      result.world_from_left[:3, :3], atol=1e-12)
+                                      axes @ result.world_from_left[:3, :3] @ axes.T, atol=1e-12)
     with pytest.raises(quadedge.DataError, match="expected a new folder"):
         quadedge.bag.write_mcap(tmp_path / "odometry", results)
 
@@ -117,8 +119,7 @@ def test_from_the_shell(room_bag, bag_command, command, tmp_path):
     assert "6 pairs" in done.stdout and "tracked    6 of 6" in done.stdout
     recording = quadedge.bag.open_bag(room_bag)
     results = poses(recording.rig, recording, preset="fast")
-    quadedge.bag.write_tum(tmp_path / "ours.txt", results)
-    assert (out / "trajectory.txt").read_bytes() == (tmp_path / "ours.txt").read_bytes()
+    assert (out / "trajectory.txt").read_bytes() == tum_of(results, tmp_path)
     quadedge.bag.write_mcap(tmp_path / "ours", results)
     for one, other in zip(messages_of(tmp_path / "ours"), messages_of(out / "odometry"), strict=True):
         assert one.header.stamp == other.header.stamp and one.child_frame_id == other.child_frame_id == "base_link"

@@ -48,12 +48,6 @@ def test_tables_are_printed_and_written(evaluated):
     assert "stereo" in {file.stem for file in (folder / "csv").iterdir()}
     page = ParsedPage((folder / "m.html").read_text())
     assert "Table 1: stereo" in page.tables and page.outside == []
-    correct = page.figure("drawing_0_correct")
-    assert correct["layout"]["images"][0]["source"].startswith("data:image/jpeg;base64,")
-    left, right = (trace["x"] for trace in correct["data"])
-    assert len(left) == len(right) > 1000 and min(right) > 319 > max(left)
-    assert [trace["name"].split(" (")[0] for trace in page.figure("drawing_0_wrong")["data"]] == [
-        "", "wrong, left", "wrong, right", "wrong, true position", "occluded, left", "occluded, right"]
 
 
 def test_most_final_edges_are_true_and_tables_begin_with_every_edge(evaluated):
@@ -69,10 +63,6 @@ def test_most_final_edges_are_true_and_tables_begin_with_every_edge(evaluated):
     assert pairs == sorted(pairs, reverse=True) and pairs[0] > 390_000  # of two frames
     # SIFT is off by default, and its rows say so.
     assert pooled["stereo"][4]["off"] and "off" not in pooled["stereo"][5]
-    cue = pooled["distributions"][1]
-    assert len(cue["other_all"]["bins"]) == len(cue["other"]["bins"])
-    stated = [frame["translation_error_m"] for frame in evaluated[2]["pairs"][0]["counts"][1:]]
-    assert max(stated) < 0.01
 
 
 def test_files_are_not_replaced_without_force(evaluated):
@@ -99,9 +89,9 @@ def test_a_stricter_threshold_keeps_less_and_constants_are_checked():
     loose, strict = (quadedge.evaluate_matching(quadedge.synthetic("room", frames=1, width=320, height=200),
                                                 config={"stereo.ncc_min": value})["pooled"] for value in (0.3, 0.9))
     assert strict["stereo"][5]["kept"] < loose["stereo"][5]["kept"]
-    for words, message in ((("--stereo.ncc_min", "high"), "--stereo.ncc_min high: expected a number"),
+    for words, message in ((("--stereo.ncc_min", "high"), 'stereo.ncc_min: expected a number, found "high"'),
                            (("--stereo.ncc_mim", "0.5"), "did you mean 'stereo.ncc_min'"),
-                           (("--pose.refine", "1"), "--pose.refine 1: expected true or false"),
+                           (("--pose.refine", "1"), "pose.refine: expected true or false, found 1"),
                            (("--seed",), "--seed: expected --CONSTANT VALUE"),
                            (("--frames", "-1"), "--frames -1: expected 0 or more"),
                            (("--tolerance", "0"), "--tolerance: expected more than 0"),

@@ -1,8 +1,6 @@
 """Odometry: poses like the command's, arrays, lifetimes, threads, errors."""
 
-import copy
 import gc
-import pickle
 import subprocess
 import sys
 import threading
@@ -66,7 +64,7 @@ def test_result_has_pose_and_covariance(room):
     assert second.counts.quads >= second.counts.inliers > 100
     assert second.timing.latency_ms > 0 and second.timing.stages
     assert second.predicted_world_from_left is None
-    assert second.diagnostics.base_frame == 0 and second.diagnostics.rig_evidence.matched_ratio > 0.3
+    assert second.diagnostics.base_frame == 0
 
 
 def test_the_covariance_of_the_motion_has_the_translation_first(room):
@@ -77,7 +75,6 @@ def test_the_covariance_of_the_motion_has_the_translation_first(room):
     turn = result.current_from_reference[:3, :3].T
     rotation = turn @ result.relative_covariance[3:, 3:] @ turn.T
     numpy.testing.assert_allclose(rotation, result.diagnostics.covariance_in_reference[3:, 3:], rtol=1e-9)
-    assert result.diagnostics.rig_sensitivity.shape == (6, 11)
 
 
 def test_warnings_have_a_kind_and_come_once(room, frames):
@@ -211,35 +208,12 @@ def distorted_rig(folder, **arguments):
     return quadedge.Rig.from_file((folder / "left.yaml", folder / "right.yaml"), **arguments)
 
 
-def values_of(value):
-    """All attributes of an object, arrays as nested lists."""
-    if type(value).__module__.startswith("quadedge"):
-        return {name: values_of(getattr(value, name)) for name in dir(value) if not name.startswith("_")}
-    return value.tolist() if isinstance(value, numpy.ndarray) else value
-
-
-def test_results_and_rigs_can_be_pickled(room, frames, odometry, tmp_path):
-    results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in frames[:3]]
-    blank = numpy.zeros_like(frames[0].left)
-    results.append(odometry.track(10**10, blank, blank))  # lost: no covariance
-    assert results[2].covariance is not None and results[3].covariance is None
-    for result in results:
-        for copied in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
-            assert repr(values_of(copied)) == repr(values_of(result))  # NaN is equal to NaN
-    rig = distorted_rig(tmp_path, max_value=4095)
-    again = pickle.loads(pickle.dumps(rig))
-    assert values_of(again) == values_of(rig) and again.max_value == 4095
-    deep = [(frame.left.astype(numpy.uint16) * 16, frame.right.astype(numpy.uint16) * 16) for frame in frames[:2]]
-    with quadedge.Odometry(rig) as odometry:
-        too_bright = deep[0][1].copy()
-        too_bright[199, 319] = 4096
+def test_a_pixel_above_the_value_of_a_saturated_one_is_refused(tmp_path):
+    left, right = (image.astype(numpy.uint16) * 16 for image in (LEFT, RIGHT))
+    right[199, 319] = 4096
+    with quadedge.Odometry(distorted_rig(tmp_path, max_value=4095)) as odometry:
         with pytest.raises(quadedge.DataError, match="right image has a pixel of 4096, the rig expects .* up to 4095"):
-            odometry.track(0, deep[0][0], too_bright)
-    poses = []
-    for one in (rig, again):  # the undistortion tables belong to a rig, too
-        with quadedge.Odometry(one) as odometry:
-            poses.append([odometry.track(i, *pair).world_from_left.tobytes() for i, pair in enumerate(deep)])
-    assert poses[0] == poses[1]
+            odometry.track(0, left, right)
 
 
 def test_a_device_by_its_index(room):

@@ -83,28 +83,6 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     assert names == ["baseline", "epipolar proximity", "NCC", "best"]  # no disabled filters
     assert list(page.traces("filters_stereo")) == ["recall, paired", "precision, paired", "recall, all",
                                                    "precision, all"]
-    # 250 of 300 values lie within the bins of the cue, in bins of equal height.
-    cumulative = page.traces("cue_stereo_1_cumulative")
-    assert list(cumulative) == ["veridical, paired", "other, paired", "veridical, all", "other, all"]
-    assert max(cumulative["veridical, paired"]["y"]) == pytest.approx(100 * 250 / 300, rel=1e-4)
-    within = page.figure("disparity_error_within")["data"][0]["y"]
-    assert within[0] == 0 and within[-1] == pytest.approx(100 * 250 / 300, rel=1e-4)
-    motions = page.figure("motions_of_pairs_rotation")
-    assert len(motions["data"]) == 3 and len(motions["data"][0]["x"]) == 12
-    assert len({trace["marker"]["symbol"] for trace in motions["data"]}) == 3
-    counts = [plot for plot in page.plots if plot.startswith("figure-counts")]
-    assert len(counts) == 4
-    for plot in counts:
-        # Every frame is in one bin of a histogram: heights by bins add up to the number of frames.
-        for trace in page.figure(plot)["data"]:
-            assert sum(trace["y"][1:-1:2]) == 12
-
-
-def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame():
-    page = ParsedPage(to_html(matching_page(made_up_matching(["room"], 9))))
-    assert not [plot for plot in page.plots if "counts" in plot or "motions" in plot]
-    assert "(Figure 2): needs at least 10 frames" in page.text and "(Figure 7): needs at least 10 frames" in page.text
-    assert page.row("Counts of a frame", "edges, left")[1] == "9"
 
 
 def test_pages_of_the_program(program, tmp_path):
@@ -137,5 +115,5 @@ def test_pages_of_the_program(program, tmp_path):
                     "--html", tmp_path / "m.html"], check=True, env=installed)
     matching = ParsedPage((tmp_path / "m.html").read_text())
     assert matching.tables["Table 1: stereo"][6][2] == "off"
-    assert sum("drawing_0" in plot for plot in matching.plots) == 3 and matching.outside == []
+    assert matching.figure("filters_stereo")["data"] and matching.outside == []
     assert "Table 3" in " ".join(matching.tables)

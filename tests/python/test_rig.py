@@ -1,8 +1,5 @@
 """Rigs from numbers and from calibration files."""
 
-import copy
-import pickle
-
 import numpy
 import pytest
 
@@ -35,40 +32,6 @@ def test_invalid_rigs_are_refused(transform, words):
     camera = quadedge.PinholeCamera(**CAMERA)
     with pytest.raises(quadedge.DataError, match=words):
         quadedge.Rig(camera, camera, transform)
-
-
-NONE = (0, 0, b"")
-
-
-def replaced(state: tuple, place: int, value) -> tuple:
-    return state[:place] + (value,) + state[place + 1:]
-
-
-@pytest.mark.parametrize("place, value, words", [
-    (5, (320, 200, b""), "a mask of 320 x 200 with 0 values"),
-    (5, (-320, -200, bytes(64000)), "a mask of -320 x -200"),
-    (3, (320, 200, numpy.full(64000, numpy.nan, "f").tobytes(), bytes(256000), 0, 0), "table with NaN"),
-    (4, (320, 200, bytes(256000), bytes(256000), -4, 200), "recorded images of -4 x 200"),
-    (2, numpy.where(numpy.arange(16) == 13, numpy.nan, numpy.eye(4).ravel()).tobytes(), "baseline of nan"),
-    (8, float("nan"), "maximum disparity of nan"),
-])  # fmt: skip
-def test_a_damaged_pickle_of_a_rig_is_refused_where_it_is_used(place, value, words):
-    camera = quadedge.PinholeCamera(**CAMERA)
-    rig = quadedge.Rig(camera, camera, right_from_left(0.12))
-    damaged = quadedge.Rig.__new__(quadedge.Rig)
-    damaged.__setstate__(replaced(rig.__getstate__(), place, value))
-    with pytest.raises(quadedge.DataError, match=words):
-        quadedge.Odometry(damaged)
-
-
-@pytest.mark.parametrize("place, value", [(5, 7), (5, (320, "200", b"")), (0, NONE), (2, 1.5), (7, "255"), (3, None)])
-def test_a_pickle_of_other_types_is_refused(place, value):
-    camera = quadedge.PinholeCamera(**CAMERA)
-    state = quadedge.Rig(camera, camera, right_from_left(0.12)).__getstate__()
-    for wrong in (replaced(state, place, value), state[:-1], 5, None):
-        with pytest.raises(quadedge.DataError, match="pickle: found .*, expected"):
-            quadedge.Rig.__new__(quadedge.Rig).__setstate__(wrong)
-    assert pickle.loads(pickle.dumps(camera)).width == copy.copy(camera).width == 320
 
 
 @pytest.mark.parametrize("place", [(0, 3), (1, 3), (2, 3), (0, 0), (2, 1), (3, 0)])

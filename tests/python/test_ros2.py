@@ -15,11 +15,11 @@ pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: quadedge.
 pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.ros2 cannot be tested")
 
 import quadedge  # noqa: E402
+from bags import tum_of  # noqa: E402
 from cyclonedds.core import Policy, Qos  # noqa: E402
 from cyclonedds.pub import DataWriter  # noqa: E402
 from cyclonedds.sub import DataReader  # noqa: E402
 from cyclonedds.topic import Topic  # noqa: E402
-from quadedge.bag import write_tum  # noqa: E402
 from quadedge.estimates import Estimates, of_base  # noqa: E402
 from quadedge.ros2.domain import dds_type_name, taken  # noqa: E402
 from quadedge.ros2.mount import mount_of  # noqa: E402
@@ -52,8 +52,7 @@ def test_the_flight_at_20_hz_gives_the_poses_of_a_run(flight_folder, tmp_path):
     assert len(pairs) >= 5  # a busy machine drops pairs; what is tracked is then compared on the same pairs
     results = tracked(quadedge.Rig.from_file(files), pairs, list(poses))
     assert [pose_of(message) for message in poses.values()] == [expected_pose(result) for result in results]
-    write_tum(tmp_path / "expected.txt", results)
-    assert (tmp_path / "out" / "trajectory.txt").read_bytes() == (tmp_path / "expected.txt").read_bytes()
+    assert (tmp_path / "out" / "trajectory.txt").read_bytes() == tum_of(results, tmp_path)
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["frames_tracked"] == len(pairs)
     assert len((tmp_path / "out" / "poses.csv").read_text().splitlines()) == 1 + len(pairs)

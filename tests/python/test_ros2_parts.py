@@ -13,7 +13,6 @@ from quadedge.estimates import Estimates, of_base, twist_between  # noqa: E402
 from quadedge.ros2.mount import StaticFrames, levelled, mount_of  # noqa: E402
 from quadedge.ros2.pairs import LEFT, RIGHT, PairQueue  # noqa: E402
 from quadedge.ros2.place import Place  # noqa: E402
-from quadedge.ros2.state import learned  # noqa: E402
 from quadedge.ros_messages import BODY_FROM_OPTICAL, stamp_ns, transforms_message  # noqa: E402
 from robot import SECOND, image_message  # noqa: E402
 
@@ -36,7 +35,7 @@ def test_pairs_as_they_arrive():
     queue = PairQueue(5_000_000)
     assert given(queue, (LEFT, 100), (RIGHT, 103), (RIGHT, 150), (LEFT, 149)) == [(100, 103), (149, 150)]
     assert given(queue, (LEFT, 200), (LEFT, 250), (RIGHT, 250)) == [(250, 250)]
-    assert queue.counts.alone == [1, 0] and queue.counts.dropped == 1
+    assert queue.counts.alone == [1, 0] and queue.counts.late == queue.counts.behind == 0
     assert given(queue, (RIGHT, 250), (RIGHT, 0), (RIGHT, 240)) == []
     assert queue.counts.late == 2 and queue.counts.without_stamp == 1
     for ms in (300, 350, 400):
@@ -86,15 +85,6 @@ def test_the_base_away_from_the_camera():
     expected[0, 0], expected[0, 5], expected[5, 0] = 0.04, 0.02, 0.02  # the base is 2 m behind, at -y of the camera
     numpy.testing.assert_allclose(of_pose, expected, atol=1e-12)
     numpy.testing.assert_allclose(mount_of("0,0,0,0,0,1.5707963267948966")[:3, :3] @ [0, 0, 1], [0, 1, 0], atol=1e-12)
-
-
-def test_what_a_rig_has_learned_is_told_as_an_error_of_the_depth():
-    """0.05 px less than true of the 5 px of a point at 10 m make it appear at 10.1 m."""
-    rig = SimpleNamespace(left=SimpleNamespace(fx=500.0), baseline=0.1)
-    words = learned(SimpleNamespace(disparity_offset=0.05, disparity_offset_sigma=0.01, disparity_error=0.3), rig)
-    assert words == {"disparity offset [px]": "+0.050 +- 0.010",
-                     "disparity errors left by the calibration [px]": "0.30",
-                     "depth error as calibrated at 1, 2, 5, 10 m [%]": "+0.1, +0.2, +0.5, +1.0"}
 
 
 def result_at(seconds: float, pose: numpy.ndarray, **more):

@@ -12,6 +12,6 @@
 from .images import grey_image
 from .pairing import Pairing, pair_stamps
 from .recording import BagFrame, Recording, open_bag
-from .writing import write_mcap, write_tum
+from .writing import write_mcap
 
-__all__ = ["BagFrame", "Pairing", "Recording", "grey_image", "open_bag", "pair_stamps", "write_mcap", "write_tum"]
+__all__ = ["BagFrame", "Pairing", "Recording", "grey_image", "open_bag", "pair_stamps", "write_mcap"]

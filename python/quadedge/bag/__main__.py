@@ -6,10 +6,8 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy
 
@@ -37,9 +35,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--restarts", action="store_true",
                         help="start a new segment of the trajectory where a stamp goes back: a clock was set, or a "
                              "simulation restarted")
-    parser.add_argument("--optical-axes", action="store_true",
-                        help="write odometry of the left camera with optical axes (x right, y down, z forward) instead "
-                             "of base_link with those of REP 103 (x forward, y left, z up)")
     parser.add_argument("--withhold-ambiguous", action="store_true",
                         help="write no odometry of frames with an ambiguous motion; by default with variances of 1e6")
     parser.add_argument("--device", help="auto, cpu, gpu, reference, an index, or a part of a name")
@@ -54,21 +49,6 @@ def _pgm(image: numpy.ndarray) -> bytes:
     return b"P5\n%d %d\n%d\n" % (width, height, maximum) + image.astype(image.dtype.newbyteorder(">")).tobytes()
 
 
-@contextmanager
-def _input_of(process: subprocess.Popen) -> Iterator[BinaryIO]:
-    """The standard input of a program that may end early. Interrupts the program if the body fails."""
-    try:
-        with suppress(BrokenPipeError, KeyboardInterrupt):  # Ctrl-C reaches the program, too, which keeps its results
-            yield process.stdin
-    except Exception:
-        process.send_signal(signal.SIGINT)
-        raise
-    finally:
-        with suppress(BrokenPipeError):
-            process.stdin.close()
-        process.wait()
-
-
 def _run_program(recording: Recording, options: argparse.Namespace, more: list[str]) -> int:
     """Tracks the recording with `quadedge run` and returns its exit code."""
     with tempfile.TemporaryDirectory() as folder:
@@ -81,10 +61,18 @@ def _run_program(recording: Recording, options: argparse.Namespace, more: list[s
             if value := getattr(options, name):
                 command += [f"--{name}", value]
         process = subprocess.Popen(command, stdin=subprocess.PIPE)
-        with _input_of(process) as pipe:
+        try:
             for frame in recording:
-                pipe.write(_pgm(frame.left))
-                pipe.write(_pgm(frame.right))
+                process.stdin.write(_pgm(frame.left) + _pgm(frame.right))
+        except (BrokenPipeError, KeyboardInterrupt):  # it has ended; Ctrl-C reaches it, too, and it keeps its results
+            pass
+        except Exception:
+            process.send_signal(signal.SIGINT)
+            raise
+        finally:
+            with suppress(BrokenPipeError):
+                process.stdin.close()
+            process.wait()
         code = process.returncode
         return code if code >= 0 else 128 - code  # of a signal, as shells report it
 
@@ -112,8 +100,7 @@ def _run(options: argparse.Namespace, more: list[str]) -> int:
     code = _run_program(recording, options, more)
     if code in (0, _TOO_FEW_TRACKED):
         shutil.rmtree(folder, ignore_errors=True)
-        file = write_mcap(folder, read_frames(options.output),
-                          optical_axes=options.optical_axes, withhold_ambiguous=options.withhold_ambiguous)
+        file = write_mcap(folder, read_frames(options.output), withhold_ambiguous=options.withhold_ambiguous)
         print(f"odometry   {file}")
     return code
 

@@ -16,11 +16,6 @@ class Pairing:
     largest_difference_ns: int = 0  #: between the stamps of a pair
     restarts: list[int] = field(default_factory=list)  #: indices of pairs whose stamps go back behind those before
 
-    @property
-    def dropped(self) -> int:
-        """Number of images that belong to no pair."""
-        return self.left_dropped + self.right_dropped + self.without_stamp + self.repeated
-
     def __str__(self) -> str:
         text = f"{len(self.pairs)} pairs"
         if self.restarts:

@@ -1,43 +1,23 @@
-"""Writes poses: TUM files, and MCAP recordings of nav_msgs/Odometry with covariances."""
+"""Writes MCAP recordings of nav_msgs/Odometry with covariances."""
 
 from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
 
-import numpy
-
-from .. import DataError, Trajectory
+from .. import DataError
 from ..estimates import Estimates
 from ..ros_messages import BODY_FROM_OPTICAL, message_store, odometry_message
 
 _STAMP_END = 2**31 * 1_000_000_000  # builtin_interfaces/Time has 31 bits for seconds from 0
 
 
-def _tracked(results: Iterable) -> list:
-    return [result for result in results if result.is_tracked]
-
-
-def write_tum(path: str | PathLike, results: Iterable) -> None:
-    """Writes the poses of all tracked frames, byte for byte as ``quadedge run``.
-
-    results: from Odometry.track(). The axes are optical: x right, y down, z forward.
-    """
-    tracked = _tracked(results)
-    stamps = numpy.array([result.stamp_ns for result in tracked], numpy.int64)
-    poses = numpy.array([result.world_from_left for result in tracked], float).reshape(-1, 4, 4)
-    segments = numpy.array([result.segment for result in tracked], numpy.int32)
-    Trajectory(stamps, poses, segments).write_tum(path)
-
-
 def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odometry", frame: str = "odom",
-               child_frame: str | None = None, optical_axes: bool = False, withhold_ambiguous: bool = False) -> Path:
+               child_frame: str = "base_link", withhold_ambiguous: bool = False) -> Path:
     """Writes a ROS 2 recording (a folder with metadata.yaml and an .mcap file) of ``nav_msgs/Odometry``.
 
     results: from Odometry.track(). There is one message per tracked frame, with the pose of ``child_frame`` in
-    ``frame`` and its covariance. Both frames have the axes of REP 103 (x forward, y left, z up), and ``child_frame`` is
-    "base_link" unless given: a body frame at the left camera's position, whose x axis is the camera's viewing direction
-    (REP 105). With ``optical_axes`` both frames have the axes of the camera (x right, y down, z forward), and
-    ``child_frame`` is "left_camera" unless given.
+    ``frame`` and its covariance. Both frames have the axes of REP 103 (x forward, y left, z up); ``child_frame`` is a
+    body frame at the left camera's position, whose x axis is the camera's viewing direction (REP 105).
 
     The twist is the velocity of ``child_frame`` along its own axes [m/s, rad/s], from the motion since the frame
     before. What is not known has variances of 1e6: pose and twist of frames with ``ambiguous_motion``, poses that were
@@ -54,12 +34,11 @@ def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odom
     if folder.exists():
         raise DataError(f"{folder}: the file or folder exists, expected a new folder")
     results = list(results)
-    for result in _tracked(results):
-        if not 0 <= result.stamp_ns < _STAMP_END:
+    for result in results:
+        if result.is_tracked and not 0 <= result.stamp_ns < _STAMP_END:
             raise DataError(f"{folder}: found the stamp {result.stamp_ns} ns, expected 0 to {_STAMP_END - 1} ns, the "
                             "times of ROS")
-    child_frame = child_frame or ("left_camera" if optical_axes else "base_link")
-    estimates = Estimates(numpy.eye(4) if optical_axes else BODY_FROM_OPTICAL)
+    estimates = Estimates(BODY_FROM_OPTICAL)
     try:
         with Writer(folder, version=8, storage_plugin=StoragePlugin.MCAP) as writer:
             kind = "nav_msgs/msg/Odometry"

@@ -5,6 +5,7 @@ import json
 import os
 import shlex
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from .. import configuration, open_dataset, synthetic
@@ -17,7 +18,6 @@ from ..session import say_on_stderr
 from ..shell import exit_code
 from .counts import Tolerance
 from .document import document, summary
-from .drawing import drawings
 from .observer import observe
 from .sources import RecordedSource, RenderedSource
 
@@ -43,9 +43,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--scene-seed", type=int, default=7, help="seed of the built-in scenes")
     parser.add_argument("--tolerance", type=float, default=1.0,
                         help="largest distance of a veridical match from the true position [px]")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the tables and distributions as JSON")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the tables as JSON")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also write every table as CSV")
-    parser.add_argument("--html", type=Path, metavar="FILE", help="also make a page with tables, plots and drawings")
+    parser.add_argument("--html", type=Path, metavar="FILE", help="also make a page with tables and plots")
     parser.add_argument("--device", default=os.environ.get("QUADEDGE_DEVICE", "auto"),
                         help="as for `quadedge run`; also QUADEDGE_DEVICE")
     parser.add_argument("--preset", default="default", help="fast, default, dense, or paper: the paper's own method")
@@ -55,15 +55,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _constant(text: str, default, key: str):
-    """The value of an option, of the type of the constant's default. Raises UsageError."""
-    try:
-        if isinstance(default, bool):
-            return {"true": True, "false": False}[text]
-        return type(default)(text)
-    except (KeyError, ValueError):
-        kind = {bool: "true or false", int: "a whole number", float: "a number"}[type(default)]
-        raise UsageError(f"--{key} {text}: expected {kind}") from None
+def _value(text: str):
+    """A number, true or false, where the text is one; else the text."""
+    with suppress(ValueError):
+        return json.loads(text)
+    return text
 
 
 def configured(preset: str, file: str | None, words: list[str]) -> dict:
@@ -78,7 +74,7 @@ def configured(preset: str, file: str | None, words: list[str]) -> dict:
         if key == "variant":
             chosen.setdefault(key, list(values.get(key, []))).append(text)
         else:
-            chosen[key] = _constant(text, values[key], key) if key in values else text
+            chosen[key] = _value(text)
     return configuration(preset, values | chosen)
 
 
@@ -139,8 +135,7 @@ def _evaluate(options: argparse.Namespace, words: list[str]) -> None:
     _print("all" if len(results) > 1 else results[0].name, summary(results), sum(len(one.frames) for one in results))
     command = shlex.join([*NAME.split(), *sys.argv[1:]])
     content = document(results, device, config, options.paths, tolerance, command)
-    shown = enumerate(results) if options.html else ()
-    page = matching_page(content, {one.name: drawings(f"drawing_{number}", one, tolerance) for number, one in shown})
+    page = matching_page(content)
     try:
         if options.json:
             write_atomically(options.json, json.dumps(content, indent=2) + "\n")

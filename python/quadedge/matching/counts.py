@@ -1,6 +1,7 @@
 """Which edges have a counterpart, and what a filter leaves of their candidates: recall, precision and ambiguity."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas
@@ -31,10 +32,6 @@ class Pools:
     """Visible edges with a detected counterpart, the paper's pool: the initial recall is 1 by construction."""
     everything: np.ndarray
     """Every edge with a known true position, also occluded ones, whose candidates are never veridical."""
-
-
-def ratio(part, whole) -> float:
-    return part / whole if whole > 0 else np.nan
 
 
 def filter_counts(filter, candidates: np.ndarray, veridical: np.ndarray, pools: Pools, **sums) -> list[dict]:
@@ -152,3 +149,33 @@ def quad_pools(before, veridical: np.ndarray, now, left_truth: TruePositions, ri
         a, b = getattr(before, side).direction[row], getattr(now, side).direction[target]
         fits &= line_angle(a, b) <= TEMPORAL_DIRECTION
     return Pools(_marked(len(veridical), row[fits]), everything)
+
+
+@dataclass
+class Judge:
+    """What decides whether a candidate is veridical, and which pools its row belongs to."""
+
+    truth: TruePositions
+    pools: Pools
+    tolerance: Tolerance
+    targets: Any
+    """The other edges, with x and y [px]."""
+
+    def of_baseline(self, filter) -> list[dict]:
+        """filter_counts() of row 0: every edge is paired with every target, without creating the lists."""
+        rows = len(self.truth.x)
+        found, _ = near_truth(self.truth, self.pools.everything, self.targets, self.tolerance)
+        return filter_counts(filter, np.full(rows, len(self.targets.x)), np.bincount(found, minlength=rows), self.pools)
+
+    def of_lists(self, filter, lists) -> list[dict]:
+        """filter_counts() of Candidates; they lie at their targets unless they have positions of their own."""
+        kept, target = np.diff(lists.first), lists.target
+        row = np.repeat(np.arange(len(kept)), kept)
+        x, y = (lists.x, lists.y) if len(lists.x) == len(target) else (self.targets.x[target], self.targets.y[target])
+        return self.of_pairs(filter, row, x, y)
+
+    def of_pairs(self, filter, row: np.ndarray, x: np.ndarray, y: np.ndarray) -> list[dict]:
+        """filter_counts() of candidates at positions, each with its row."""
+        veridical = is_veridical(self.truth, row, x, y, self.tolerance)
+        return filter_counts(filter, *(np.bincount(which, minlength=len(self.truth.x)) for which in (
+            row, row[veridical])), self.pools)

@@ -6,9 +6,8 @@ import numpy as np
 import pandas
 
 from .. import __version__, configuration
-from .counts import ratio, shares
-from .cues import Cues, histogram, histogram_document
-from .observer import CENSUS, CLASSES, SIDES, MatchingResult, Tolerance, add_cues
+from .counts import Tolerance, shares
+from .observer import CENSUS, CLASSES, SIDES, MatchingResult
 from .quad_pairs import CONSTRAINTS
 
 SCHEMA = 1
@@ -21,12 +20,6 @@ FILTER_COLUMNS = ["order", "filter", "recall", "precision", "precision_per_edge"
 QUAD_COLUMNS = ["recall", "precision", "edges", "kept", "recall_std", "precision_std", "ambiguity_mean",
                 "ambiguity_std"]
 COUNTS = ("edges_left", "edges_right", "stereo_edges", "temporal_left", "temporal_right", "quads", "inliers")
-DISPARITY_RANGE = 1.5
-
-
-def _number(value) -> float | None:
-    """JSON has no NaN: a value that does not exist is null."""
-    return float(value) if np.isfinite(value) else None
 
 
 def _deviations(values):
@@ -104,34 +97,10 @@ def summary(results: list[MatchingResult]) -> dict:
     return content
 
 
-def _distributions(cues: Cues) -> list[dict]:
-    shown = []
-    for (table, order), cue in cues.items():
-        if cue.of["veridical"].sum() + cue.of["other"].sum() == 0:
-            continue
-        low, high, _ = cue.bins
-        entry = {"table": table, "order": order, "cue": cue.name, "unit": cue.unit, "keeps_small": cue.keeps_small,
-                 "thresholds": cue.thresholds, "low": float(low), "high": float(high), "other_is_sample": cue.sampled}
-        both = cue.of["veridical_all"].sum() + cue.of["other_all"].sum() > 0
-        shown.append(entry | {kind: histogram_document(counts) for kind, counts in cue.of.items()
-                              if both or not kind.endswith("_all")})
-    return shown
-
-
 def _per_frame(frame) -> dict:
     result = frame.result
     entry = {"status": result.status} | {name: getattr(result.counts, name) for name in COUNTS}
-    if result.message:
-        entry["message"] = result.message
-    if frame.motion is not None:
-        entry |= dict(zip(("rotation_error_deg", "translation_error_m"), frame.motion.tolist()))
-    if frame.temporal:
-        pairs = frame.temporal.pairs
-        entry["pairs"] = [{"precision": _number(ratio(veridical, count)), "rotation_error_deg": _number(rotation),
-                           "translation_error_m": _number(translation)}
-                          for count, veridical, (rotation, translation) in zip(pairs.pairs, pairs.veridical,
-                                                                               pairs.errors)]
-    return entry
+    return entry | ({"message": result.message} if result.message else {})
 
 
 def _text(value) -> str:
@@ -164,12 +133,4 @@ def document(results: list[MatchingResult], device, config: dict, inputs: list[s
     content["pairs"] = [{"name": result.name, "frames": len(result.frames),
                          "counts": [_per_frame(frame) for frame in result.frames], **summary([result])}
                         for result in results]
-    cues = {}
-    for result in results:
-        add_cues(cues, result.cues)
-    errors = np.concatenate([frame.disparity_error for result in results for frame in result.frames])
-    content["pooled"] = {**summary(results), "distributions": _distributions(cues),
-                         "disparity_error_histogram": {"low": -DISPARITY_RANGE, "high": DISPARITY_RANGE,
-                                                       **histogram_document(histogram(
-                                                           errors, -DISPARITY_RANGE, DISPARITY_RANGE, 300))}}
-    return content
+    return content | {"pooled": summary(results)}

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import PIL.Image
 
 from .. import Dataset, Synthetic, read_grey_image
 from ..errors import DataError
@@ -30,21 +31,13 @@ def read_float_map(file: Path) -> np.ndarray:
     """A PFM file, (height, width) float32, top row first. The size of its scale is left alone, as published maps hold
     pixels or metres whatever it is. Raises DataError."""
     try:
-        content = file.read_bytes()
-    except OSError as problem:
-        raise DataError(f"{file}: {problem.strerror}, expected a PFM file") from problem
-    words = content[:100].split(maxsplit=4)
-    try:
-        width, height, order = int(words[1]), int(words[2]), "<" if float(words[3]) < 0 else ">"
-        start = content.index(words[3], len(words[0] + words[1] + words[2])) + len(words[3]) + 1
-    except (IndexError, ValueError):
-        width = height = 0
-    if not width > 0 or not height > 0 or words[0] != b"Pf":
-        raise DataError(f"{file}: found bytes that start with {content[:8]!r}, expected \"Pf\", width, height and "
-                        "scale, then one float per pixel")
-    if len(content) != start + 4 * width * height:
-        raise DataError(f"{file}: found {len(content)} bytes, expected a header and {width} x {height} floats")
-    return np.frombuffer(content, order + "f4", offset=start).reshape(height, width)[::-1].astype(np.float32)
+        with PIL.Image.open(file, formats=["PPM"]) as opened:
+            if opened.mode != "F":
+                raise ValueError(f"its pixels are of the mode {opened.mode}")
+            return np.array(opened, np.float32)
+    except (OSError, SyntaxError, ValueError) as problem:
+        reason = getattr(problem, "strerror", None) or problem
+        raise DataError(f"{file}: {reason}, expected a PFM file of one float per pixel") from problem
 
 
 def _check_size(values: np.ndarray, camera, file: Path) -> np.ndarray:

@@ -29,18 +29,12 @@ class Figure:
     z_label: str = ""
     traces: list[dict] = field(default_factory=list)
     """Curves and point clouds, as plotly takes them, with unrounded arrays."""
-    markers: list[tuple[float, str]] = field(default_factory=list)
-    """Labelled vertical lines."""
     categories: list[str] | None = None
     """Labels of the x values 0, 1, ..."""
-    x_range: tuple[float, float] | None = None
     y_range: tuple[float, float] | None = None
-    y_logarithmic: bool = False
     equal_units: bool = False
     wide: bool = False
     """Spans the width of the page."""
-    picture: str = ""
-    """Address of an image that fills x_range and y_range behind the traces."""
 
     def add(self, name: str, x, y, z=None, *, style: int = 0, points: bool = False, fill: str = "", dash: str = "",
             times: np.ndarray | None = None, hover: list[str] | None = None, labels: list[str] | None = None) -> None:
@@ -93,9 +87,8 @@ class Figure:
         return [max(extent / max(*extents, 1e-9), _SHORTEST) for extent in extents]
 
     def _axis(self, axis: str) -> dict:
-        limits = getattr(self, f"{axis}_range", None)
         shown = {"title": {"text": getattr(self, f"{axis}_label")}, "automargin": True}
-        return shown | ({"range": list(limits)} if limits else {})
+        return shown | ({"range": list(self.y_range)} if axis == "y" and self.y_range else {})
 
     def plotly(self) -> dict:
         """The `data` and `layout` arguments of Plotly.newPlot. The page adds size, fonts and background colours."""
@@ -109,24 +102,10 @@ class Figure:
         x, y = layout["xaxis"], layout["yaxis"] = self._axis("x"), self._axis("y")
         if self.categories:
             x |= {"type": "category", "categoryarray": self.categories, "categoryorder": "array", "tickangle": -40}
-        if self.y_logarithmic:
-            y |= {"type": "log", "dtick": 1}
-        elif self.y_range is None and not self.equal_units and all(np.nanmin(trace["y"], initial=0) >= 0
-                                                                   for trace in self.traces):
-            y["rangemode"] = "tozero"
         if self.equal_units:
             y |= {"scaleanchor": "x", "scaleratio": 1}
-        if self.picture:
-            width, height = self.x_range[1], self.y_range[0]
-            layout["images"] = [{"source": self.picture, "xref": "x", "yref": "y", "x": 0, "y": 0, "sizex": width,
-                                 "sizey": height, "sizing": "stretch", "layer": "below"}]
-            for axis in (x, y):
-                axis |= {"showgrid": False, "zeroline": False, "constrain": "domain"}
-        layout["shapes"] = [{"type": "line", "x0": place, "x1": place, "yref": "paper", "y0": 0, "y1": 1,
-                             "line": {"dash": "dash", "width": 1.5, "color": COLOURS[GREY]}}
-                            for place, _ in self.markers]
-        layout["annotations"] = [{"x": place, "yref": "paper", "y": 1, "yanchor": "bottom", "showarrow": False,
-                                  "text": text} for place, text in self.markers if text]
+        elif self.y_range is None and all(np.nanmin(trace["y"], initial=0) >= 0 for trace in self.traces):
+            y["rangemode"] = "tozero"
         return {"data": self.traces, "layout": layout}
 
 

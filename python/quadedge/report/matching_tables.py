@@ -1,16 +1,10 @@
 """Tables of the matching evaluation, with both pools side by side."""
 
-import pandas
-
 from .numbers import DASH, PLUS_MINUS, count, exists, percent
 from .table import Cell, Table
 
 NOTHING = {"recall": None, "precision": None}
 POOLS = (("paired", ""), ("all", "_all"))
-QUANTITIES = {"edges_left": "edges, left", "edges_right": "edges, right", "stereo_edges": "stereo edges",
-              "temporal_left": "with a match in time, left", "temporal_right": "with a match in time, right",
-              "quads": "quads", "inliers": "inliers of the pose"}
-IN_TIME = list(QUANTITIES)[3:]
 
 
 def _shares(row: dict, *keys: str) -> list[Cell]:
@@ -109,21 +103,3 @@ def summary_tables(summary: dict, prefix: str = "") -> list[Table]:
         if summary["constraints"][0]["pairs"] > 0:
             tables.append(constraint_table(f"{prefix}constraints", summary))
     return tables
-
-
-def frame_counts(pairs: list[dict]) -> pandas.DataFrame:
-    """Numbers of every frame; those of matches in time only where there are any."""
-    frames = [frame for pair in pairs for frame in pair["counts"]]
-    counts = pandas.DataFrame(frames, columns=list(QUANTITIES), dtype=float)
-    counts.loc[~(counts["temporal_left"] > 0), IN_TIME] = None
-    return counts
-
-
-def count_table(pairs: list[dict]) -> Table:
-    """Numbers of edges, stereo edges, temporal matches and quads per frame."""
-    columns = ("count", "mean", "std", "min", "50%", "max")
-    table = Table("counts", "Counts of a frame", ["per frame", "frames", "mean", "std", "min", "median", "max"])
-    for key, row in frame_counts(pairs).describe().T.iterrows():
-        if row["count"]:
-            table.add(QUANTITIES[key], *[_count(row[column]) for column in columns])
-    return table

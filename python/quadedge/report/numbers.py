@@ -55,14 +55,6 @@ def count(value: float | None) -> str:
     return f"{round(value):,}".replace(",", _THIN_SPACE) if exists(value) else DASH
 
 
-def short_count(value: float) -> str:
-    """Formats 27230 as "27k"."""
-    for limit, scale, suffix in ((1e6, 1e6, "M"), (1e3, 1e3, "k")):
-        if value >= limit:
-            return f"{value / scale:.{0 if value >= 10 * limit else 1}f}{suffix}"
-    return f"{value:.0f}"
-
-
 def share_of(part: float, whole: float) -> str:
     """Formats a share as "58 of 86 (67.4 %)"; a dash if the whole is zero."""
     return f"{part} of {whole} ({100 * part / whole:.1f} %)" if whole else DASH

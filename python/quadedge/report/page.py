@@ -22,7 +22,6 @@ from .figure import Figure, rounded
 from .table import Table, to_markdown
 
 LARGEST_PAGE = 6_000_000  # bytes
-_LABEL = "Documentation"  # of its address in the package's metadata
 
 
 @dataclass(frozen=True)
@@ -191,15 +190,7 @@ def _emphasised(text: str) -> Markup:
 
 @functools.cache
 def _documentation() -> str:
-    """Its address: the published one if the package names it, else a folder of this machine, else ""."""
-    try:
-        urls = metadata.metadata("quadedge").get_all("Project-URL") or []
-    except metadata.PackageNotFoundError:
-        urls = []
-    for url in urls:
-        label, _, address = url.partition(",")
-        if label.strip() == _LABEL:
-            return address.strip().rstrip("/") + "/"
+    """Its address: a folder of this machine, or ""."""
     checkout, installed = Path(__file__).resolve().parents[3], Path(sys.prefix) / "share/doc/quadedge"
     for folder in (checkout / "doc", installed / "doc"):
         if (folder / "reference.md").is_file():

@@ -14,7 +14,7 @@ from .domain import Domain
 from .watch import SILENCE_S
 
 _ENCODINGS = ("mono8", "8UC1")
-_KEPT = 20  # masks that wait for their images, and images whose masks may still come
+_KEPT = 20  # masks that wait for their images
 
 
 def mask_of(message, topic: str, shape: tuple[int, int]) -> numpy.ndarray:
@@ -38,18 +38,13 @@ class MaskTopic:
         self._missing_since: float | None = None  # when the first pair after the last mask was tracked without one
         self._missing_last = 0.0  # the same of the last pair
         self._was_silent, self._said = False, set()
-        self._begin_second()
+        self._without_now, self._problem = 0, ""  # in the last second: pairs without, and why a mask was refused
         self.forget()
-
-    def _begin_second(self) -> None:
-        self._heard_now = self._without_now = 0
-        self._delay, self._problem = None, ""  # the largest one [s], and why a mask was refused
 
     def forget(self) -> None:
         """The stamps of the cameras have gone back: masks from before are of no use."""
         self._waiting: dict = {}  # message by stamp
         self._matches: dict[int, int] = {}  # stamp of the mask by that of the image
-        self._arrivals: dict[int, float] = {}  # when images have come, by stamp
         self._tracked_ns = 0  # stamp of the image that was tracked last
 
     @property
@@ -61,9 +56,6 @@ class MaskTopic:
         """Takes the masks that have come."""
         for message in self._topic.take():
             stamp, self._missing_since = stamp_ns(message), None
-            self._heard_now += 1
-            if stamp in self._arrivals:
-                self._delay = max(self._delay or 0.0, time.monotonic() - self._arrivals[stamp])
             if stamp <= self._tracked_ns or stamp in self._waiting:
                 self._late += 1
                 continue
@@ -73,12 +65,8 @@ class MaskTopic:
 
     def match(self, stamps: list[int], tolerance_ns: int) -> None:
         """Finds the masks of images that wait. stamps: of these images [ns]."""
-        masks, now = list(self._waiting), time.monotonic()
+        masks = list(self._waiting)
         self._matches = {stamps[i]: masks[j] for i, j in pair_stamps(stamps, masks, tolerance_ns).pairs}
-        for stamp in stamps:
-            self._arrivals.setdefault(stamp, now)
-        for stamp in list(self._arrivals)[:-_KEPT]:
-            del self._arrivals[stamp]
 
     def has(self, stamp: int) -> bool:
         """Whether the mask of an image has come, or none is expected."""
@@ -106,9 +94,7 @@ class MaskTopic:
         kinds = [kind for topic, kind in self._domain.publications() if topic == self._name]
         if not kinds or IMAGES[0] not in kinds:
             return f"it is of {kinds[0]}, expected {IMAGES[0]}" if kinds else "nobody publishes it"
-        if self._delay is not None:
-            return f"masks come up to {self._delay * 1e3:.0f} ms after their pairs"
-        return "stamps of masks are those of no image" if self._heard_now else "no masks come"
+        return "none with its stamp has come in time"
 
     def faults(self, wait_s: float) -> list[str]:
         """What was wrong in the last second. Says what is new."""
@@ -124,14 +110,13 @@ class MaskTopic:
             if kind not in self._said:
                 self._said.add(kind)
                 self._say(f"warning: {text}")
-        self._begin_second()
+        self._without_now, self._problem = 0, ""
         return found
 
     def values(self) -> dict[str, object]:
         """For /diagnostics."""
         return {f"pairs without a {self._side} mask": self._without, f"{self._side} masks late or repeated": self._late,
-                f"{self._side} masks refused": self._refused,
-                f"largest delay of a {self._side} mask [ms]": "" if self._delay is None else f"{self._delay * 1e3:.0f}"}
+                f"{self._side} masks refused": self._refused}
 
 
 class Masks:
@@ -183,5 +168,5 @@ class Masks:
         return [text for topic in self._topics.values() for text in topic.faults(self._wait_s)]
 
     def values(self) -> dict[str, object]:
-        """For /diagnostics; before faults()."""
+        """For /diagnostics."""
         return {name: value for topic in self._topics.values() for name, value in topic.values().items()}

@@ -269,7 +269,7 @@ class Node:
         if placed and not (result.ambiguous_motion and self._options.withhold_ambiguous):
             self._publish(result, placed, left.header.frame_id)
         self._count(result, placed, doubt)
-        self._state.take(result, self._session.rig, doubt, (time.monotonic() - arrived) * 1e3)
+        self._state.take(result, doubt, (time.monotonic() - arrived) * 1e3)
         try:
             self._session.keep(result)
         except DataError as error:  # a full disk does not stop a robot

@@ -33,11 +33,6 @@ class Counts:
                 "right images alone": self.alone[RIGHT], "images late or repeated": self.late,
                 "images without a stamp": self.without_stamp, "pairs refused": self.refused}
 
-    @property
-    def dropped(self) -> int:
-        """Number of pairs and images that were not tracked."""
-        return self.behind + sum(self.alone) + self.late + self.without_stamp + self.refused
-
 
 class PairQueue:
     """The images that wait for their partners, at most ten of each camera. tolerance_ns: as for pair_stamps()."""

@@ -4,18 +4,15 @@ from dataclasses import dataclass
 
 import numpy
 
-from ..estimates import Estimates, of_base
+from ..estimates import Estimate, Estimates, moved_covariance, of_base
 from ..ros_messages import BODY_FROM_OPTICAL
 
 
 @dataclass
-class Placed:
-    """The base at the time of one tracked pair. What is None is not known."""
+class Placed(Estimate):
+    """The base at the time of one tracked pair, in odom."""
 
-    pose: numpy.ndarray  #: (4, 4) of the base in odom [m]
-    covariance: numpy.ndarray | None  #: (6, 6) of it [m, rad], along the axes of odom
-    twist: tuple[numpy.ndarray, numpy.ndarray] | None  #: (6) along the axes of the base [m/s, rad/s], and (6, 6)
-    map_from_odom: numpy.ndarray | None  #: (4, 4) [m]
+    map_from_odom: numpy.ndarray | None  #: (4, 4) [m]; None: not known
 
 
 class Place:
@@ -58,17 +55,12 @@ class Place:
         if estimate is None:
             return None
         self._last, self._pose = result.world_from_left, self._origin @ estimate.pose
-        covariance = None if self.unknown or estimate.covariance is None else _turned(estimate.covariance,
-                                                                                      self._origin[:3, :3])
+        covariance = None
+        if not self.unknown and estimate.covariance is not None:
+            covariance = moved_covariance(estimate.covariance, self._origin[:3, :3], numpy.zeros(3))
         moved = None
         if result.map_from_odometry is not None:
             in_base_axes, _ = of_base(result.map_from_odometry, None, self.mount)
             moved = self._map_before @ self._origin @ in_base_axes @ numpy.linalg.inv(self._origin)
             self._map_from_odom = moved
         return Placed(self._pose, covariance, estimate.twist, moved)
-
-
-def _turned(covariance: numpy.ndarray, rotation: numpy.ndarray) -> numpy.ndarray:
-    """A covariance (6, 6) along rotated axes."""
-    turn = numpy.kron(numpy.eye(2), rotation)
-    return turn @ covariance @ turn.T

@@ -7,18 +7,7 @@ import numpy
 from ..ros_messages import diagnostics_message
 
 _GOOD, _WARNING, _ERROR = range(3)
-_DEPTHS_M = (1, 2, 5, 10)
 _KEPT_S = 10.0  # for so long a warning keeps the level at WARN; its text stays among the values
-
-
-def learned(result, rig) -> dict[str, str]:
-    """What motions have shown of the disparities, and how far off depths by the calibration alone would be."""
-    offset, sigma = result.disparity_offset, result.disparity_offset_sigma
-    per_metre = 100 / (rig.left.fx * rig.baseline)  # percent of the depth that a pixel of disparity makes
-    errors = ", ".join(f"{offset * metres * per_metre:+.1f}" for metres in _DEPTHS_M)
-    return {"disparity offset [px]": f"{offset:+.3f} +- {sigma:.3f}",
-            "disparity errors left by the calibration [px]": f"{result.disparity_error:.2f}",
-            f"depth error as calibrated at {', '.join(map(str, _DEPTHS_M))} m [%]": errors}
 
 
 class State:
@@ -34,11 +23,9 @@ class State:
         self._unknown_since: tuple[int, str] | None = None  # stamp and reason
         self._ambiguous = ""
         self._latencies_ms: list[float] = []
-        self._learned: dict[str, str] = {}
 
-    def take(self, result, rig, doubt: str, latency_ms: float) -> None:
+    def take(self, result, doubt: str, latency_ms: float) -> None:
         """Takes a pair that was tracked or lost. doubt: why its motion is doubtful although it is tracked; or empty."""
-        self._learned = learned(result, rig)
         now = time.monotonic()
         self._latencies_ms.append(latency_ms)
         self._status, self._is_lost, self._reason = result.status, not result.is_tracked, result.message
@@ -81,7 +68,7 @@ class State:
                 "warnings": "; ".join(f"{kind}: {text}" for kind, text in self._warnings.items()),
                 "place in odom": place, "restarts": self.restarts, "last restart": self._restart,
                 "latency of the pair [ms]": f"{numpy.median(times):.1f}" if times else "",
-                "largest latency [ms]": f"{max(times):.1f}" if times else "", **self._learned, **values}
+                "largest latency [ms]": f"{max(times):.1f}" if times else "", **values}
         self._refused = self._ambiguous = ""
         return diagnostics_message(stamp_ns, "quadedge: stereo odometry", level,
                                    "; ".join(errors or warnings) or status, rows)
