@@ -40,10 +40,10 @@ MOST_LINES = {
     "host/workbench/scenes": 2844,
     "include": 2262,
     "kernels": 6450,
-    "python": 9330,
+    "python": 9354,
     "ros2": 90,
     "scripts": 2181,
-    "tests": 31324,
+    "tests": 31334,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.

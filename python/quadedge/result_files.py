@@ -38,17 +38,24 @@ def expecting(expected: str, file: Path):
         raise DamagedResults(f"{file}: {text}; expected {expected}") from problem
 
 
-def lines_of(file: Path) -> list[str]:
-    """The lines of a text file. Raises DamagedResults."""
+def whole_lines(file: Path, *, may_be_cut: bool = False) -> list[str]:
+    """The lines of a text file. `may_be_cut`: a last line without a line end is left out. Raises DamagedResults."""
     try:
-        return file.read_text(encoding="utf-8", errors="replace").splitlines()
+        with open(file, encoding="utf-8", errors="replace", newline="") as stream:
+            text = stream.read()
     except OSError as problem:
         raise DamagedResults(f"{file}: {problem.strerror}") from None
+    if may_be_cut:
+        text = text[:text.rfind("\n") + 1]
+    return text.splitlines()
 
 
-def read_table(file: Path) -> pandas.DataFrame:
-    """The texts in a CSV file with a heading. Raises DamagedResults for rows of another length."""
-    rows = list(csv.reader(lines_of(file)))
+def read_table(file: Path, *, may_be_cut: bool = False) -> pandas.DataFrame:
+    """The texts in a CSV file with a heading. Raises DamagedResults for rows of another length.
+
+    `may_be_cut`: as for whole_lines().
+    """
+    rows = list(csv.reader(whole_lines(file, may_be_cut=may_be_cut)))
     if not rows:
         raise DamagedResults(f"{file}: an empty file; expected a heading")
     for number, row in enumerate(rows, 1):

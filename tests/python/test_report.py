@@ -151,16 +151,26 @@ def test_edges_in_space_move_with_the_path_to_the_ground_truth(tmp_path):
         report.make_page(tmp_path / "street")
 
 
-def test_an_interrupted_run_has_a_page_of_its_finished_frames(tmp_path):
+def test_an_interrupted_or_killed_run_has_a_page_of_its_finished_frames(tmp_path):
     content = write_run(tmp_path / "interrupted", 12)
     content["input"]["frames"], content["ended_early"] = 60, "interrupted after 12 of 60 frames"
     write_report(tmp_path / "interrupted", content)
     page = page_of(tmp_path / "interrupted")
     assert "The run ended early: interrupted after 12 of 60 frames." in page.text
-    frames = tmp_path / "interrupted/frames.csv"
-    frames.write_text(frames.read_text().splitlines()[0] + "\n")
+    write_run(tmp_path / "killed", 12, lost=7)
+    for name in ("report.json", "errors.csv", "groundtruth.txt"):  # written at the end
+        (tmp_path / "killed" / name).unlink()
+    for name in ("frames.csv", "poses.csv", "trajectory.txt"):  # the disk was full
+        with open(tmp_path / "killed" / name, "a") as stream:
+            stream.write("12,1.2")
+    page = page_of(tmp_path / "killed")
+    assert "The run ended early: killed after 12 frames" in page.text
+    assert page.facts["Frames tracked"] == "11 of 12 (91.7 %)"
+    assert page.facts["Frames lost"] == "1 no consensus"
+    assert len(page.figure("from_above")["data"][0]["x"]) == 11
+    (tmp_path / "killed/frames.csv").write_text((tmp_path / "killed/frames.csv").read_text().splitlines()[0] + "\n")
     with pytest.raises(report.DamagedResults, match="frames.csv: no frame"):
-        report.make_page(tmp_path / "interrupted")
+        report.make_page(tmp_path / "killed")
 
 
 def test_segments_are_told_apart(tmp_path):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 
-from ..result_files import DamagedResults, expecting, lines_of, numbers, read_json, read_table, rotations
+from ..result_files import DamagedResults, expecting, numbers, read_json, read_table, rotations, whole_lines
 
 STAMP_TOLERANCE_S = 0.01  # as the evaluation of trajectories matches poses
 
@@ -29,9 +29,9 @@ class Trajectory:
         return Trajectory(self.stamps[indices], self.positions[indices], self.rotations[indices])
 
 
-def read_tum(file: Path) -> Trajectory:
-    """A trajectory in TUM format. Raises DamagedResults."""
-    lines = [line.split() for line in lines_of(file)]
+def read_tum(file: Path, *, may_be_cut: bool = False) -> Trajectory:
+    """A trajectory in TUM format. Raises DamagedResults. `may_be_cut`: as for whole_lines()."""
+    lines = [line.split() for line in whole_lines(file, may_be_cut=may_be_cut)]
     try:
         rows = [[float(word) for word in line] for line in lines if line and not line[0].startswith("#")]
     except ValueError as problem:
@@ -133,15 +133,18 @@ REQUIRED_COLUMNS = ("stamp_s", "status", "new_key_rig", "latency_ms", "edges_lef
 
 def read_run(folder: Path, name: str = "") -> Run:
     """Everything of one run's folder. Raises DamagedResults for what a finished run must have; errors.csv, poses.csv
-    and pictures may be missing."""
-    report = read_json(folder / "report.json", "the report of a run")
-    frames = read_table(folder / "frames.csv")
+    and pictures may be missing. A run that was killed left no report.json: its last rows may be cut."""
+    killed = not (folder / "report.json").is_file()
+    if killed and not (folder / "frames.csv").is_file():
+        raise DamagedResults(f"{folder}: no report.json or frames.csv; expected the folder of a run")
+    frames = read_table(folder / "frames.csv", may_be_cut=killed)
     for column in REQUIRED_COLUMNS:
         if column not in frames:
             raise DamagedResults(f"{folder / 'frames.csv'}: no column {column}; expected a frames.csv of a run")
     if frames.empty:
         raise DamagedResults(f"{folder / 'frames.csv'}: no frame; expected those of a run")
-    estimate = read_tum(folder / "trajectory.txt")
+    report = report_of_killed(folder, frames) if killed else read_json(folder / "report.json", "the report of a run")
+    estimate = read_tum(folder / "trajectory.txt", may_be_cut=killed)
     truth = read_tum(folder / "groundtruth.txt") if (folder / "groundtruth.txt").is_file() else None
     match = first_match(estimate, truth) if truth else None
     edges = read_edges(folder / "edges.csv") if (folder / "edges.csv").is_file() else np.empty((0, 3))
@@ -157,7 +160,7 @@ def read_run(folder: Path, name: str = "") -> Run:
         table = read_table(folder / "errors.csv").reindex(columns=list(ERRORS))
         run.errors = pandas.DataFrame(numbers(table, folder / "errors.csv"), columns=list(ERRORS))
     if (folder / "poses.csv").is_file():
-        run.predicted = read_predicted(folder / "poses.csv")
+        run.predicted = read_predicted(folder / "poses.csv", may_be_cut=killed)
     if (folder / "trajectory_map.txt").is_file() and (folder / "loops.csv").is_file():
         corrected = read_tum(folder / "trajectory_map.txt")
         run.corrected = aligned(corrected, run.truth) if run.truth else corrected
@@ -167,9 +170,9 @@ def read_run(folder: Path, name: str = "") -> Run:
     return run
 
 
-def read_predicted(file: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def read_predicted(file: Path, *, may_be_cut: bool) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Run.predicted of poses.csv; what has no covariances is missing. Raises DamagedResults."""
-    columns = read_table(file)
+    columns = read_table(file, may_be_cut=may_be_cut)
     found = {}
     for key, axes, factor in (("ape_translation_m", ("x", "y", "z"), 1), ("ape_rotation_deg", ("rx", "ry", "rz"),
                                                                            180 / np.pi)):
@@ -186,6 +189,20 @@ def read_edges(file: Path) -> np.ndarray:
     if not set(names) <= set(columns):
         raise DamagedResults(f"{file}: no column {' or '.join(names)}; expected the edges of a run")
     return numbers(columns[names], file)
+
+
+def report_of_killed(folder: Path, frames: pandas.DataFrame) -> dict:
+    """What report.json would say of a run that was killed, as far as its other files tell. Raises DamagedResults."""
+    latency = numbers(frames["latency_ms"], folder / "frames.csv")
+    steady = latency[1:] if len(latency) > 1 else latency
+    return {"input": {"name": folder.resolve().name, "frames": len(latency)},
+            "ended_early": f"killed after {len(latency)} frames, before it could write report.json",
+            "frames_tracked": int((~frames["status"].map(is_lost)).sum()),
+            "key_rigs": int((frames["new_key_rig"] == "1").sum()),
+            "warnings": [{"frame": number, "text": text} for number, text in enumerate(frames.get("warning", []))
+                         if text],
+            "latency_ms": {"first": latency[0], "max": steady.max()} | dict(zip(
+                ("median", "p90", "p99"), np.percentile(steady, (50, 90, 99)).tolist()))}
 
 
 def is_lost(status: str) -> bool:
