@@ -80,7 +80,7 @@ static inline uint16 gather16(global const uint* p, const int16 indices) {
 }
 
 // Lanes of a comparison as bits, lane k at bit k. Compilers see neither that AVX-512 has them as bits
-// already nor that AVX gathers them.
+// already nor that AVX gathers them. Of several comparisons the bits are combined: AVX2 would pack their lanes first.
 static inline uint lane_bits(const int16 lanes) {
 #ifdef __AVX512DQ__
   return (uint)__builtin_ia32_cvtd2mask512(lanes);

@@ -68,15 +68,15 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
     int found = 0;
     for (int i = 0; i < columns; i += 16) {
       const float16 m = LOAD(middle + i);
-      const int16 column = i + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-      int16 win = (m > threshold) & (column >= 1) & (column < columns - 1);
-      if (lane_bits(win) == 0) continue;
+      uint won = lane_bits(m > threshold);
+      if (i == 0) won &= ~1u;
+      if (columns - 1 - i < 16) won &= (1u << (uint)(columns - 1 - i)) - 1u;
+      if (won == 0) continue;
       float16 ahead16, behind16;
       probes16(LOAD(here + i), LOAD(here + line + i), LOAD(middle + i - 1), LOAD(middle + i + 1), LOAD(above + i),
                LOAD(below + i), LOAD(above + i - 1), LOAD(above + i + 1), LOAD(below + i - 1), LOAD(below + i + 1),
                &ahead16, &behind16);
-      win &= IS_MAXIMUM(m, ahead16, behind16);
-      uint won = lane_bits(win);
+      won &= lane_bits(m > behind16) & lane_bits(m >= ahead16);  // as IS_MAXIMUM()
       if (won == 0) continue;
       float ahead[16], behind[16];
       vstore16(ahead16, 0, ahead);
