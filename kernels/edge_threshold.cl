@@ -37,10 +37,9 @@ static inline float gradient_bin_start(const int bin) {
   return bin == 0 ? 0.0f : as_float((bin + kGradientBinsFrom) << 20);
 }
 
-// Integers below 16 have one bin each, larger ones eight bins per octave.
+// Integers below 16 have one bin each, larger ones, from 2^4 on, eight bins per octave as above.
 static inline int noise_bin(const int response) {
-  const int octave = 31 - (int)clz(response | 1);
-  return min(response < 16 ? response : 16 + 8 * (octave - 4) + ((response >> (octave - 3)) & 7), kNoiseBins - 1);
+  return min(response < 16 ? response : (as_int((float)response) >> 20) - 8 * (127 + 4) + 16, kNoiseBins - 1);
 }
 static inline int noise_bin_start(const int bin) { return bin < 16 ? bin : (8 + (bin & 7)) << (bin / 8 - 1); }
 
