@@ -68,8 +68,19 @@ typedef struct __attribute__((packed)) {
 #define STORE(value, pointer) (((global packed16*)(pointer))->lanes = (value))
 #define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
 
+// Eight values, and sixteen. Two indices, which are not negative, leave a vector register at a time.
+static inline uint8 gather8(global const uint* p, const int8 indices) {
+  const ulong low = 0xffffffffUL;
+  const ulong4 k = as_ulong4(indices);
+  return (uint8)(p[k.s0 & low], p[k.s0 >> 32], p[k.s1 & low], p[k.s1 >> 32], p[k.s2 & low], p[k.s2 >> 32],
+                 p[k.s3 & low], p[k.s3 >> 32]);
+}
+static inline uint16 gather16(global const uint* p, const int16 indices) {
+  return (uint16)(gather8(p, indices.lo), gather8(p, indices.hi));
+}
+
 // Lanes of a comparison as bits, lane k at bit k. Compilers see neither that AVX-512 has them as bits
-// already nor that AVX gathers them.
+// already nor that AVX gathers them. Of several comparisons the bits are combined: AVX2 would pack their lanes first.
 static inline uint lane_bits(const int16 lanes) {
 #ifdef __AVX512DQ__
   return (uint)__builtin_ia32_cvtd2mask512(lanes);

@@ -24,21 +24,18 @@
 #define PAD_X (16 * ((RADIUS + 18) / 16))
 #define PAD_Y (RADIUS + 2)
 
-#define SMOOTH_TAPS(taps) (taps)
-#define SLOPE_TAPS(taps) ((taps) + RADIUS + 1)
-
-// result = sum over k of weights[k] * (AT(k) +- AT(-k)), in this order. AT(k) is the sample k pixels further on.
-#define SMOOTH(T, result, AT, weights)                                                                       \
-  {                                                                                                          \
-    T sum_ = (T)((weights)[0]) * AT(0);                                                                      \
-    _Pragma("unroll") for (int k = 1; k <= RADIUS; ++k) sum_ = fma((T)((weights)[k]), AT(k) + AT(-k), sum_); \
-    result = sum_;                                                                                           \
-  }
-#define SLOPE(T, result, AT, weights)                                                                        \
-  {                                                                                                          \
-    T sum_ = (T)((weights)[1]) * (AT(1) - AT(-1));                                                           \
-    _Pragma("unroll") for (int k = 2; k <= RADIUS; ++k) sum_ = fma((T)((weights)[k]), AT(k) - AT(-k), sum_); \
-    result = sum_;                                                                                           \
+// smooth = sum over k of the weights of G * (SMOOTHED(k) + SMOOTHED(-k)), slope = that of the weights of G' *
+// (SLOPED(k) - SLOPED(-k)), in this order; macro(k) is the sample k pixels further on. In one loop, so that samples of
+// both sums are read once and few are held at a time.
+#define SMOOTH_AND_SLOPE(T, smooth, SMOOTHED, slope, SLOPED, taps)           \
+  {                                                                          \
+    T even_ = (T)((taps)[0]) * SMOOTHED(0), odd_ = (T)0.0f;                  \
+    _Pragma("unroll") for (int k = 1; k <= RADIUS; ++k) {                    \
+      even_ = fma((T)((taps)[k]), SMOOTHED(k) + SMOOTHED(-k), even_);        \
+      odd_ = fma((T)((taps)[RADIUS + 1 + k]), SLOPED(k) - SLOPED(-k), odd_); \
+    }                                                                        \
+    smooth = even_;                                                          \
+    slope = odd_;                                                            \
   }
 
 // Gradient magnitude one step ahead of and behind a pixel along its gradient, on the ring of its eight neighbours

@@ -1,6 +1,12 @@
 // edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs
 // edge_detection.cl.
 
+#ifdef __AVX512VL__
+#define BLOCKS_AT_ONCE BLOCKS
+#else
+#define BLOCKS_AT_ONCE 2  // of the third-order sums; those of more take more registers than AVX2 has
+#endif
+
 // Gradient and maximum test of strip_rows rows per work-item.
 //
 // scratch: kStripLines lines of `line` floats per work-item (2 of column sums, then for 3 rows gx, gy and magnitude).
@@ -36,8 +42,7 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
     for (int i = 0; i < skipped + columns + 2 * RADIUS; i += 16) {
 #define AT(k) LOAD(source + i + (k)*stride)
       float16 g, dg;
-      SMOOTH(float16, g, AT, SMOOTH_TAPS(taps))
-      SLOPE(float16, dg, AT, SLOPE_TAPS(taps))
+      SMOOTH_AND_SLOPE(float16, g, AT, dg, AT, taps)
 #undef AT
       STORE(g, smooth_y + i);
       STORE(dg, slope_y + i);
@@ -46,12 +51,11 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
     global float* now = lines + (2 + 3 * ((row + 3) % 3)) * line;
     for (int i = 0; i < columns; i += 16) {
       float16 gx, gy;
-#define AT(k) LOAD(smooth_y + skipped + i + RADIUS + (k))
-      SLOPE(float16, gx, AT, SLOPE_TAPS(taps))
-#undef AT
-#define AT(k) LOAD(slope_y + skipped + i + RADIUS + (k))
-      SMOOTH(float16, gy, AT, SMOOTH_TAPS(taps))
-#undef AT
+#define SMOOTH_Y(k) LOAD(smooth_y + skipped + i + RADIUS + (k))
+#define SLOPE_Y(k) LOAD(slope_y + skipped + i + RADIUS + (k))
+      SMOOTH_AND_SLOPE(float16, gy, SLOPE_Y, gx, SMOOTH_Y, taps)
+#undef SMOOTH_Y
+#undef SLOPE_Y
       STORE(gx, now + i);
       STORE(gy, now + line + i);
       STORE(MAGNITUDE(gx, gy), now + 2 * line + i);
@@ -68,15 +72,15 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
     int found = 0;
     for (int i = 0; i < columns; i += 16) {
       const float16 m = LOAD(middle + i);
-      const int16 column = i + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-      int16 win = (m > threshold) & (column >= 1) & (column < columns - 1);
-      if (lane_bits(win) == 0) continue;
+      uint won = lane_bits(m > threshold);
+      if (i == 0) won &= ~1u;
+      if (columns - 1 - i < 16) won &= (1u << (uint)(columns - 1 - i)) - 1u;
+      if (won == 0) continue;
       float16 ahead16, behind16;
       probes16(LOAD(here + i), LOAD(here + line + i), LOAD(middle + i - 1), LOAD(middle + i + 1), LOAD(above + i),
                LOAD(below + i), LOAD(above + i - 1), LOAD(above + i + 1), LOAD(below + i - 1), LOAD(below + i + 1),
                &ahead16, &behind16);
-      win &= IS_MAXIMUM(m, ahead16, behind16);
-      uint won = lane_bits(win);
+      won &= lane_bits(m > behind16) & lane_bits(m >= ahead16);  // as IS_MAXIMUM()
       if (won == 0) continue;
       float ahead[16], behind[16];
       vstore16(ahead16, 0, ahead);
@@ -113,17 +117,17 @@ static inline void window_derivatives(global const float* plane, const int strid
   }
   const float8 level = (float8)window_level(plane, stride, whole_x, whole_y);
   global const float* window = WINDOW(plane, stride, whole_x, whole_y);
-  for (int k = 0; k < TAPS; ++k, window += stride) {
-    float8 grey[BLOCKS];
-#pragma unroll
-    for (int b = 0; b < BLOCKS; ++b) grey[b] = LOAD8(window + 8 * b) - level;
-#pragma unroll
-    for (int order = 0; order < ORDERS; ++order) {
-      const float8 weight = (float8)weights_y[order][k];
-#pragma unroll
-      for (int b = 0; b < BLOCKS; ++b) sums[order][b] = fma(weight, grey[b], sums[order][b]);
-    }
+#define ADD_BLOCKS(begin, end)                                                                                   \
+  for (int k = 0; k < TAPS; ++k) {                                                                               \
+    float8 grey[BLOCKS];                                                                                         \
+    _Pragma("unroll") for (int b = begin; b < end; ++b) grey[b] = LOAD8(window + k * stride + 8 * b) - level;    \
+    _Pragma("unroll") for (int order = 0; order < ORDERS; ++order) {                                             \
+      const float8 weight = (float8)weights_y[order][k];                                                         \
+      _Pragma("unroll") for (int b = begin; b < end; ++b) sums[order][b] = fma(weight, grey[b], sums[order][b]); \
+    }                                                                                                            \
   }
+  ADD_BLOCKS(0, min(BLOCKS_AT_ONCE, BLOCKS))
+  ADD_BLOCKS(BLOCKS_AT_ONCE, BLOCKS)
 #define DOT(position, order_x, order_y)                                                                    \
   {                                                                                                        \
     float8 sum_ = wx[0][order_x] * sums[order_y][0];                                                       \

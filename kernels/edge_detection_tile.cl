@@ -19,8 +19,7 @@
 #define TILE_GRADIENT(x, y, row, column)                   \
   {                                                        \
     const int at = (row)*TILE_COLUMNS + (column) + RADIUS; \
-    SLOPE(float, x, SMOOTH_Y, SLOPE_TAPS(taps))            \
-    SMOOTH(float, y, SLOPE_Y, SMOOTH_TAPS(taps))           \
+    SMOOTH_AND_SLOPE(float, y, SLOPE_Y, x, SMOOTH_Y, taps) \
   }
 #define SMOOTH_Y(k) smooth_y[at + (k)]
 #define SLOPE_Y(k) slope_y[at + (k)]
@@ -45,8 +44,7 @@ kernel OF_GROUP void edges_tile_maxima(const DetectionArguments args, global con
     const int y = min(y0 - 1 + i / TILE_COLUMNS, height), x = min(x0 - 1 - RADIUS + i % TILE_COLUMNS, width + RADIUS);
     global const float* source = plane + (y + PAD_Y) * stride + x + PAD_X;
 #define AT(k) source[(k)*stride]
-    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps))
-    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps))
+    SMOOTH_AND_SLOPE(float, smooth_y[i], AT, slope_y[i], AT, taps)
 #undef AT
   }
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -37,10 +37,9 @@ static inline float gradient_bin_start(const int bin) {
   return bin == 0 ? 0.0f : as_float((bin + kGradientBinsFrom) << 20);
 }
 
-// Integers below 16 have one bin each, larger ones eight bins per octave.
+// Integers below 16 have one bin each, larger ones, from 2^4 on, eight bins per octave as above.
 static inline int noise_bin(const int response) {
-  const int octave = 31 - (int)clz(response | 1);
-  return min(response < 16 ? response : 16 + 8 * (octave - 4) + ((response >> (octave - 3)) & 7), kNoiseBins - 1);
+  return min(response < 16 ? response : (as_int((float)response) >> 20) - 8 * (127 + 4) + 16, kNoiseBins - 1);
 }
 static inline int noise_bin_start(const int bin) { return bin < 16 ? bin : (8 + (bin & 7)) << (bin / 8 - 1); }
 
@@ -70,12 +69,11 @@ static inline void tally_gradient(const float grey, COLUMN const float* smooth_y
                                   const ThresholdArguments args, global const float* taps, TALLY int* tally) {
   if (grey <= 0.0f || grey >= args.max_grey) return;
   float gx, gy;
-#define AT(k) smooth_y[RADIUS + (k)]
-  SLOPE(float, gx, AT, SLOPE_TAPS(taps))
-#undef AT
-#define AT(k) slope_y[RADIUS + (k)]
-  SMOOTH(float, gy, AT, SMOOTH_TAPS(taps))
-#undef AT
+#define SMOOTH_Y(k) smooth_y[RADIUS + (k)]
+#define SLOPE_Y(k) slope_y[RADIUS + (k)]
+  SMOOTH_AND_SLOPE(float, gy, SLOPE_Y, gx, SMOOTH_Y, taps)
+#undef SMOOTH_Y
+#undef SLOPE_Y
   COUNT(gradient_bin(MAGNITUDE(gx, gy)));
 }
 
@@ -88,8 +86,7 @@ static inline void tally_gradients(global const float* pixel, const int points, 
 #define AT(k) LOAD(pixel + i - RADIUS + (k)*args.plane_stride)
   for (int i = 0; i < WINDOW_COLUMNS; i += 16) {
     float16 g, dg;
-    SMOOTH(float16, g, AT, SMOOTH_TAPS(taps))
-    SLOPE(float16, dg, AT, SLOPE_TAPS(taps))
+    SMOOTH_AND_SLOPE(float16, g, AT, dg, AT, taps)
     vstore16(g, 0, smooth_y + i);
     vstore16(dg, 0, slope_y + i);
   }
@@ -123,8 +120,7 @@ static inline void tally_gradients(global const float* pixel, const int points, 
   barrier(CLK_LOCAL_MEM_FENCE);  // all work-items have read the previous columns
 #define AT(k) ONE(pixel + i - RADIUS + (k)*args.plane_stride)
   for (int i = item; i < columns; i += GROUP) {
-    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps))
-    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps))
+    SMOOTH_AND_SLOPE(float, smooth_y[i], AT, slope_y[i], AT, taps)
   }
 #undef AT
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -38,20 +38,16 @@ static inline PatchFrame patch_frame(const float x, const float y, const float c
 }
 
 // Grey levels of the four corners of several pixels k: declares a, b, c, d (pixel_corners.cl).
-#define GATHER8(p, k) (uint8)(p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7])
-#define GATHER16(p, k)                                                                                                 \
-  (uint16)(p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7], p[k.s8], p[k.s9], p[k.sa], p[k.sb], \
-           p[k.sc], p[k.sd], p[k.se], p[k.sf])
 #define CORNER(N, packed, shift, mask) (convert_float##N(as_int##N(packed >> shift & (uint##N)(mask))) * GREY_PER_VALUE)
 #if MAX_VALUE > 255
 #define CORNERS(N, corners, k)                                                            \
   const int##N above_ = 2 * (k), below_ = above_ + 1;                                     \
-  const uint##N upper_ = GATHER##N(corners, above_), lower_ = GATHER##N(corners, below_); \
+  const uint##N upper_ = gather##N(corners, above_), lower_ = gather##N(corners, below_); \
   const float##N a = CORNER(N, upper_, 0u, 65535u), b = CORNER(N, upper_, 16u, 65535u);   \
   const float##N c = CORNER(N, lower_, 0u, 65535u), d = CORNER(N, lower_, 16u, 65535u);
 #else
 #define CORNERS(N, corners, k)                                                   \
-  const uint##N four_ = GATHER##N(corners, k);                                   \
+  const uint##N four_ = gather##N(corners, k);                                   \
   const float##N a = CORNER(N, four_, 0u, 255u), b = CORNER(N, four_, 8u, 255u); \
   const float##N c = CORNER(N, four_, 16u, 255u), d = CORNER(N, four_, 24u, 255u);
 #endif

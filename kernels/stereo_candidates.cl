@@ -63,8 +63,8 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
     const float16 s = dx * wanted->line.ex + dy * wanted->line.ey;
     const float16 distance = fabs(dx * wanted->nx + dy * wanted->ny);
     const float16 turn = TURN_BETWEEN16(LOAD(directions + begin), wanted->direction);
-    uint passing = lane_bits((distance <= wanted->tau) & (s >= wanted->s_low) & (s <= wanted->s_high) &
-                             (turn <= wanted->orientation));
+    uint passing = lane_bits(distance <= wanted->tau) & lane_bits(s >= wanted->s_low) & lane_bits(s <= wanted->s_high) &
+                   lane_bits(turn <= wanted->orientation);
     if (end - begin < LANES) passing &= (1u << (uint)(end - begin)) - 1u;
 #ifdef PACKED_LANES
     if (count + LANES <= room) {

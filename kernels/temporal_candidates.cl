@@ -21,7 +21,7 @@ static inline int visit_points(const float3 predicted, const PointIndex* index, 
   for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
     const float16 dx = LOAD(index->x + begin) - x, dy = LOAD(index->y + begin) - y;
     const float16 turn = TURN_BETWEEN16(LOAD(index->direction + begin), direction);
-    uint passing = lane_bits((dx * dx + dy * dy <= radius * radius) & (turn <= orientation));
+    uint passing = lane_bits(dx * dx + dy * dy <= radius * radius) & lane_bits(turn <= orientation);
     if (end - begin < LANES) passing &= (1u << (uint)(end - begin)) - 1u;
     if (room == 0) {
       count += (int)popcount(passing);

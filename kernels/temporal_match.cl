@@ -53,9 +53,9 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
     // The same tests in the same arithmetic. Points beyond the cells are read and left out.
     for (const int last = min(end - 1, total - LANES); k <= last && near <= MOST - LANES; k += LANES) {
       const float16 dx = LOAD(xs + k) - x, dy = LOAD(ys + k) - y, turn = fabs(LOAD(directions + k) - direction);
-      const int16 close = dx * dx + dy * dy <= radius * radius;
+      const uint close = lane_bits(dx * dx + dy * dy <= radius * radius);
       const uint lanes = end - k < LANES ? (1u << (uint)(end - k)) - 1u : ~0u;
-      const uint passing = lane_bits(close & (min(turn, full_turn - turn) <= orientation)) & lanes;
+      const uint passing = close & lane_bits(min(turn, full_turn - turn) <= orientation) & lanes;
 #ifdef PACKED_LANES
       ((packed16*)(target + near))->lanes = PACKED_LANES(as_int16(LOAD(numbers + k)), passing);
       near += (int)popcount(passing);

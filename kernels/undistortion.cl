@@ -32,10 +32,7 @@
 DEFINE_VALUE_AT(value_at, float, int, uint, convert_float, convert_int, as_int, ONE_AT)
 
 #ifdef PIXELS
-#define SIXTEEN_AT(p, k)                                                                                           \
-  (uint16)((p)[(k).s0], (p)[(k).s1], (p)[(k).s2], (p)[(k).s3], (p)[(k).s4], (p)[(k).s5], (p)[(k).s6], (p)[(k).s7], \
-           (p)[(k).s8], (p)[(k).s9], (p)[(k).sa], (p)[(k).sb], (p)[(k).sc], (p)[(k).sd], (p)[(k).se], (p)[(k).sf])
-DEFINE_VALUE_AT(values_at, float16, int16, uint16, convert_float16, convert_int16, as_int16, SIXTEEN_AT)
+DEFINE_VALUE_AT(values_at, float16, int16, uint16, convert_float16, convert_int16, as_int16, gather16)
 #if MAX_VALUE > 255
 #define STORE_PIXELS(values, pointer) *(global ushort16*)(pointer) = convert_ushort16(values)
 #else
