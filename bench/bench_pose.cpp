@@ -50,7 +50,7 @@ BenchQuads::BenchQuads(std::size_t wanted) : sequence(options()) {
     matches.append(seen.quads.previous[q], seen.quads.current[q], seen.current, seen.quads.ncc[q],
                    seen.quads.competing_clusters[q]);
   }
-  quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches, pose::QuadLimits());
+  quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches);
   motion = sequence.world_from_left(1).inverse() * sequence.world_from_left(0);
 }
 
@@ -65,14 +65,13 @@ const BenchQuads& quads_of(std::int64_t wanted) {
 /// The two-quad solver (Proposition 2).
 void two_quads(benchmark::State& state) {
   const auto& input = quads_of(2000);
-  const double max_cosine = pose::ConstraintLimits().max_cosine;
   std::size_t i = 0;
   for (auto unused : state) {
     (void)unused;
     const std::size_t a = i % input.quads.size(), b = (i * 7 + 1) % input.quads.size();
-    benchmark::DoNotOptimize(pose::solve_two_quads(
-        {input.quads.previous[a].oriented_point(), input.quads.previous[b].oriented_point()},
-        {input.quads.current[a].oriented_point(), input.quads.current[b].oriented_point()}, max_cosine));
+    benchmark::DoNotOptimize(
+        pose::solve_two_quads({input.quads.previous[a].oriented_point(), input.quads.previous[b].oriented_point()},
+                              {input.quads.current[a].oriented_point(), input.quads.current[b].oriented_point()}));
     ++i;
   }
 }

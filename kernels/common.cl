@@ -79,6 +79,18 @@ static inline uint16 gather16(global const uint* p, const int16 indices) {
   return (uint16)(gather8(p, indices.lo), gather8(p, indices.hi));
 }
 
+// Sum of all lanes, and sums of those of either half, always in these orders.
+static inline float sum8(const float8 v) {
+  const float4 four = v.lo + v.hi;
+  const float2 two = four.lo + four.hi;
+  return two.x + two.y;
+}
+static inline float2 sums_of_halves(const float16 v) {
+  const float8 four = v.s012389ab + v.s4567cdef;
+  const float4 two = four.s0145 + four.s2367;
+  return two.even + two.odd;
+}
+
 // Lanes of a comparison as bits, lane k at bit k. Compilers see neither that AVX-512 has them as bits
 // already nor that AVX gathers them. Of several comparisons the bits are combined: AVX2 would pack their lanes first.
 static inline uint lane_bits(const int16 lanes) {

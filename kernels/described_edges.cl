@@ -5,6 +5,11 @@
 
 static inline char16 patch_row(global const char* patch, const int row) { return ((global const char16*)patch)[row]; }
 
+// The patches of stereo edge `edge`; numbers 0: they have the numbers of the stereo edges.
+static inline global const char* patch_of(global const char* patches, global const int* numbers, const int edge) {
+  return patches + kEdgePatchBytes * (size_t)(numbers ? numbers[edge] : edge);
+}
+
 // 1 / norm of the dark and of the bright patch.
 static inline float2 patch_norms(global const char* patch) { return *(global const float2*)(patch + kInverseNorms); }
 

@@ -150,20 +150,6 @@ static inline void window_derivatives(global const float* plane, const int strid
   DOT(13, 0, 4)
 }
 
-// The sums of the lanes of eight vectors.
-static inline float8 lane_sums(const float8* v) {
-  float8 four[4], two[2];
-#pragma unroll
-  for (int k = 0; k < 4; ++k) four[k] = (float8)(v[k].lo, v[k + 4].lo) + (float8)(v[k].hi, v[k + 4].hi);
-#pragma unroll
-  for (int k = 0; k < 2; ++k) {
-    const float8 a = four[2 * k], b = four[2 * k + 1];
-    two[k] = (float8)(a.s01, b.s01, a.s45, b.s45) + (float8)(a.s23, b.s23, a.s67, b.s67);
-  }
-  const float8 a = two[0], b = two[1];
-  return (float8)(a.s02, b.s02, a.s46, b.s46) + (float8)(a.s13, b.s13, a.s57, b.s57);
-}
-
 // Third-order direction and Newton step of the winners, written in their position in scan order.
 // One work-item = one row, 8 edges at a time.
 kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, global const float* plane,

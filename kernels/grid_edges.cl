@@ -88,20 +88,6 @@ static inline int16 peaks(global const float* here, global const float* above, g
   return win & (m >= ahead) & (m >= behind) & !((m == ahead) & (m == behind));
 }
 
-// The sums of the lanes of eight vectors.
-static inline float8 sums_of_eight(const float8* v) {
-  float8 four[4], two[2];
-#pragma unroll
-  for (int k = 0; k < 4; ++k) four[k] = (float8)(v[k].lo, v[k + 4].lo) + (float8)(v[k].hi, v[k + 4].hi);
-#pragma unroll
-  for (int k = 0; k < 2; ++k) {
-    const float8 a = four[2 * k], b = four[2 * k + 1];
-    two[k] = (float8)(a.s01, b.s01, a.s45, b.s45) + (float8)(a.s23, b.s23, a.s67, b.s67);
-  }
-  const float8 a = two[0], b = two[1];
-  return (float8)(a.s02, b.s02, a.s46, b.s46) + (float8)(a.s13, b.s13, a.s57, b.s57);
-}
-
 // Maxima of a row whose directions are computed together.
 typedef struct {
   int count;
@@ -135,7 +121,7 @@ static inline void take_directions(Maxima* maxima, global const float* windows, 
     for (int j = 0; j < GRID_DERIVATIVES; ++j) parts[j][k] = part[j];
   }
 #pragma unroll
-  for (int j = 0; j < GRID_DERIVATIVES; ++j) d[j] = sums_of_eight(parts[j]);
+  for (int j = 0; j < GRID_DERIVATIVES; ++j) d[j] = lane_sums(parts[j]);
   const float8 shared = 2.0f * d[3] * (d[2] + d[4]);
   const float8 xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];
   const float8 fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7];

@@ -25,7 +25,7 @@ INLINED void prepare_goal(const float16* fixed, const int both_sides, const Pair
 
 // Sum of all lanes.
 static inline float sum_of(const float16 v) {
-  const float2 sums = sums_of_sides(v);
+  const float2 sums = sums_of_halves(v);
   return sums.x + sums.y;
 }
 
@@ -138,81 +138,64 @@ static inline void find_pairing(const PaperRefinementArguments* args, global con
   best_pairing(a, norms_a, b, norms_b, pairing);
 }
 
-// Patches have the left edge's direction in both images; the most similar pair may be of reversed contrast, for which
-// the right one is turned.
-kernel IN_VECTORS void paper_refine_stereo(const PaperRefinementArguments args, global const int* first,
-                                           global const int* target, global const uchar* state,
-                                           global const uint* fixed_records, global const uint* moving_records,
-                                           global const float* fixed_edges, global const float* moving_edges,
-                                           global const float* fixed_patches, global const float* moving_patches,
-                                           global float* refined) {
+// The alive candidates of a row. In stereo, patches have the left edge's direction in both images; the most similar
+// pair may be of reversed contrast, for which the right one is turned. Of a free move, a candidate whose patches
+// remain different stays where it is.
+INLINED void refine_row(const PaperRefinementArguments* args, const int is_free, global const int* first,
+                        global const int* target, global const uchar* state, global const uint* fixed_records,
+                        global const uint* moving_records, global const float* fixed_edges,
+                        global const float* moving_edges, global const float* fixed_patches,
+                        global const float* moving_patches, global float* refined) {
   const int i = (int)get_global_id(0);
-  if (i >= args.fixed.count) return;
-  const int begin = first[i], end = min(first[i + 1], args.capacity);
-  int c = begin;
+  if (i >= args->fixed.count) return;
+  const int end = min(first[i + 1], args->capacity);
+  int c = first[i];
   while (c < end && state[c] != kCandidateAlive) ++c;
   if (c >= end) return;
-  const Picture fixed_picture = {fixed_records, args.fixed_width, args.fixed_height};
-  const Picture picture = {moving_records, args.moving_width, args.moving_height};
-  global const float* edge = fixed_edges + args.fixed.first + i;
-  const float x = edge[0], y = edge[args.fixed.stride], direction = edge[2 * args.fixed.stride];
-  const EpipolarLine line = epipolar_line(&args.geometry, x, y);
+  const Picture fixed_picture = {fixed_records, args->fixed_width, args->fixed_height};
+  const Picture picture = {moving_records, args->moving_width, args->moving_height};
+  global const float* edge = fixed_edges + args->fixed.first + i;
+  const float direction = edge[2 * args->fixed.stride];
   float cosine;
-  const float sine = sine_cosine(direction, &cosine);
+  float sine = sine_cosine(direction, &cosine);
   float16 fixed[kPaperPatchRows];
-  cut_sides(fixed_picture, x, y, cosine, sine, args.offset, fixed);
+  cut_sides(fixed_picture, edge[0], edge[args->fixed.stride], cosine, sine, args->offset, fixed);
+  EpipolarLine line;
+  if (!is_free) line = epipolar_line(&args->geometry, edge[0], edge[args->fixed.stride]);
   for (; c < end; ++c) {
     if (state[c] != kCandidateAlive) continue;
-    global const float* candidate = moving_edges + args.moving.first + target[c];
-    const float candidate_direction = candidate[2 * args.moving.stride];
-    const float s = position_on_line(&line, candidate[0], candidate[args.moving.stride], candidate_direction,
-                                     args.shift_min_sine, args.shift_max);
-    const float turn = !args.both_sides && angle_between(direction, candidate_direction) > 0.5f * PI_F ? -1.0f : 1.0f;
+    global const float* candidate = moving_edges + args->moving.first + target[c];
+    const float candidate_direction = candidate[2 * args->moving.stride];
+    float x = candidate[0], y = candidate[args->moving.stride], turn = 1.0f;
+    if (is_free) {
+      sine = sine_cosine(candidate_direction, &cosine);
+    } else {
+      const float s = position_on_line(&line, x, y, candidate_direction, args->shift_min_sine, args->shift_max);
+      x = line.x + s * line.ex;
+      y = line.y + s * line.ey;
+      if (!args->both_sides && angle_between(direction, candidate_direction) > 0.5f * PI_F) turn = -1.0f;
+    }
     Goal goal;
     Pairing pairing = {0, 0, 1.0f};
-    find_pairing(&args, fixed_patches, moving_patches, i, target[c], &pairing);
-    prepare_goal(fixed, args.both_sides, pairing, &goal);
-    const float start_x = line.x + s * line.ex, start_y = line.y + s * line.ey;
+    find_pairing(args, fixed_patches, moving_patches, i, target[c], &pairing);
+    prepare_goal(fixed, args->both_sides, pairing, &goal);
     Move move;
-    refine(&args, picture, &goal, start_x, start_y, turn * cosine, turn * sine, line.ex, line.ey, 0, &move);
-    refined[c] = start_x + move.x;
-    refined[args.capacity + c] = start_y + move.y;
+    refine(args, picture, &goal, x, y, turn * cosine, turn * sine, is_free ? -sine : line.ex,
+           is_free ? cosine : line.ey, is_free, &move);
+    const int kept = !is_free || move.mean_square <= args->largest_residual * args->largest_residual;
+    refined[c] = kept ? x + move.x : x;
+    refined[args->capacity + c] = kept ? y + move.y : y;
   }
 }
 
-// A candidate whose patches remain different stays where it is.
-kernel IN_VECTORS void paper_refine_free(const PaperRefinementArguments args, global const int* first,
-                                         global const int* target, global const uchar* state,
-                                         global const uint* fixed_records, global const uint* moving_records,
-                                         global const float* fixed_edges, global const float* moving_edges,
-                                         global const float* fixed_patches, global const float* moving_patches,
-                                         global float* refined) {
-  const int i = (int)get_global_id(0);
-  if (i >= args.fixed.count) return;
-  const int begin = first[i], end = min(first[i + 1], args.capacity);
-  int c = begin;
-  while (c < end && state[c] != kCandidateAlive) ++c;
-  if (c >= end) return;
-  const Picture fixed_picture = {fixed_records, args.fixed_width, args.fixed_height};
-  const Picture picture = {moving_records, args.moving_width, args.moving_height};
-  global const float* edge = fixed_edges + args.fixed.first + i;
-  float cosine;
-  float sine = sine_cosine(edge[2 * args.fixed.stride], &cosine);
-  float16 fixed[kPaperPatchRows];
-  cut_sides(fixed_picture, edge[0], edge[args.fixed.stride], cosine, sine, args.offset, fixed);
-  for (; c < end; ++c) {
-    if (state[c] != kCandidateAlive) continue;
-    global const float* candidate = moving_edges + args.moving.first + target[c];
-    const float x = candidate[0], y = candidate[args.moving.stride];
-    sine = sine_cosine(candidate[2 * args.moving.stride], &cosine);
-    Goal goal;
-    Pairing pairing = {0, 0, 1.0f};
-    find_pairing(&args, fixed_patches, moving_patches, i, target[c], &pairing);
-    prepare_goal(fixed, args.both_sides, pairing, &goal);
-    Move move;
-    refine(&args, picture, &goal, x, y, cosine, sine, -sine, cosine, 1, &move);
-    const int kept = move.mean_square <= args.largest_residual * args.largest_residual;
-    refined[c] = kept ? x + move.x : x;
-    refined[args.capacity + c] = kept ? y + move.y : y;
+#define DEFINE_KERNEL(NAME, IS_FREE)                                                                                  \
+  kernel IN_VECTORS void NAME(const PaperRefinementArguments args, global const int* first, global const int* target, \
+                              global const uchar* state, global const uint* fixed_records,                            \
+                              global const uint* moving_records, global const float* fixed_edges,                     \
+                              global const float* moving_edges, global const float* fixed_patches,                    \
+                              global const float* moving_patches, global float* refined) {                            \
+    refine_row(&args, IS_FREE, first, target, state, fixed_records, moving_records, fixed_edges, moving_edges,        \
+               fixed_patches, moving_patches, refined);                                                               \
   }
-}
+DEFINE_KERNEL(paper_refine_stereo, 0)
+DEFINE_KERNEL(paper_refine_free, 1)

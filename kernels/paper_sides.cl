@@ -174,16 +174,9 @@ static inline float16 used_lanes(const float16 v) {
   return as_float16(as_int16(v) & (int16)(-1, -1, -1, -1, -1, -1, -1, 0, -1, -1, -1, -1, -1, -1, -1, 0));
 }
 
-// Sums of the lanes of the dark and of the bright side.
-static inline float2 sums_of_sides(const float16 v) {
-  const float8 four = v.s012389ab + v.s4567cdef;
-  const float4 two = four.s0145 + four.s2367;
-  return two.even + two.odd;
-}
-
 // Means of the dark and of the bright samples, in the lanes of each.
 INLINED float16 means_of_sides(const float16 sum) {
-  const float2 means = sums_of_sides(used_lanes(sum)) * (1.0f / (kPaperPatchRows * kPaperPatchRows));
+  const float2 means = sums_of_halves(used_lanes(sum)) * (1.0f / (kPaperPatchRows * kPaperPatchRows));
   return BOTH_SIDES(means.x, means.y);
 }
 
@@ -215,7 +208,7 @@ INLINED void cut_sides(const Picture picture, const float x, const float y, cons
 static inline float2 inverse_norms(const float16* rows) {
   float16 products = 0.0f;
   for (int i = 0; i < kPaperPatchRows; ++i) products += rows[i] * rows[i];
-  const float2 squares = sums_of_sides(products);
+  const float2 squares = sums_of_halves(products);
   return (float2)(squares.x < 1e-10f ? 0.0f : 1.0f / sqrt(squares.x),
                   squares.y < 1e-10f ? 0.0f : 1.0f / sqrt(squares.y));
 }
@@ -243,7 +236,7 @@ static inline void best_pairing(const float16* a, const float2 norms_a, const fl
     same += a[i] * b[i];
     crossed += a[i] * HALVES_SWAPPED(b[i]);
   }
-  const float2 same_sums = sums_of_sides(same), crossed_sums = sums_of_sides(crossed);
+  const float2 same_sums = sums_of_halves(same), crossed_sums = sums_of_halves(crossed);
   best->first = best->second = 0;
   best->ncc = -1.0f;
   try_pairing(same_sums.x, norms_a.x * norms_b.x, 0, 0, best);

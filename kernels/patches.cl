@@ -38,13 +38,6 @@ static inline float2 largest_lanes(const float16 v) {
   return max(two.even, two.odd);
 }
 
-// Sums of the lanes of either side.
-static inline float2 sums_of_lanes(const float16 v) {
-  const float8 four = v.s012389ab + v.s4567cdef;
-  const float4 two = four.s0145 + four.s2367;
-  return two.even + two.odd;
-}
-
 kernel void side_patches(const PatchArguments args, global const uint* corners, global const float* positions,
                          global const int* wanted, global char* patches) {
   const int width = args.width, height = args.height, count = args.edges.count;
@@ -72,7 +65,7 @@ kernel void side_patches(const PatchArguments args, global const uint* corners, 
     squares += row * row;
     ((global char16*)patch)[i] = convert_char16(row);
   }
-  *(global float4*)(patch + kInverseNorms) = (float4)(inverse_norm(sums_of_lanes(squares)), 0.0f, 0.0f);
+  *(global float4*)(patch + kInverseNorms) = (float4)(inverse_norm(sums_of_halves(squares)), 0.0f, 0.0f);
 }
 
 #else

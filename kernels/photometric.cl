@@ -12,13 +12,8 @@ static inline float8 used_lanes(const float8 v) {
   return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0));
 }
 
-// Sum of the seven used lanes, always in this order.
-static inline float sum_used(const float8 v) {
-  const float8 used = used_lanes(v);
-  const float4 four = used.lo + used.hi;
-  const float2 two = four.lo + four.hi;
-  return two.x + two.y;
-}
+// Sum of the seven used lanes.
+static inline float sum_used(const float8 v) { return sum8(used_lanes(v)); }
 
 // Where a patch lies: its centre and the steps along the tangent.
 typedef struct {

@@ -92,10 +92,28 @@ static inline int nearest(const float coordinate, const int size) {
   return (int)clamp(rint(coordinate), -(float)(RADIUS + 1), (float)(size + RADIUS));
 }
 
-static inline float sum_lanes(const float8 v) {
-  const float4 four = v.lo + v.hi;
-  const float2 two = four.lo + four.hi;
-  return two.x + two.y;
+// The window of both sides of an edge.
+typedef struct {
+  float c, s;        // cosine and sine of the direction, in cells per px
+  float turn;        // the direction, in angle bins
+  int dark, bright;  // where the samples of either side begin in the maps
+} SiftWindow;
+
+static inline int first_sample(const SiftArguments* args, const float x, const float y) {
+  return (nearest(y, args->height) + kSiftPadding - RADIUS) * args->stride + nearest(x, args->width) + kSiftPadding -
+         RADIUS;
+}
+
+static inline SiftWindow window_of(const SiftArguments* args, global const float* positions, const int edge) {
+  global const float* place = positions + args->edges.first + edge;
+  const float x = place[0], y = place[args->edges.stride], direction = place[2 * args->edges.stride];
+  float cosine;
+  const float sine = sine_cosine(direction, &cosine);
+  const float to_dark_x = args->offset * sine, to_dark_y = -args->offset * cosine;
+  const SiftWindow window = {
+      cosine * (1.0f / CELL_WIDTH), sine * (1.0f / CELL_WIDTH), direction * (kSiftAngles / (2.0f * PI_F)),
+      first_sample(args, x + to_dark_x, y + to_dark_y), first_sample(args, x - to_dark_x, y - to_dark_y)};
+  return window;
 }
 
 #ifndef GROUP
@@ -114,13 +132,13 @@ static inline void store_descriptor(const float8* histogram, global uchar* descr
     const float8 bins = histogram[(cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1];
     squares += bins * bins;
   }
-  const float clip = CLIP * sqrt(sum_lanes(squares));
+  const float clip = CLIP * sqrt(sum8(squares));
   squares = 0.0f;
   for (int cell = 0; cell < kSiftCells * kSiftCells; ++cell) {
     const float8 bins = min(histogram[(cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1], clip);
     squares += bins * bins;
   }
-  const float norm = sqrt(sum_lanes(squares));
+  const float norm = sqrt(sum8(squares));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
   for (int cell = 0; cell < kSiftCells * kSiftCells; cell += 2) {
     const float8* bins = histogram + (cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1;
@@ -132,7 +150,7 @@ static inline void store_descriptor(const float8* histogram, global uchar* descr
 }
 
 // One side's samples of a row: weights of the two angle bins next to each, and the lower one.
-static inline void sample_row(global const float* magnitude, global const float* angle, const size_t first,
+static inline void sample_row(global const float* magnitude, global const float* angle, const int first,
                               const float turn, float8* low, float8* high, int8* bin) {
 #pragma unroll
   for (int block = 0; block < 2; ++block) {
@@ -158,23 +176,10 @@ static inline float8 two_bins(const float low, const float high, const int bin) 
 // LONG: the histogram stays in registers from the first sample to the last byte.
 kernel IN_VECTORS void sift_describe(const SiftArguments args, global const float* magnitude, global const float* angle,
                                      global const float* positions, global uchar* descriptors) {
-  const int width = args.width, height = args.height, stride = args.stride, count = args.edges.count;
-  const float offset = args.offset;
-  global const float* xs = positions + args.edges.first;
-  global const float* ys = xs + args.edges.stride;
-  global const float* directions = ys + args.edges.stride;
   const int edge = (int)get_global_id(0);
-  if (edge >= count) return;
-  const float direction = directions[edge], x = xs[edge], y = ys[edge];
-  float cosine;
-  const float sine = sine_cosine(direction, &cosine);
-  const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
-  const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
-  const float turn = direction * (kSiftAngles / (2.0f * PI_F));
-  const size_t dark_first = (size_t)(nearest(y + to_dark_y, height) + kSiftPadding - RADIUS) * stride +
-                            nearest(x + to_dark_x, width) + kSiftPadding - RADIUS;
-  const size_t bright_first = (size_t)(nearest(y - to_dark_y, height) + kSiftPadding - RADIUS) * stride +
-                              nearest(x - to_dark_x, width) + kSiftPadding - RADIUS;
+  if (edge >= args.edges.count) return;
+  const SiftWindow window = window_of(&args, positions, edge);
+  const float c = window.c, s = window.s;
 
   float8 dark[ROW * ROW], bright[ROW * ROW];
   for (int k = 0; k < ROW * ROW; ++k) dark[k] = bright[k] = 0.0f;
@@ -203,8 +208,8 @@ kernel IN_VECTORS void sift_describe(const SiftArguments args, global const floa
       const int8 cell_along = whole_below8(place_along), cell_across = whole_below8(place_across);
       const float8 part_along = place_along - convert_float8(cell_along);
       const float8 part_across = place_across - convert_float8(cell_across);
-      const float8 window = as_float8(as_int8(kWindow[row] * vload8(block, kWindow)) & inside);
-      const float8 beyond = window * part_across, before = window * (1.0f - part_across);
+      const float8 weight = as_float8(as_int8(kWindow[row] * vload8(block, kWindow)) & inside);
+      const float8 beyond = weight * part_across, before = weight * (1.0f - part_across);
       w00[block] = before * (1.0f - part_along);
       w01[block] = before * part_along;
       w10[block] = beyond * (1.0f - part_along);
@@ -213,8 +218,9 @@ kernel IN_VECTORS void sift_describe(const SiftArguments args, global const floa
     }
     float8 dark_low[2], dark_high[2], bright_low[2], bright_high[2];
     int8 dark_bin[2], bright_bin[2];
-    sample_row(magnitude, angle, dark_first + (size_t)row * stride, turn, dark_low, dark_high, dark_bin);
-    sample_row(magnitude, angle, bright_first + (size_t)row * stride, turn, bright_low, bright_high, bright_bin);
+    const int down = row * args.stride;
+    sample_row(magnitude, angle, window.dark + down, window.turn, dark_low, dark_high, dark_bin);
+    sample_row(magnitude, angle, window.bright + down, window.turn, bright_low, bright_high, bright_bin);
     for (int k = first; k <= last; ++k) {
       const int cell = LANE(int, cells, k), bin_dark = LANE(int, dark_bin, k), bin_bright = LANE(int, bright_bin, k);
       const float8 in_dark = two_bins(LANE(float, dark_low, k), LANE(float, dark_high, k), bin_dark);
@@ -255,25 +261,13 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
   local int lower_bin[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];
   local float histogram[EDGES_PER_GROUP][SIDES][kSiftBytes];
 
-  const int width = args.width, height = args.height, stride = args.stride, count = args.edges.count;
-  const float offset = args.offset;
-  global const float* xs = positions + args.edges.first;
-  global const float* ys = xs + args.edges.stride;
-  global const float* directions = ys + args.edges.stride;
+  const int count = args.edges.count;
   const int local_edge = (int)get_local_id(0) / kSiftItems, item = (int)get_local_id(0) % kSiftItems;
   const int wanted = (int)(get_global_id(0) / kSiftItems);
   const int edge =
       min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
-  const float direction = directions[edge], x = xs[edge], y = ys[edge];
-  float cosine;
-  const float sine = sine_cosine(direction, &cosine);
-  const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
-  const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
-  const float turn = direction * (kSiftAngles / (2.0f * PI_F));
-  const int first[SIDES] = {(nearest(y + to_dark_y, height) + kSiftPadding - RADIUS) * stride +
-                                nearest(x + to_dark_x, width) + kSiftPadding - RADIUS,
-                            (nearest(y - to_dark_y, height) + kSiftPadding - RADIUS) * stride +
-                                nearest(x - to_dark_x, width) + kSiftPadding - RADIUS};
+  const SiftWindow around = window_of(&args, positions, edge);
+  const float c = around.c, s = around.s;
 
   for (int k = item; k < WINDOW * WINDOW; k += kSiftItems) {
     const int row = k / WINDOW, column = k % WINDOW;
@@ -289,8 +283,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
     shares[local_edge][k] =
         (float4)(before * (1.0f - part_along), before * part_along, beyond * (1.0f - part_along), beyond * part_along);
     for (int side = 0; side < SIDES; ++side) {
-      const int position = first[side] + row * stride + column;
-      const float length = magnitude[position], bins = turn - angle[position];
+      const int position = (side == 0 ? around.dark : around.bright) + row * args.stride + column;
+      const float length = magnitude[position], bins = around.turn - angle[position];
       const int whole = whole_below(bins);
       const float part = bins - (float)whole;
       gradient[local_edge][side][k] = (float2)(length * (1.0f - part), length * part);
@@ -322,13 +316,13 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
     const float8 other = vload8(k, all);
     squares += other * other;
   }
-  const float clip = CLIP * sqrt(sum_lanes(squares));
+  const float clip = CLIP * sqrt(sum8(squares));
   squares = 0.0f;
   for (int k = 0; k < kSiftCells * kSiftCells; ++k) {
     const float8 other = min(vload8(k, all), clip);
     squares += other * other;
   }
-  const float norm = sqrt(sum_lanes(squares));
+  const float norm = sqrt(sum8(squares));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
   if (wanted >= count) return;
   global uchar8* descriptor = (global uchar8*)(descriptors + (size_t)edge * kEdgeSiftBytes + side * kSiftBytes);

@@ -1,7 +1,8 @@
-// similarity_lanes.cl: similarity.cl with eight work-items per pair of edges, each with a part of their bytes.
+// similarity_lanes.cl: similarity of side patches (similarity.cl) with eight work-items per pair of edges, each with a
+// row of their bytes.
 // Functions only; needs described_edges.cl. All sums are integers, so their order does not matter.
 
-#define PAIR_ITEMS 8  // one per row of 16 bytes of the patches and per block of the descriptors; some idle
+#define PAIR_ITEMS 8  // one per row of 16 bytes of the patches; some idle
 
 // The products of a row of side patches, 16 bytes each: dark-dark, bright-bright, dark-bright, bright-dark.
 static inline int4 row_products(const char16 of_a, const char16 of_b) {
@@ -11,21 +12,6 @@ static inline int4 row_products(const char16 of_a, const char16 of_b) {
   const int8 other = (int8)(crossed.s0123 + crossed.s4567, crossed.s89ab + crossed.scdef);
   const int8 twos = (int8)(same.even + same.odd, other.even + other.odd);
   return twos.even + twos.odd;
-}
-
-static inline int block_distance2(const uchar16 a, const uchar16 b) {
-  const int16 difference = convert_int16(a) - convert_int16(b), square = difference * difference;
-  const int8 eight = square.lo + square.hi;
-  const int4 four = eight.lo + eight.hi;
-  return four.x + four.y + four.z + four.w;
-}
-
-// Squares of the distances in block `k` of the descriptors: the pairings of sides in the order of sift_distance2().
-static inline int4 block_distances(global const uchar* a, global const uchar* b, const int k) {
-  const uchar16 a_dark = descriptor_part(a, k), a_bright = descriptor_part(a, k + 8);
-  const uchar16 b_dark = descriptor_part(b, k), b_bright = descriptor_part(b, k + 8);
-  return (int4)(block_distance2(a_dark, b_dark), block_distance2(a_bright, b_bright), block_distance2(a_dark, b_bright),
-                block_distance2(a_bright, b_dark));
 }
 
 static inline int4 sum_of_items(local const int4* parts, const int count) {

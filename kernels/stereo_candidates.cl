@@ -5,25 +5,20 @@
 // epipolar geometry.
 // Out: candidate lists in compressed rows, targets in the scan order of the right edges; which right edges are listed
 // (1, else 0).
-// One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after
-// an exclusive scan) fill. With HALF_TURN directions are compared modulo half a turn.
+// One work-item = one left edge, which tests LANES right edges at once. Two launches: count, then (after an exclusive
+// scan) fill. With HALF_TURN directions are compared modulo half a turn.
 // Reference: host/workbench/reference/stereo_matching.cpp.
 
 // A position differs from that of its pixel by at most this along both axes [px] (kEdgeRowReach in
 // include/quadedge/edges.hpp).
 #define EDGE_REACH 0.75f
 
-// Candidates tested together, of which some may be too far to the left.
-#ifdef LANES
-#define AT_ONCE LANES
-#else
-#define AT_ONCE 1
-#endif
+#define LANES 16
 
 // An index in [begin, end) before which no x reaches `x`: positions within a row are ordered up to twice this reach;
-// fewer than AT_ONCE edges follow it that do not reach `x` either; they are tested with the others.
+// fewer than LANES edges follow it that do not reach `x` either; they are tested with the others.
 static inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {
-  while (end - begin >= AT_ONCE) {
+  while (end - begin >= LANES) {
     const int middle = (begin + end) / 2;
     const int below = xs[middle] < x;
     begin = below ? middle + 1 : begin;
@@ -53,9 +48,6 @@ static inline int passes(const Wanted* wanted, const float x, const float y, con
 static inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys,
                             global const float* directions, int begin, const int end, const int total, const float to,
                             global int* target, const int room, int count) {
-#ifndef LANES
-  (void)total;
-#else
   // The same tests in the same arithmetic. Edges beyond the row's end are read and left out.
   for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
     const float16 x = LOAD(xs + begin);
@@ -79,7 +71,6 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
     }
     if (x.sf > to) return count;
   }
-#endif
   for (int j = begin; j < end && xs[j] <= to; ++j) {
     if (!passes(wanted, xs[j], ys[j], directions[j])) continue;
     if (count < room) target[count] = j;

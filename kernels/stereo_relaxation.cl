@@ -56,13 +56,6 @@ kernel void relaxation_start(const StereoRelaxationArguments args, global const 
   atomic_min(cells + (int)(y / kRelaxationCell) * args.columns + (int)(x / kRelaxationCell), i);
 }
 
-// With UNROLLED the points of the rings are constants: for CPUs. On GPUs it would take a third more registers.
-#ifdef UNROLLED
-#define FOR_NEIGHBOURS(n) _Pragma("unroll") for (int n = 0; n < kRelaxationNeighbours; ++n)
-#else
-#define FOR_NEIGHBOURS(n) for (int n = 0; n < kRelaxationNeighbours; ++n)
-#endif
-
 // The edge that represents point n of the rings around (x, y); INT_MAX: none.
 static inline int neighbour_at(const StereoRelaxationArguments* args, global const int* cells, const float x,
                                const float y, const int n) {
@@ -143,7 +136,7 @@ kernel void relaxation_round(const StereoRelaxationArguments args, global const 
   const float x = left_x[i], y = left_y[i];
   for (int k = begin; k < end; ++k) next_belief[k] = 0.0f;
   int voters = 0;
-  FOR_NEIGHBOURS(n) {
+  for (int n = 0; n < kRelaxationNeighbours; ++n) {
     const int j = neighbour_at(&args, cells, x, y, n);
     if (j == INT_MAX) continue;
     const float dx = left_x[j] - x, dy = left_y[j] - y;
@@ -192,7 +185,7 @@ kernel void relaxation_choose(const StereoRelaxationArguments args, global const
     const float x = left_x[i], y = left_y[i];
     int voters = 0;
     support = 0.0f;
-    FOR_NEIGHBOURS(n) {
+    for (int n = 0; n < kRelaxationNeighbours; ++n) {
       const int j = neighbour_at(&args, cells, x, y, n);
       if (j == INT_MAX) continue;
       support += vote(clusters, slopes, slopes + args.capacity, belief, best, first[j], first[j] + cluster_count[j],

@@ -4,9 +4,11 @@
 // Needs edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in the current
 // image (NaN: none), the point index of the current stereo edges of that side. Row r belongs to base edge r * row_step.
 // Out: candidate lists in compressed rows, targets are current stereo edges in the order of the point index.
-// One work-item = one row; with LANES (16) it tests as many points of the index at once. Two launches: count, then
-// (after an exclusive scan) fill. With HALF_TURN directions are compared modulo half a turn.
+// One work-item = one row, which tests LANES points of the index at once. Two launches: count, then (after an exclusive
+// scan) fill. With HALF_TURN directions are compared modulo half a turn.
 // Reference: host/workbench/reference/temporal_matching.cpp.
+
+#define LANES 16
 
 // Visits the points [begin, end) of the index, which holds `total`, and writes at most `room` of those that pass to
 // target[].
@@ -14,9 +16,6 @@ static inline int visit_points(const float3 predicted, const PointIndex* index, 
                                const int total, const float radius, const float orientation, global int* target,
                                const int room, int count) {
   const float x = predicted.x, y = predicted.y, direction = predicted.z;
-#ifndef LANES
-  (void)total;
-#else
   // The same tests in the same arithmetic. Points behind the last one are read and left out.
   for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
     const float16 dx = LOAD(index->x + begin) - x, dy = LOAD(index->y + begin) - y;
@@ -38,7 +37,6 @@ static inline int visit_points(const float3 predicted, const PointIndex* index, 
       if (count < room) target[count] = index->number[begin + lowest_bit(passing)];
     }
   }
-#endif
   for (int k = begin; k < end; ++k) {
     const float dx = index->x[k] - x, dy = index->y[k] - y;
     if (dx * dx + dy * dy > radius * radius) continue;

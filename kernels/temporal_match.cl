@@ -24,11 +24,6 @@ static inline void ask_for_patch(global const char* patch) {
 #endif
 }
 
-// The patches of stereo edge `edge`; patch_numbers 0: they have the numbers of the stereo edges.
-static inline global const char* patch_of(global const char* patches, global const int* patch_numbers, const int edge) {
-  return patches + kEdgePatchBytes * (size_t)(patch_numbers ? patch_numbers[edge] : edge);
-}
-
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
 // patch_numbers: of the stereo edges' patches; 0: those of the edges.
 // LONG: a row's candidates from the index to the nearly best; they stay in private memory.

@@ -45,10 +45,6 @@ typedef struct {
   global const int* numbers;   // of the current stereo edges' patches; 0: those of the stereo edges
 } RowSide;
 
-static inline global const char* patch_of(global const char* patches, global const int* numbers, const int edge) {
-  return patches + kEdgePatchBytes * (size_t)(numbers ? numbers[edge] : edge);
-}
-
 // Points of the index within the radius and the turn. Returns their number; beyond MOST there is no room.
 static inline int find_near(const float radius, const float orientation, RowSide* side, local Candidates* found,
                             Votes* votes) {

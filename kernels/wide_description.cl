@@ -47,12 +47,12 @@ kernel IN_VECTORS void wide_describe(global const float* small, const int small_
     }
   }
   float squares = 0.0f;
-  for (int cell = 0; cell < kWideCells * kWideCells; ++cell) squares += wide_sum(histogram[cell] * histogram[cell]);
+  for (int cell = 0; cell < kWideCells * kWideCells; ++cell) squares += sum8(histogram[cell] * histogram[cell]);
   const float clip = CLIP * sqrt(squares);
   squares = 0.0f;
   for (int cell = 0; cell < kWideCells * kWideCells; ++cell) {
     histogram[cell] = min(histogram[cell], clip);
-    squares += wide_sum(histogram[cell] * histogram[cell]);
+    squares += sum8(histogram[cell] * histogram[cell]);
   }
   const float norm = sqrt(squares), scale = norm > 0.0f ? NORM / norm : 0.0f;
   global uchar* descriptor = descriptors + (size_t)row * kWideBytes;

@@ -53,9 +53,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_describe(
     barrier(CLK_LOCAL_MEM_FENCE);
   }
   local float* shares = shares_of_rows[row_of_group];
-  const float clip = CLIP * sqrt(sum_of_cells(shares, cell, wide_sum(histogram * histogram)));
+  const float clip = CLIP * sqrt(sum_of_cells(shares, cell, sum8(histogram * histogram)));
   histogram = min(histogram, clip);
-  const float norm = sqrt(sum_of_cells(shares, cell, wide_sum(histogram * histogram)));
+  const float norm = sqrt(sum_of_cells(shares, cell, sum8(histogram * histogram)));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
   if (wanted < rows)
     ((global uchar8*)(descriptors + (size_t)row * kWideBytes))[cell] =

@@ -52,9 +52,3 @@ static inline float8 wide_bins(const float along, const float across) {
   const float8 part = max(along * kCosine + across * kSine, 0.0f);
   return square > 0.0f ? part * part * part / square : 0.0f;
 }
-
-static inline float wide_sum(const float8 v) {
-  const float4 four = v.lo + v.hi;
-  const float2 two = four.lo + four.hi;
-  return two.x + two.y;
-}

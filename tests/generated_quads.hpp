@@ -1,6 +1,7 @@
 #pragma once
 /// \file generated_quads.hpp  Quads with a known motion, generated from geometry, exact or with edge noise.
 
+#include "common/matching_constants.hpp"
 #include "motion/quads.hpp"
 #include "testing.hpp"
 
@@ -116,18 +117,15 @@ inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig,
 /// Appends a quad made of four edges. \returns false, and appends nothing, if a stereo edge has no depth or tangent
 inline bool append(quadedge::pose::QuadObservations& quads, const quadedge::StereoRig& rig,
                    const quadedge::pose::StereoObservation& previous, const quadedge::pose::StereoObservation& current,
-                   float ncc, const quadedge::pose::QuadLimits& limits) {
-  const auto before = quadedge::pose::measure(rig, previous, limits.min_epipolar_angle);
-  const auto after = quadedge::pose::measure(rig, current, limits.min_epipolar_angle);
+                   float ncc, double direction_sigma = quadedge::pose::kSigmaDirection) {
+  const auto before = quadedge::pose::measure(rig, previous, quadedge::kMinEpipolarAngle);
+  const auto after = quadedge::pose::measure(rig, current, quadedge::kMinEpipolarAngle);
   if (!before || !after) return false;
   const std::size_t row = quads.size();
   quads.resize(row + 1);
-  quads.set(row, *before, *after, current, ncc, 0, static_cast<std::int32_t>(row), limits);
+  quads.set(row, *before, *after, current, ncc, 0, static_cast<std::int32_t>(row), direction_sigma);
   return true;
 }
-
-/// Limits of the default configuration.
-inline quadedge::pose::QuadLimits limits() { return quadedge::pose::QuadLimits(); }
 
 /// Parameters of the generated quads.
 struct Problem {
@@ -156,8 +154,6 @@ inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, d
 inline Generated generate(const Problem& problem, std::uint64_t seed) {
   Random random(seed);
   Generated result;
-  quadedge::pose::QuadLimits quad_limits = limits();
-  quad_limits.direction_sigma = problem.noise.direction;
   while (static_cast<int>(result.quads.size()) < problem.quads) {
     const auto p = random_point(problem.rig, problem.near, problem.far, random, problem.width_ratio);
     const Eigen::Vector3d moved = problem.motion * p.point;
@@ -183,7 +179,8 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
         after.right_direction = wrong.right_direction;
       }
       const float ncc = static_cast<float>(random.uniform(0.8, 1.0));
-      if (append(result.quads, problem.rig, before, after, ncc, quad_limits)) result.correct.push_back(correct);
+      if (append(result.quads, problem.rig, before, after, ncc, problem.noise.direction))
+        result.correct.push_back(correct);
     }
   }
   return result;
@@ -229,7 +226,7 @@ QuadObservations changed_quads(const Problem& problem, std::uint64_t seed, const
     if (moved.point.z() < 0.5 * problem.near) continue;
     auto before = disturb(problem.rig, p, problem.noise, true, random);
     auto after = disturb(problem.rig, moved, problem.noise, false, random);
-    if (change(i, before, after)) append(quads, problem.rig, before, after, 1.0f, limits());
+    if (change(i, before, after)) append(quads, problem.rig, before, after, 1.0f);
     ++i;
   }
   return quads;

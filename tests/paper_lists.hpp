@@ -1,8 +1,7 @@
 #pragma once
 /// \file paper_lists.hpp  Made-up lists of candidates for the tests of the paper's refinement and clusters.
 
-#include "device/paper_clusters.hpp"
-#include "device/paper_refinement.hpp"
+#include "device/paper_matching.hpp"
 #include "edge_images.hpp"
 #include "matching.hpp"
 #include "paper/cascades.hpp"

@@ -14,19 +14,17 @@ struct ReprojectionJacobian {
   Eigen::Vector3d by_depth, by_offset;  ///< see ReprojectionResidual
 };
 
-/// \param term per pixel \param current_from_previous left cameras, metres \param depth the depth unknown of the quad,
+/// \param current_from_previous left cameras, metres \param depth the depth unknown of the quad,
 /// in standard deviations of the previous inverse depth
 /// \returns false for a point that is not in front of the current left camera
-inline bool reprojection_jacobian(const ReprojectionTerm& term, const PinholeCamera& left,
-                                  const Eigen::Isometry3d& current_from_previous, double depth,
-                                  ReprojectionJacobian& result) {
+inline bool reprojection_jacobian(const ReprojectionTerm& term, const Eigen::Isometry3d& current_from_previous,
+                                  double depth, ReprojectionJacobian& result) {
   const Eigen::Vector3d translation = current_from_previous.translation();
   const double rho = term.inverse_depth + depth * term.inverse_depth_sigma;
   const Eigen::Vector3d ray = current_from_previous.linear() * Eigen::Vector3d(term.ray_x, term.ray_y, 1);
   const Eigen::Vector3d point = ray + rho * translation;
-  const ReprojectionResidual residual =
-      reprojection_residual(term, {point.x(), point.y(), point.z()}, rho,
-                            {translation.x(), translation.y(), translation.z()}, left.fx, left.fy);
+  const ReprojectionResidual residual = reprojection_residual(term, {point.x(), point.y(), point.z()}, rho,
+                                                              {translation.x(), translation.y(), translation.z()});
   if (!residual.in_front) return false;
   const auto vector = [](const Residuals& r) { return Eigen::Vector3d(r.across, r.along, r.inverse_depth); };
   result.value = vector(residual.value);

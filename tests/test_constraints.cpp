@@ -15,8 +15,6 @@ Eigen::Vector3d unit(double x, double y, double z) { return Eigen::Vector3d(x, y
 /// D along x, 2 m long; T1 and T2 not coplanar with it.
 OrientedPair example() { return {{{0, 0, 5}, unit(0.3, 1, 0)}, {{2, 0, 5}, unit(0.2, 0.5, 1)}}; }
 
-const ConstraintLimits kLimits;
-
 }  // namespace
 
 TEST_CASE("A rigidly moved pair passes all six constraints", "[pose]") {
@@ -24,22 +22,22 @@ TEST_CASE("A rigidly moved pair passes all six constraints", "[pose]") {
   for (int trial = 0; trial < 200; ++trial) {
     const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()},
                             {random.uniform(1, 9) * random.unit(), random.unit()}};
-    const ConstraintCheck check = check_constraints(pair, moved(pair, random.motion(3.0, 5.0)), kLimits);
+    const ConstraintCheck check = check_constraints(pair, moved(pair, random.motion(3.0, 5.0)));
     for (std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{5}})
       CHECK(check.passed[i]);
   }
-  CHECK(check_constraints(example(), moved(example(), random.motion(3.0, 5.0)), kLimits).all());
+  CHECK(check_constraints(example(), moved(example(), random.motion(3.0, 5.0))).all());
 }
 
 TEST_CASE("Each constraint fails alone, just beyond its threshold", "[pose]") {
   const OrientedPair before = example();
   const auto only_fails = [&](const OrientedPair& after, std::size_t number) {
-    const ConstraintCheck check = check_constraints(before, after, kLimits);
+    const ConstraintCheck check = check_constraints(before, after);
     for (std::size_t i = 0; i < 6; ++i) CHECK(check.passed[i] == (i != number));
   };
   OrientedPair after = before;
   after.second.point.x() = 2 * 1.12;
-  CHECK(check_constraints(before, after, kLimits).all());
+  CHECK(check_constraints(before, after).all());
   after.second.point.x() = 2 * 1.14;
   only_fails(after, 0);
 
@@ -50,7 +48,7 @@ TEST_CASE("Each constraint fails alone, just beyond its threshold", "[pose]") {
   only_fails(after, 1);
   const double nearer = before.first.tangent.x() - 0.115;
   after.first.tangent = Eigen::Vector3d(nearer, std::sqrt(1 - nearer * nearer), 0);
-  CHECK(check_constraints(before, after, kLimits).all());
+  CHECK(check_constraints(before, after).all());
 
   after = before;
   const double second = before.second.tangent.x() + 0.125;
@@ -71,7 +69,7 @@ TEST_CASE("A mirrored pair fails only the determinant's sign", "[pose]") {
     p->point.z() = -p->point.z();
     p->tangent.z() = -p->tangent.z();
   }
-  const ConstraintCheck check = check_constraints(example(), after, kLimits);
+  const ConstraintCheck check = check_constraints(example(), after);
   CHECK_FALSE(check.passed[5]);
   for (std::size_t i = 0; i < 5; ++i) CHECK(check.passed[i]);
 
@@ -80,13 +78,13 @@ TEST_CASE("A mirrored pair fails only the determinant's sign", "[pose]") {
   flat.second.tangent = unit(0.2, 1, 0.05);
   OrientedPair mirrored = flat;
   mirrored.second.tangent.z() = -mirrored.second.tangent.z();
-  CHECK(check_constraints(flat, mirrored, kLimits).passed[5]);
+  CHECK(check_constraints(flat, mirrored).passed[5]);
 }
 
 TEST_CASE("A flipped tangent fails the signed constraints", "[pose]") {
   OrientedPair after = example();
   after.first.tangent = -after.first.tangent;
-  const ConstraintCheck check = check_constraints(example(), after, kLimits);
+  const ConstraintCheck check = check_constraints(example(), after);
   CHECK(check.passed[0]);
   CHECK_FALSE(check.passed[1]);
   CHECK_FALSE(check.passed[3]);
@@ -95,20 +93,20 @@ TEST_CASE("A flipped tangent fails the signed constraints", "[pose]") {
 TEST_CASE("The quads swap roles where D is parallel to the first tangent, and fail where it is parallel to both",
           "[pose]") {
   OrientedPair pair = example();
-  CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
+  CHECK_FALSE(check_constraints(pair, pair).swapped);
   pair.first.tangent = unit(1, std::tan(13.0 * quadedge::kDegree), 0);
-  CHECK(check_constraints(pair, pair, kLimits).swapped);
-  CHECK(check_constraints(pair, pair, kLimits).all());
+  CHECK(check_constraints(pair, pair).swapped);
+  CHECK(check_constraints(pair, pair).all());
   pair.first.tangent = unit(1, std::tan(15.0 * quadedge::kDegree), 0);
-  CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
+  CHECK_FALSE(check_constraints(pair, pair).swapped);
   pair.first.tangent = Eigen::Vector3d::UnitX();
   pair.second.tangent = -Eigen::Vector3d::UnitX();
-  CHECK_FALSE(check_constraints(pair, pair, kLimits).passed[4]);
+  CHECK_FALSE(check_constraints(pair, pair).passed[4]);
 }
 
 TEST_CASE("Two coincident points fail", "[pose]") {
   OrientedPair pair = example();
   pair.second.point = pair.first.point;
-  CHECK_FALSE(check_constraints(pair, example(), kLimits).all());
-  CHECK_FALSE(check_constraints(example(), pair, kLimits).all());
+  CHECK_FALSE(check_constraints(pair, example()).all());
+  CHECK_FALSE(check_constraints(example(), pair).all());
 }

@@ -97,7 +97,7 @@ TEST_CASE("An unreliable result has a status and no pose", "[pose]") {
     const auto add = [&](QuadObservations& quads) {
       const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
       generated::append(quads, problem.rig, generated::observe(problem.rig, p), generated::observe(problem.rig, q),
-                        1.0f, generated::limits());
+                        1.0f);
     };
     add(corner);
     p.point = Eigen::Vector3d(1, 0.5, 12);

@@ -1,6 +1,7 @@
 /// \file test_paper_filters.cpp  Candidates of the paper's method and the filters on them on devices, against
 /// host/workbench/paper/cascades.cpp.
 #include "common/matching_constants.hpp"
+#include "device/paper_matching.hpp"
 #include "device/stereo_matching.hpp"
 #include "device/temporal_matching.hpp"
 #include "edge_images.hpp"

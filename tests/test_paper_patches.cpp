@@ -1,6 +1,6 @@
 /// \file test_paper_patches.cpp  Side patches of the paper's method on every device, against the plain form.
 #include "describing.hpp"
-#include "device/paper_patches.hpp"
+#include "device/paper_matching.hpp"
 #include "edge_images.hpp"
 #include "matching.hpp"
 #include "paper/side_patches.hpp"

@@ -1,6 +1,6 @@
 /// \file test_paper_quads.cpp  Quads of the paper's method on every device, and its whole front end, against the plain
 /// form.
-#include "device/paper_quads.hpp"
+#include "device/paper_matching.hpp"
 #include "frontends.hpp"
 #include "paper/cascades.hpp"
 #include "paper_lists.hpp"

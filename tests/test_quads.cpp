@@ -77,7 +77,7 @@ TEST_CASE("Quads use the detected positions, keep their match's row and skip edg
     matches.ncc.push_back(static_cast<float>(i) / 20.0f);
     matches.competing_clusters.push_back(i % 3);
   }
-  const QuadObservations quads = build_quads(rig, previous, current, matches, generated::limits());
+  const QuadObservations quads = build_quads(rig, previous, current, matches);
   REQUIRE(quads.size() == 19);
   REQUIRE(quads.scoring.size() == 19);
   for (std::size_t k = 0; k < quads.size(); ++k) {

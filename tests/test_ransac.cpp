@@ -130,13 +130,12 @@ TEST_CASE("Without local optimisation the motion is that of two measured quads",
   const Consensus plain = search(problem, noisy, config);
   REQUIRE(plain.found);
   bool of_a_pair = false;
-  const double max_cosine = ConstraintLimits().max_cosine;
   for (std::size_t a = 0; a < noisy.quads.size() && !of_a_pair; ++a) {
     for (std::size_t b = 0; b < noisy.quads.size() && !of_a_pair; ++b) {
       if (a == b) continue;
-      const auto motion = solve_two_quads(
-          {noisy.quads.previous[a].oriented_point(), noisy.quads.previous[b].oriented_point()},
-          {noisy.quads.current[a].oriented_point(), noisy.quads.current[b].oriented_point()}, max_cosine);
+      const auto motion =
+          solve_two_quads({noisy.quads.previous[a].oriented_point(), noisy.quads.previous[b].oriented_point()},
+                          {noisy.quads.current[a].oriented_point(), noisy.quads.current[b].oriented_point()});
       of_a_pair = motion && motion->matrix() == plain.current_from_previous.matrix();
     }
   }

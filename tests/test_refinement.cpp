@@ -62,7 +62,7 @@ TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorte
       };
       drift(before, 0.5);
       drift(after, -0.5);
-      generated::append(quads, problem.rig, before, after, 1.0f, generated::limits());
+      generated::append(quads, problem.rig, before, after, 1.0f);
     }
     const auto refined = generated::refined_by(quads, problem.rig, {}, problem.motion);
     return generated::error_of(refined.current_from_previous, problem.motion).tail<3>().norm();

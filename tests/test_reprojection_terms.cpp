@@ -17,11 +17,10 @@ struct Expected {
 
 /// One quad's contribution from reprojection_jacobian(): Gauss-Newton over (pose, offset, depth, error of its own
 /// disparities) with normal priors on the last two, which the Schur complement eliminates.
-std::optional<Expected> contribution(const ReprojectionTerm& term, const quadedge::PinholeCamera& left,
-                                     const Eigen::Isometry3d& pose, double offset, double depth,
-                                     const StudentWeights& weights) {
+std::optional<Expected> contribution(const ReprojectionTerm& term, const Eigen::Isometry3d& pose, double offset,
+                                     double depth, const StudentWeights& weights) {
   ReprojectionJacobian linear;
-  if (!reprojection_jacobian(term, left, pose, depth, linear)) return std::nullopt;
+  if (!reprojection_jacobian(term, pose, depth, linear)) return std::nullopt;
   const double sigma = std::sqrt(term.disparity_variance);
   Eigen::Matrix<double, 5, 9> jacobian = Eigen::Matrix<double, 5, 9>::Zero();
   jacobian.topRows<3>() << linear.by_pose, linear.by_offset, linear.by_depth, linear.by_offset * sigma;
@@ -57,7 +56,7 @@ struct ManyQuads {
     terms.assign(quads_of, rows, problem.rig.left, noise);
   }
   ReprojectionTerm term(std::size_t k) const {
-    return make_reprojection_term(quads_of, static_cast<std::size_t>(rows[k]), noise);
+    return make_reprojection_term(quads_of, static_cast<std::size_t>(rows[k]), problem.rig.left, noise);
   }
 
   generated::Problem problem;
@@ -87,7 +86,7 @@ TEST_CASE("Sums over reprojection terms equal those of the Jacobians with the de
       Expected sum;
       std::vector<double> costs;
       for (std::size_t k = 0; k < scene.rows.size(); ++k) {
-        const auto own = contribution(scene.term(k), scene.problem.rig.left, scene.pose, offset, depth[k], weights);
+        const auto own = contribution(scene.term(k), scene.pose, offset, depth[k], weights);
         REQUIRE(own);
         sum.matrix += own->matrix;
         sum.gradient += own->gradient;
@@ -228,7 +227,7 @@ TEST_CASE("One quad alone and eight at once, at every vector width, give the sam
       int behind = 0;
       for (std::size_t k = 0; k < kLanes; ++k) {
         Contributions<kOffsetValues, 1> one;
-        alone(per_ray_unit(scene.term(k), scene.problem.rig.left), scene.terms.depth[k], at, one);
+        alone(scene.term(k), scene.terms.depth[k], at, one);
         behind += one.error[0] < 0;
         for (std::size_t j = 0; j < kOffsetValues; ++j) CHECK(lanes.values[j][k] == one.values[j][0]);
         for (std::size_t j = 0; j < kPoseValues; ++j) CHECK(production.values[j][k] == one.values[j][0]);

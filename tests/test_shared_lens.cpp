@@ -39,7 +39,7 @@ rig::SharedLens learned(const StereoRig& truth, const StereoRig& given, double t
         seen->left = distorted(truth.left, seen->left, k1);
         seen->right = distorted(truth.right, seen->right, k1);
       }
-      generated::append(quads, given, before, after, 0.9F, generated::limits());
+      generated::append(quads, given, before, after, 0.9F);
     }
     pose::MotionEstimate found;
     REQUIRE(pose::MotionEstimator().estimate(given, quads, PoseConfig(), 1, motion, 0, found) == pose::Refusal::none);

@@ -35,13 +35,15 @@ inline int global_step(std::size_t count, int wanted) {
   return step > 1 ? step : 1;
 }
 
+template <class Filter>
+FilterLimits filter_limits(double ncc_min, double sift_max, double ncc_nearly_best, double sift_nearly_best) {
+  const auto value = [](double limit) { return static_cast<float>(limit); };
+  return {value(ncc_min),          value(sift_max),       value(ncc_nearly_best),
+          value(sift_nearly_best), order_of(Filter::ncc), order_of(Filter::sift)};
+}
+
 inline FilterLimits stereo_limits(const StereoConfig& config) {
-  return {static_cast<float>(config.ncc_min),
-          static_cast<float>(config.sift_max),
-          static_cast<float>(config.ncc_nearly_best),
-          static_cast<float>(kSiftNearlyBest),
-          order_of(StereoFilter::ncc),
-          order_of(StereoFilter::sift)};
+  return filter_limits<StereoFilter>(config.ncc_min, config.sift_max, config.ncc_nearly_best, kSiftNearlyBest);
 }
 
 /// Weight of full support by the neighbours relative to similarity; 0 without relaxation.
@@ -58,21 +60,12 @@ inline float lowest_similarity(const StereoConfig& config) {
 inline int relaxation_cells(int pixels) { return static_cast<int>(static_cast<float>(pixels) / kRelaxationCell) + 1; }
 
 inline FilterLimits temporal_limits(const TemporalConfig& config, const TemporalSearch& search) {
-  if (!search.coarse) {
-    return {static_cast<float>(config.ncc_min),
-            static_cast<float>(config.sift_max),
-            static_cast<float>(config.ncc_nearly_best),
-            static_cast<float>(config.sift_nearly_best),
-            order_of(TemporalFilter::ncc),
-            order_of(TemporalFilter::sift)};
-  }
+  if (!search.coarse)
+    return filter_limits<TemporalFilter>(config.ncc_min, config.sift_max, config.ncc_nearly_best,
+                                         config.sift_nearly_best);
   const bool wide = search.radius > static_cast<float>(config.coarse_radius);
-  return {static_cast<float>(kCoarseNccMin),
-          static_cast<float>(wide ? kLargeRadiusSiftMax : config.sift_max),
-          static_cast<float>(kCoarseNccNearlyBest),
-          static_cast<float>(kCoarseSiftNearlyBest),
-          order_of(TemporalFilter::ncc),
-          order_of(TemporalFilter::sift)};
+  return filter_limits<TemporalFilter>(kCoarseNccMin, wide ? kLargeRadiusSiftMax : config.sift_max,
+                                       kCoarseNccNearlyBest, kCoarseSiftNearlyBest);
 }
 
 inline QuadChoice quad_choice(const TemporalConfig& config, const TemporalSearch& search) {

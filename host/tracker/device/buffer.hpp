@@ -106,14 +106,6 @@ class Buffer {
     call("filling a buffer",
          [&] { context_->queue().enqueueFillBuffer(memory_, value, 0, count * sizeof(T), nullptr, watch()); });
   }
-  /// Copies `count` elements from the same offset of another buffer, on the device.
-  void copy(const Buffer& source, std::size_t offset, std::size_t count) {
-    if (count == 0) return;
-    call("copying a buffer", [&] {
-      context_->queue().enqueueCopyBuffer(source.memory_, memory_, offset * sizeof(T), offset * sizeof(T),
-                                          count * sizeof(T), nullptr, watch());
-    });
-  }
 
   void swap(Buffer& other) noexcept {
     std::swap(context_, other.context_);

@@ -11,6 +11,12 @@
 
 namespace quadedge::stages {
 
+/// How many of the first `count` values are positive; waits for the device.
+inline int count_positive(const opencl::Buffer<cl_int>& values, int count) {
+  const auto read = values.read(static_cast<std::size_t>(count));
+  return static_cast<int>(std::count_if(read.begin(), read.end(), [](cl_int value) { return value > 0; }));
+}
+
 /// Candidate lists in compressed rows, with the scores of every candidate. If the capacity is exceeded, the buffers
 /// grow and the sweep runs again, so no candidate is lost.
 struct DeviceCandidates {
@@ -50,11 +56,7 @@ struct DeviceCandidates {
   }
 
   /// Number of rows with a candidate that passed all filters.
-  int living_rows() const {
-    const auto counts_per_row = alive.read(static_cast<std::size_t>(rows));
-    return static_cast<int>(
-        std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
-  }
+  int living_rows() const { return count_positive(alive, rows); }
 
   /// All candidates without scores, for a tap.
   CandidateLists read() const;
@@ -73,6 +75,12 @@ struct DescribedEdges {
   const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see reference/edge_descriptions.hpp
 };
 
+/// candidate_filters() of kernels/candidate_filters.cl.
+using CandidateKernel = opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target,
+                                            const cl_char* patches_a, const cl_int* patch_of_a, const cl_uchar* sift_a,
+                                            const cl_char* patches_b, const cl_int* patch_of_b, const cl_uchar* sift_b,
+                                            cl_float* ncc, cl_float* sift, cl_uchar* state, cl_int* alive)>;
+
 /// Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists.
 /// Variants of the stage "candidate_filters".
 class CandidateFilters : private Stage {
@@ -85,40 +93,7 @@ class CandidateFilters : private Stage {
            DeviceCandidates& candidates);
 
  private:
-  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_char* patches_a,
-                      const cl_int* patch_of_a, const cl_uchar* sift_a, const cl_char* patches_b,
-                      const cl_int* patch_of_b, const cl_uchar* sift_b, cl_float* ncc, cl_float* sift, cl_uchar* state,
-                      cl_int* alive)>
-      kernel_;
-};
-
-/// Descriptions of a set of edges by the paper's method.
-struct PaperDescribedEdges {
-  const opencl::Buffer<cl_float>& patches;  ///< kPaperPatchFloats of kernels/layouts.cl each
-  const opencl::Buffer<cl_int>& number_of;  ///< of each edge: the number of its patches and of its descriptor
-  const opencl::Buffer<cl_uchar>& sift;     ///< in the order of the patches, see reference/edge_descriptions.hpp
-};
-
-/// The same filters with the paper's patches.
-/// Variants of the stage "paper_filters".
-class PaperFilters : private Stage {
- public:
-  PaperFilters(opencl::Context& context, const opencl::VariantChoice& variants);
-
-  /// As CandidateFilters::run().
-  void run(const PaperDescribedEdges& a, const PaperDescribedEdges& b, const FilterLimits& limits, int row_step,
-           bool all_scores, DeviceCandidates& candidates);
-
- private:
-  opencl::Buffer<cl_char> unused_;  ///< in place of the patches that candidate_filters.cl does not read
-  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_float* patches_a,
-                      const cl_int* patch_of_a, const cl_float* patches_b, const cl_int* patch_of_b, cl_float* ncc)>
-      ncc_;
-  opencl::Kernel<void(FilterArguments args, const cl_int* first, const cl_int* target, const cl_char* patches_a,
-                      const cl_int* patch_of_a, const cl_uchar* sift_a, const cl_char* patches_b,
-                      const cl_int* patch_of_b, const cl_uchar* sift_b, cl_float* ncc, cl_float* sift, cl_uchar* state,
-                      cl_int* alive)>
-      decide_;
+  CandidateKernel kernel_;
 };
 
 }  // namespace quadedge::stages

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "device/device_limits.hpp"
 #include "device/program_cache.hpp"
 #include "device/status.hpp"
 #include "quadedge/device.hpp"
@@ -30,6 +29,18 @@ struct StageProfile {
   double launches = 0;     ///< number of kernel launches; fractional in means
 
   double wall_ms() const { return kernel_ms + transfer_ms + queue_ms; }
+};
+
+/// Restricts a device, for tests and for lists of programs. Unset members keep the value of the device.
+struct DeviceLimits {
+  std::optional<std::string> type;         ///< cpu | gpu | accelerator
+  std::optional<std::size_t> group_items;  ///< maximum number of work-items of a work-group
+  /// Local memory of a work-group [bytes]; 0: local memory is emulated in global memory.
+  std::optional<std::size_t> local_bytes;
+  std::optional<std::size_t> memory_bytes;
+  std::optional<bool> stores_bytes;       ///< cl_khr_byte_addressable_store
+  std::optional<bool> exact_divide_sqrt;  ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+  std::optional<std::size_t> launches;    ///< kernel launches that succeed before the device is lost
 };
 
 /// Limits of the device that launches, arrays and build options respect.

@@ -13,7 +13,6 @@
 #include <string>
 
 #include "device/context.hpp"
-#include "device/device_limits.hpp"
 #include "device/oracle.hpp"
 #include "device/status.hpp"
 

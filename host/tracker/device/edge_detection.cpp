@@ -31,15 +31,10 @@ EdgeThreshold::EdgeThreshold(opencl::Context& context, const EdgesConfig& config
 ThresholdArguments EdgeThreshold::arguments(const PaddedPlane& plane) const {
   const ThresholdLimits limits = threshold_limits(config_);
   const double step = kMaxGrey / plane.max_value();  // [grey levels]
-  return {plane.width(),
-          plane.height(),
-          plane.stride(),
-          static_cast<float>(kMaxGrey),
-          static_cast<float>(step),
-          static_cast<float>(kThresholdArea),
-          static_cast<float>(limits.per_noise),
-          static_cast<float>(limits.per_step * step),
-          static_cast<float>(kThresholdMax)};
+  const auto value = [](double number) { return static_cast<float>(number); };
+  return {plane.width(),       plane.height(),        plane.stride(),          value(kMaxGrey),
+          value(step),         value(kThresholdArea), value(limits.per_noise), value(limits.per_step * step),
+          value(kThresholdMax)};
 }
 
 int EdgeThreshold::tally(const PaddedPlane& plane, int first) {
@@ -115,9 +110,13 @@ void EdgeDetection::run(const PaddedPlane& plane, const opencl::Buffer<cl_float>
 void EdgeDetection::find_maxima(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
   begin();
   if (is_grouped()) {
-    find_maxima_in_tiles(plane, threshold);
+    const auto tiles = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
+    tile_maxima_(over(tiles, local_size_), arguments(plane), threshold, tiles_x_, plane.pixels(), plane.taps(),
+                 maxima_.winners, maxima_.flags);
   } else {
-    find_maxima_in_strips(plane, threshold);
+    const auto strips = static_cast<std::size_t>((height_ + kStripRows - 1) / kStripRows);
+    strip_maxima_(over(strips), arguments(plane), threshold, kStripRows, plane.pixels(), plane.taps(), scratch_, line_,
+                  maxima_.winners, maxima_.counts);
   }
 }
 
@@ -136,18 +135,6 @@ void EdgeDetection::take_directions(const PaddedPlane& plane, DeviceEdges& edges
     tile_directions_({std::min(at_most, context_.limits().compute_units * kItemsPerUnit), local_size_}, arguments,
                      plane.pixels(), compact_, rows_, edges.count, edges.packed);
   }
-}
-
-void EdgeDetection::find_maxima_in_strips(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
-  const auto strips = static_cast<std::size_t>((height_ + kStripRows - 1) / kStripRows);
-  strip_maxima_(over(strips), arguments(plane), threshold, kStripRows, plane.pixels(), plane.taps(), scratch_, line_,
-                maxima_.winners, maxima_.counts);
-}
-
-void EdgeDetection::find_maxima_in_tiles(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
-  const auto tiles = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
-  tile_maxima_(over(tiles, local_size_), arguments(plane), threshold, tiles_x_, plane.pixels(), plane.taps(),
-               maxima_.winners, maxima_.flags);
 }
 
 EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima)

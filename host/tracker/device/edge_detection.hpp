@@ -74,8 +74,6 @@ class EdgeDetection : private Stage {
 
  private:
   void build();
-  void find_maxima_in_strips(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
-  void find_maxima_in_tiles(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
   DetectionArguments arguments(const PaddedPlane& plane) const;
 
   int width_, height_;

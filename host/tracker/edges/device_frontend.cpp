@@ -6,7 +6,6 @@
 
 #include "common/layouts.hpp"
 #include "common/matching_constants.hpp"
-#include "edges/global_search.hpp"
 #include "edges/memory_fit.hpp"
 #include "geometry/disparity_range.hpp"
 #include "geometry/epipolar_geometry.hpp"
@@ -283,9 +282,8 @@ void DeviceFrontend::load(const KeptFrameEdges& kept, FrameEdges& restored) {
   stereo_edges.has_sift = false;
   stereo_edges.left_index.write(kept.edges.left_index.data(), count);
   std::vector<cl_float> packed;
-  for (const auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
-                             &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_shift})
-    packed.insert(packed.end(), column->begin(), column->end());
+  for (const auto column : kStereoColumns)
+    packed.insert(packed.end(), (kept.edges.*column).begin(), (kept.edges.*column).end());
   stereo_edges.packed.write(packed.data(), packed.size());
   const KeptPatches patches = unpack_patches(kept);
   stereo_edges.left_patches.write(context_, patches.left);

@@ -96,7 +96,7 @@ class Frontend {
   Tap* tap_ = nullptr;
 
  private:
-  NoRowCorrection as_calibrated_;
+  RowCorrection as_calibrated_;
   RowCorrection* rows_ = &as_calibrated_;
   PixelMask left_mask_of_rig_;
   int margin_;

@@ -71,13 +71,7 @@ KeptFrameEdges keep_edges(const FrameEdges& frame_edges, const DescribedRows& de
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
     for (std::size_t k = 0; k < count; ++k) to.push_back(from[edge_of(k)]);
   };
-  copy(frame_edges.edges.left_x, kept.edges.left_x);
-  copy(frame_edges.edges.left_y, kept.edges.left_y);
-  copy(frame_edges.edges.left_direction, kept.edges.left_direction);
-  copy(frame_edges.edges.right_x, kept.edges.right_x);
-  copy(frame_edges.edges.right_y, kept.edges.right_y);
-  copy(frame_edges.edges.right_direction, kept.edges.right_direction);
-  copy(frame_edges.edges.left_scale_shift, kept.edges.left_scale_shift);
+  for (const auto column : kStereoColumns) copy(frame_edges.edges.*column, kept.edges.*column);
   copy(frame_edges.edges.ncc, kept.edges.ncc);
   kept.edges.left_index.resize(count);
   std::iota(kept.edges.left_index.begin(), kept.edges.left_index.end(), 0);

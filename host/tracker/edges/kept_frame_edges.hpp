@@ -10,6 +10,11 @@
 
 namespace quadedge::frontend {
 
+/// Columns of StereoEdges that describe the two edges, in the order in which devices and maps hold them.
+inline constexpr std::vector<float> StereoEdges::*kStereoColumns[] = {
+    &StereoEdges::left_x,  &StereoEdges::left_y,          &StereoEdges::left_direction,  &StereoEdges::right_x,
+    &StereoEdges::right_y, &StereoEdges::right_direction, &StereoEdges::left_scale_shift};
+
 /// Maximum number of stereo edges of a kept frame: 0.42 MB.
 constexpr std::size_t kKeptEdges = 2400;
 

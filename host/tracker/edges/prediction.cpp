@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "geometry/predicted_edges.hpp"
-
 namespace quadedge::frontend {
 namespace {
 

@@ -4,10 +4,29 @@
 #include <stdexcept>
 
 #include "common/filter_limits.hpp"
-#include "edges/global_search.hpp"
 #include "geometry/epipolar_geometry.hpp"
 
 namespace quadedge::frontend {
+namespace {
+
+/// The columns of the edges with these indices; left_index holds the indices themselves.
+StereoEdges edges_of(const StereoEdges& edges, const std::vector<std::int32_t>& numbers) {
+  StereoEdges some;
+  some.left_index = numbers;
+  for (const auto column : kStereoColumns) {
+    if ((edges.*column).empty()) continue;  // not known
+    for (const std::int32_t number : numbers)
+      (some.*column).push_back((edges.*column)[static_cast<std::size_t>(number)]);
+  }
+  return some;
+}
+
+/// Replaces indices into the result of edges_of() by the indices of the same edges in the full list.
+void renumber(const std::vector<std::int32_t>& numbers, std::vector<std::int32_t>& indices) {
+  for (auto& index : indices) index = numbers[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
 
 StagedFrontend::StagedFrontend(const StereoRig& rig, const Config& config)
     : GlobalFrontend(rig, config),

@@ -117,12 +117,8 @@ EpipolarGeometry corrected(EpipolarGeometry g, const RectificationError& error, 
 }
 
 EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities, bool all_orientations) {
-  if (all_disparities) {
-    geometry.tolerance = kWholeImage;
-  }
-  if (all_orientations) {
-    geometry.orientation = 4.0f;  // larger than any angle
-  }
+  if (all_disparities) geometry.tolerance = kWholeImage;
+  if (all_orientations) geometry.orientation = 4.0f;  // larger than any angle
   return geometry;
 }
 
@@ -176,18 +172,9 @@ EpipolarRows epipolar_rows(const StereoRig& rig, Side side) {
   const Eigen::Matrix3d rays = side == Side::left
                                    ? Eigen::Matrix3d(rig.left.matrix().inverse())
                                    : Eigen::Matrix3d(rotation.transpose() * rig.right.matrix().inverse());
-  const Eigen::RowVector3d numerator = rig.left.fy * across.transpose() * rays;
-  const Eigen::RowVector3d denominator = forward.transpose() * rays;
-  const auto value = [](double number) { return static_cast<float>(number); };
-  return {value(numerator.x()),
-          value(numerator.y()),
-          value(numerator.z()),
-          value(denominator.x()),
-          value(denominator.y()),
-          value(denominator.z()),
-          0,
-          0,
-          0};
+  const Eigen::RowVector3f above = (rig.left.fy * across.transpose() * rays).cast<float>();
+  const Eigen::RowVector3f below = (forward.transpose() * rays).cast<float>();
+  return {above.x(), above.y(), above.z(), below.x(), below.y(), below.z(), 0, 0, 0};
 }
 
 SelectionArguments selection_arguments(const StereoRig& rig, Side side, const RectificationError& error) {

@@ -1,6 +1,8 @@
 #pragma once
-/// \file measured_edges.hpp  The stereo edges of a frame, measured by its rig.
+/// \file measured_edges.hpp  The stereo edges of a frame, measured by its rig, and where they are seen after a motion.
 
+#include <Eigen/Geometry>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -15,5 +17,12 @@ using MeasuredEdges = std::vector<std::optional<StereoMeasurement>>;
 
 /// \param min_epipolar_angle see measure() [rad]
 void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured);
+
+/// Moves the oriented point of every `step`-th measured edge and projects it into both cameras, as project() does.
+/// \param current_from_previous left cameras, metres
+/// \param left, right one entry per edge: positions [px] and directions [rad, accurate to 1e-7] in both images; NaN for
+/// an edge without a measurement, a point that is not in front of the camera, and a tangent that points at its centre
+void predict_edges(const StereoRig& rig, const MeasuredEdges& measured, const Eigen::Isometry3d& current_from_previous,
+                   std::size_t step, EdgePositions& left, EdgePositions& right);
 
 }  // namespace quadedge::pose

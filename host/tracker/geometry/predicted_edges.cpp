@@ -1,6 +1,4 @@
 /// \file predicted_edges.cpp  Projects eight edges at once, with an arc tangent that compilers vectorise.
-#include "geometry/predicted_edges.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 
 #include "common/parallel.hpp"
 #include "geometry/lanes.hpp"
+#include "geometry/measured_edges.hpp"
 #include "geometry/stereo_numbers.hpp"
 #include "quadedge/camera.hpp"
 

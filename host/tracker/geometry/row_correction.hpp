@@ -8,26 +8,18 @@
 
 namespace quadedge {
 
-/// Gives every frame the rectification error with which its right image is searched.
+/// Gives every frame the rectification error with which its right image is searched: by itself, none.
 class RowCorrection {
  public:
   virtual ~RowCorrection() = default;
 
   /// Begins a frame with the error that earlier frames suggest.
-  virtual void start_frame() = 0;
+  virtual void start_frame() {}
   /// Whether the frame, in which `edges` were found, was searched with a suitable error. If not, error() has changed
   /// and the frame is to be searched again; the second answer is always true.
-  virtual bool suffices(const StereoFrame& frame, const StereoEdges& edges) = 0;
+  virtual bool suffices(const StereoFrame& /*frame*/, const StereoEdges& /*edges*/) { return true; }
   /// Of the current frame; zero unless the images show clearly that it matters.
-  virtual const RectificationError& error() const = 0;
-};
-
-/// The right image as calibrated.
-class NoRowCorrection final : public RowCorrection {
- public:
-  void start_frame() override {}
-  bool suffices(const StereoFrame&, const StereoEdges&) override { return true; }
-  const RectificationError& error() const override { return none_; }
+  virtual const RectificationError& error() const { return none_; }
 
  private:
   RectificationError none_;

@@ -177,19 +177,11 @@ StereoRig with_scale_of(const PinholeCamera& camera, StereoRig rig) {
 Image undistort(const ImageView& recorded, const UndistortionTable& table) {
   Image image(table.width, table.height, recorded.max_value);
   for (std::size_t i = 0; i < table.source_x.size(); ++i) {
-    const float x = std::clamp(table.source_x[i], 0.0f, static_cast<float>(recorded.width - 1));
-    const float y = std::clamp(table.source_y[i], 0.0f, static_cast<float>(recorded.height - 1));
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const int x1 = std::min(x0 + 1, recorded.width - 1), y1 = std::min(y0 + 1, recorded.height - 1);
-    const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    const float top =
-        (1.0f - fx) * static_cast<float>(recorded.value(x0, y0)) + fx * static_cast<float>(recorded.value(x1, y0));
-    const float bottom =
-        (1.0f - fx) * static_cast<float>(recorded.value(x0, y1)) + fx * static_cast<float>(recorded.value(x1, y1));
-    // Never negative, and rounded as the kernel rounds.
-    const int value = static_cast<int>((1.0f - fy) * top + fy * bottom + 0.5f);  // NOLINT(bugprone-*)
+    const float value = bilinear(recorded.width, recorded.height, table.source_x[i], table.source_y[i],
+                                 [&](int column, int row) { return static_cast<float>(recorded.value(column, row)); });
     const auto width = static_cast<std::size_t>(table.width);
-    image.set(static_cast<int>(i % width), static_cast<int>(i / width), value);
+    // Never negative, and rounded as the kernel rounds.
+    image.set(static_cast<int>(i % width), static_cast<int>(i / width), static_cast<int>(value + 0.5f));  // NOLINT
   }
   return image;
 }

@@ -75,6 +75,17 @@ struct Evaluation {
 /// its six mixed terms with the pose, its square and its gradient.
 constexpr std::size_t kMatrixValues = 21, kPoseValues = kMatrixValues + 6, kOffsetValues = kPoseValues + 8;
 
+/// Reads the upper triangle of a pose's matrix from `values`, at intervals of `stride`, row by row.
+template <int Size>
+void unpack_pose(const double* values, std::size_t stride, Eigen::Matrix<double, Size, Size>& matrix) {
+  for (int r = 0; r < 6; ++r) {
+    for (int c = r; c < 6; ++c) {
+      matrix(r, c) = matrix(c, r) = *values;
+      values += stride;
+    }
+  }
+}
+
 /// Contributions of each of `Width` quads to the normal equations with respect to the pose, a left perturbation of
 /// current_from_previous by (rotation [rad], translation [m]), or with respect to the pose and the offset [px].
 /// \tparam Values kPoseValues or kOffsetValues
@@ -84,8 +95,16 @@ struct Contributions {
   double depth[Width];  ///< updated depth unknowns of the quads
   double error[Width];  ///< squared Mahalanobis errors; -1 for a quad behind the camera, which contributes nothing
 
-  Matrix6d matrix(std::size_t lane) const;
-  Vector6d gradient(std::size_t lane) const;
+  Matrix6d matrix(std::size_t lane) const {
+    Matrix6d result;
+    unpack_pose(&values[0][lane], Width, result);
+    return result;
+  }
+  Vector6d gradient(std::size_t lane) const {
+    Vector6d result;
+    for (std::size_t r = 0; r < 6; ++r) result(static_cast<Eigen::Index>(r)) = values[kMatrixValues + r][lane];
+    return result;
+  }
 
   template <class... Value>
   [[gnu::always_inline]] void set(std::size_t lane, std::size_t first, Value... value) {
@@ -129,7 +148,7 @@ struct Eliminated {
 ///   matrix: [y] M [y]^T, rho [y] M, rho^2 M;   gradient: y x b, rho b.
 /// The quad's own disparity error has the derivative o of a common offset and the variance s^2, so that
 ///   Q = P - P o o^T P / (1 / s^2 + o^T P o).
-/// \param term per unit of a ray, see per_ray_unit() \param depth the depth unknown of the quad \param lane of `result`
+/// \param depth the depth unknown of the quad \param lane of `result`
 template <std::size_t Values, std::size_t Width>
 [[gnu::always_inline]] inline void contribute(const ReprojectionTerm& term, double depth, const Evaluation& at,
                                               std::size_t lane, Contributions<Values, Width>& result) {
@@ -138,7 +157,7 @@ template <std::size_t Values, std::size_t Width>
   const Vector3 y = {r[0][0] * term.ray_x + r[0][1] * term.ray_y + r[0][2] + rho * at.translation.x,
                      r[1][0] * term.ray_x + r[1][1] * term.ray_y + r[1][2] + rho * at.translation.y,
                      r[2][0] * term.ray_x + r[2][1] * term.ray_y + r[2][2] + rho * at.translation.z};
-  const ReprojectionResidual residual = reprojection_residual(term, y, rho, at.translation, 1, 1);
+  const ReprojectionResidual residual = reprojection_residual(term, y, rho, at.translation);
   const Residuals &h = residual.by_depth, &o = residual.by_offset;
   const Residuals e = {residual.value.across + o.across * at.offset - h.across * depth,
                        residual.value.along + o.along * at.offset - h.along * depth,
@@ -179,31 +198,6 @@ template <std::size_t Values, std::size_t Width>
     result.set(lane, kPoseValues, yc.x, yc.y, yc.z, rho * c.x, rho * c.y, rho * c.z,  //
                offset_weight * oo, offset_weight * oe);
   }
-}
-
-/// Reads the upper triangle of a pose's matrix from `values`, at intervals of `stride`, row by row.
-template <int Size>
-void unpack_pose(const double* values, std::size_t stride, Eigen::Matrix<double, Size, Size>& matrix) {
-  for (int r = 0; r < 6; ++r) {
-    for (int c = r; c < 6; ++c) {
-      matrix(r, c) = matrix(c, r) = *values;
-      values += stride;
-    }
-  }
-}
-
-template <std::size_t Values, std::size_t Width>
-Matrix6d Contributions<Values, Width>::matrix(std::size_t lane) const {
-  Matrix6d result;
-  unpack_pose(&values[0][lane], Width, result);
-  return result;
-}
-
-template <std::size_t Values, std::size_t Width>
-Vector6d Contributions<Values, Width>::gradient(std::size_t lane) const {
-  Vector6d result;
-  for (std::size_t r = 0; r < 6; ++r) result(static_cast<Eigen::Index>(r)) = values[kMatrixValues + r][lane];
-  return result;
 }
 
 }  // namespace quadedge::pose

@@ -55,7 +55,7 @@ void MotionFits::fit(const MotionQuery& query, const PoseConfig& limits,
   };
   lend_measurements();
   quad_builder_.build(measured(*step.base, query), query.current->edges, measured(*query.current, query), step.matches,
-                      pose::QuadLimits(), step.quads);
+                      step.quads);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
   step.verdict = {};

@@ -31,10 +31,9 @@ int hypotheses_needed(double inlier_ratio, const PoseConfig& config) {
 
 std::optional<Eigen::Isometry3d> motion_of_two_quads(const pose::QuadObservations& quads, std::size_t first,
                                                      std::size_t second) {
-  static const pose::ConstraintLimits limits;
   pose::OrientedPair before{quads.previous[first].oriented_point(), quads.previous[second].oriented_point()};
   pose::OrientedPair after{quads.current[first].oriented_point(), quads.current[second].oriented_point()};
-  auto motion = pose::solve_constrained(before, after, limits);
+  auto motion = pose::solve_constrained(before, after);
   if (motion) motion->translation() = after.first.point - motion->linear() * before.first.point;
   return motion;
 }

@@ -91,8 +91,7 @@ void PaperSearch::estimate(std::uint64_t seed, MotionStep& step) {
   pose::MeasuredEdges measured;
   const StereoRig rig = corrected_rig(rig_, step.rig);
   pose::measure_edges(rig, now, kMinEpipolarAngle, measured);
-  quad_builder_.build(step.base->measured_edges(rig, kMinEpipolarAngle), now, measured, numbered, pose::QuadLimits(),
-                      step.quads);
+  quad_builder_.build(step.base->measured_edges(rig, kMinEpipolarAngle), now, measured, numbered, step.quads);
   step.quads.scoring.half_length = 0;
   step.motion = {};
   step.verdict.refusal = solve(seed, step);

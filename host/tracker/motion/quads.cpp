@@ -1,6 +1,7 @@
 /// \file quads.cpp  Fills the columns for scoring; the slopes of tangents are shrunk by a prior.
 #include "motion/quads.hpp"
 
+#include "common/matching_constants.hpp"
 #include "common/parallel.hpp"
 
 namespace quadedge::pose {
@@ -30,10 +31,10 @@ void QuadObservations::resize(std::size_t quads) {
 
 void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
                            const StereoObservation& current_edge, float ncc_value, std::int32_t competing,
-                           std::int32_t match_number, const QuadLimits& limits) {
+                           std::int32_t match_number, double direction_sigma) {
   previous[i] = before;
   current[i] = after;
-  const double uncertainty = before.slope_per_radian * limits.direction_sigma / kSlopePrior;
+  const double uncertainty = before.slope_per_radian * direction_sigma / kSlopePrior;
   const Eigen::Vector3d tangent =
       (before.direction + before.slope / (1.0 + uncertainty * uncertainty) * before.ray).normalized();
   scoring.ray_x[i] = static_cast<float>(before.ray.x());
@@ -56,17 +57,17 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
 }
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
-                             const TemporalMatches& matches, const QuadLimits& limits) {
+                             const TemporalMatches& matches) {
   MeasuredEdges before, after;
-  measure_edges(rig, previous, limits.min_epipolar_angle, before);
-  measure_edges(rig, current, limits.min_epipolar_angle, after);
+  measure_edges(rig, previous, kMinEpipolarAngle, before);
+  measure_edges(rig, current, kMinEpipolarAngle, after);
   QuadObservations quads;
-  QuadBuilder().build(before, current, after, matches, limits, quads);
+  QuadBuilder().build(before, current, after, matches, quads);
   return quads;
 }
 
 void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& current,
-                        const MeasuredEdges& current_measured, const TemporalMatches& matches, const QuadLimits& limits,
+                        const MeasuredEdges& current_measured, const TemporalMatches& matches,
                         QuadObservations& quads) {
   const auto before = [&](std::size_t i) -> const auto& {
     return previous[static_cast<std::size_t>(matches.previous[i])];
@@ -82,7 +83,7 @@ void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& curren
     for (std::size_t q = begin; q < end; ++q) {
       const std::size_t i = rows_[q];
       quads.set(q, *before(i), *after(i), observation_of(current, static_cast<std::size_t>(matches.current[i])),
-                matches.ncc[i], matches.competing_clusters[i], static_cast<std::int32_t>(i), limits);
+                matches.ncc[i], matches.competing_clusters[i], static_cast<std::int32_t>(i));
     }
   });
 }

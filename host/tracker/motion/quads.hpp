@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/matching_constants.hpp"
 #include "geometry/measured_edges.hpp"
 #include "geometry/oriented_point.hpp"
 #include "motion/pose_constants.hpp"
@@ -12,12 +11,6 @@
 #include "quadedge/edges.hpp"
 
 namespace quadedge::pose {
-
-/// Limits that decide whether a quad is used, and the noise of its tangent.
-struct QuadLimits {
-  double min_epipolar_angle = kMinEpipolarAngle;  ///< see measure() [rad]
-  double direction_sigma = kSigmaDirection;       ///< noise of an edge's direction [rad]
-};
 
 /// Data used for scoring a hypothesis, one row per quad, single precision (1e-4 px).
 struct ScoringArrays {
@@ -61,23 +54,24 @@ struct QuadObservations {
   std::size_t size() const { return match.size(); }
   void resize(std::size_t quads);
   /// Sets quad `i`, made of two measured stereo edges and the current edge as detected [px, rad].
+  /// \param direction_sigma noise of an edge's direction [rad]
   void set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
            const StereoObservation& current_edge, float ncc_value, std::int32_t competing, std::int32_t match_number,
-           const QuadLimits& limits);
+           double direction_sigma = kSigmaDirection);
 };
 
 /// All quads of two frames: the stereo edges paired by `matches`, each at its detected position, which across the edge
 /// is more accurate than the photometric refinement of the match, because the patches lie beside the edge. Matches
 /// without depth are dropped; QuadObservations::match gives the row of each quad.
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
-                             const TemporalMatches& matches, const QuadLimits& limits);
+                             const TemporalMatches& matches);
 
 /// build_quads() with edges measured in advance, and with buffers that are kept between calls.
 class QuadBuilder {
  public:
   /// \param current_measured measurements of `current`
   void build(const MeasuredEdges& previous, const StereoEdges& current, const MeasuredEdges& current_measured,
-             const TemporalMatches& matches, const QuadLimits& limits, QuadObservations& quads);
+             const TemporalMatches& matches, QuadObservations& quads);
   /// \param spacing the larger of the two rigs' edge spacings [px]
   static float half_length(double spacing);
 

@@ -85,7 +85,7 @@ class Search {
     if (dx * dx + dy * dy < min_distance_squared_) return std::nullopt;
     OrientedPair before{quads_.previous[a].oriented_point(), quads_.previous[b].oriented_point()};
     OrientedPair after{quads_.current[a].oriented_point(), quads_.current[b].oriented_point()};
-    auto motion = solve_constrained(before, after, limits_);
+    auto motion = solve_constrained(before, after);
     if (!motion || config_.local_optimisation_rounds == 0) return motion;
     work.terms[0] = make_sample_term(quads_, a, noise_, rig_.left);
     work.terms[1] = make_sample_term(quads_, b, noise_, rig_.left);
@@ -137,7 +137,6 @@ class Search {
   const PoseConfig& config_;
   NoiseModel noise_;
   std::mt19937_64 random_;
-  ConstraintLimits limits_;
   ConsensusWorkspace& work_;
   const std::vector<std::int32_t> pair_rows_ = {0, 1};
   double min_distance_squared_ = 0;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "motion/pose_constants.hpp"
@@ -65,25 +66,6 @@ PoseAndOffset learned_from(const PoseAndOffset& free, const Matrix7d& informatio
                                                               quads.pose_by_offset * quads.pose_by_offset.transpose();
   learned.by_offset = std::sqrt(by_prior + by_both) * quads.pose_by_offset;
   return learned;
-}
-
-/// Number of rows that are in only one of two ascending lists.
-std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
-  std::size_t changed = 0;
-  auto p = a.begin(), q = b.begin();
-  while (p != a.end() && q != b.end()) {
-    if (*p == *q) {
-      ++p;
-      ++q;
-      continue;
-    }
-    ++changed;
-    if (*p < *q)
-      ++p;
-    else
-      ++q;
-  }
-  return changed + static_cast<std::size_t>((a.end() - p) + (b.end() - q));
 }
 
 void measure_scale(RefinementWorkspace& workspace) {
@@ -156,7 +138,10 @@ class Refinement {
   void alternate(std::size_t every) {
     for (int round = 0; round < kRefineRounds; ++round) {
       select(every);
-      if (round > 0 && changed_rows(work_.rows, work_.last_rows) <= work_.rows.size() / kSameSelection) break;
+      work_.changed_rows.clear();
+      std::set_symmetric_difference(work_.rows.begin(), work_.rows.end(), work_.last_rows.begin(),
+                                    work_.last_rows.end(), std::back_inserter(work_.changed_rows));
+      if (round > 0 && work_.changed_rows.size() <= work_.rows.size() / kSameSelection) break;
       take_selected();
       if (!fit(round > 0)) break;
     }

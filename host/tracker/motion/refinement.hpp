@@ -31,6 +31,7 @@ std::optional<PoseAndOffset> fit_offset(const PoseConfig& config, const Measured
 struct RefinementWorkspace {
   ReprojectionTerms terms;
   std::vector<std::int32_t> rows, last_rows;  ///< quads selected for the current and the last fit
+  std::vector<std::int32_t> changed_rows;     ///< those selected for only one of them
   std::vector<double> scale_values;
   double reprojection_scale = 1;  ///< ratio of measured to assumed variance of the reprojection residuals
   CovarianceWorkspace covariance;

@@ -101,7 +101,7 @@ void ReprojectionTerms::assign(const QuadObservations& quads, const std::vector<
         continue;
       }
       const auto quad = static_cast<std::size_t>(rows[k]);
-      set_row(columns_, k, per_ray_unit(make_reprojection_term(quads, quad, noise, scale), left));
+      set_row(columns_, k, make_reprojection_term(quads, quad, left, noise, scale));
     }
   });
 }

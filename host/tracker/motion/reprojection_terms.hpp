@@ -19,7 +19,7 @@ class ReprojectionTerms {
  public:
   static constexpr std::size_t kColumns = sizeof(ReprojectionTerm) / sizeof(double);
 
-  /// Sets the terms of the quads `rows`, per_ray_unit(), and resets their depth unknowns to zero.
+  /// Sets the terms of the quads `rows` and resets their depth unknowns to zero.
   /// \param scale see NoiseModel::along_in_time()
   void assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
               const NoiseModel& noise, double scale = 1.0);

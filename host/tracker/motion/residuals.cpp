@@ -35,8 +35,8 @@ double NoiseModel::along_in_time(double half_length, double scale) const {
   return std::hypot(along, kSliding * half_length / scale);
 }
 
-ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
-                                        double scale) {
+ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const PinholeCamera& left,
+                                        const NoiseModel& noise, double scale) {
   const StereoMeasurement &previous = quads.previous[quad], &current = quads.current[quad];
   const double cosine = quads.scoring.left_cos[quad], sine = quads.scoring.left_sin[quad];
   ReprojectionTerm term;
@@ -51,25 +51,16 @@ ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size
   // Each edge is moved to the scale half-way between the two.
   term.scale_shift_x = 0.5 * (previous.scale_shift.x() + current.scale_shift.x());
   term.scale_shift_y = 0.5 * (previous.scale_shift.y() + current.scale_shift.y());
-  term.across_x = -sine / noise.across;
-  term.across_y = cosine / noise.across;
+  term.across_x = -sine / noise.across * left.fx;
+  term.across_y = cosine / noise.across * left.fy;
   const double along = noise.along_in_time(static_cast<double>(quads.scoring.half_length), scale);
-  term.along_x = cosine / along;
-  term.along_y = sine / along;
+  term.along_x = cosine / along * left.fx;
+  term.along_y = sine / along * left.fy;
   term.current_inverse_depth = current.inverse_depth;
   term.current_inverse_depth_weight =
       1.0 / (current.inverse_depth_per_pixel * noise.on_epipolar_line(current.epipolar_sine));
   term.disparity_variance = noise.disparity * noise.disparity / (scale * scale);
   return term;
-}
-
-ReprojectionTerm per_ray_unit(const ReprojectionTerm& term, const PinholeCamera& left) {
-  ReprojectionTerm result = term;
-  result.across_x *= left.fx;
-  result.across_y *= left.fy;
-  result.along_x *= left.fx;
-  result.along_y *= left.fy;
-  return result;
 }
 
 DirectionTerm make_direction_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise) {

@@ -46,9 +46,10 @@ struct ReprojectionTerm {
   double current_inverse_depth_per_pixel;  ///< the same for the current edge
   double current_x, current_y;             ///< current left pixel as a ray (x, y, 1)
   double scale_shift_x, scale_shift_y;     ///< step of that ray per unit of log(scale), mean of both left edges
-  double across_x, across_y;     ///< unit normal of the edge in the current left image, divided by its sigma [1/px]
-  double along_x, along_y;       ///< unit tangent, divided by its sigma [1/px]
-  double current_inverse_depth;  ///< as measured [1/m]
+  /// Unit normal of the edge in the current left image, divided by its sigma, and the same of the tangent, with image
+  /// axes multiplied by the focal lengths, so that they apply to rays.
+  double across_x, across_y, along_x, along_y;
+  double current_inverse_depth;         ///< as measured [1/m]
   double current_inverse_depth_weight;  ///< 1 / its standard deviation [m]
   double disparity_variance;            ///< of the error that the disparities at both times share [px^2]
 
@@ -61,12 +62,9 @@ struct ReprojectionTerm {
   }
 };
 
-/// \param quad its row in `quads` \param scale see NoiseModel::along_in_time()
-ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
-                                        double scale = 1.0);
-
-/// The same term with image axes multiplied by the focal lengths, so that it applies to rays instead of pixels.
-ReprojectionTerm per_ray_unit(const ReprojectionTerm& term, const PinholeCamera& left);
+/// \param quad its row in `quads` \param left the current camera \param scale see NoiseModel::along_in_time()
+ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const PinholeCamera& left,
+                                        const NoiseModel& noise, double scale = 1.0);
 
 /// The three residuals of a quad, or their derivatives with respect to one unknown, in standard deviations.
 struct Residuals {
@@ -91,37 +89,35 @@ struct ReprojectionResidual {
 };
 
 /// With r the ray of the previous left pixel and rho its true inverse depth, the scene point times rho in the current
-/// left frame is y = R r + rho T, regular for points at infinity too. With pi(y) = (y_x, y_y) / y_z and the focal
-/// lengths F, the residuals are
-///   across:         a . F (pi(y) - current ray - drift log(1 / y_z))      a: unit normal over its sigma
-///   along:          b . F (pi(y) - current ray - drift log(1 / y_z))      b: unit tangent over its sigma
+/// left frame is y = R r + rho T, regular for points at infinity too. With pi(y) = (y_x, y_y) / y_z, the residuals are
+///   across:         a . (pi(y) - current ray - drift log(1 / y_z))      a: ReprojectionTerm::across_x, across_y
+///   along:          b . (pi(y) - current ray - drift log(1 / y_z))      b: along_x, along_y
 ///   inverse depth:  (rho / y_z - current) / sigma.
 /// 1 / y_z is the magnification of the scene in the image, whereas the scale of edge detection is fixed.
 /// log(1 / z) is approximated by 2 (1 - z) / (1 + z), which is accurate to 1e-4 for a change of a tenth.
 /// All operations are written such that loops over quads vectorise, with identical bits at every vector width.
 /// \param point y, current left frame \param inverse_depth rho = measured + depth unknown * sigma; the unknown has a
-/// standard normal prior [1/m] \param translation T [m] \param focal_x, focal_y F [px]; 1 for a term per_ray_unit()
+/// standard normal prior [1/m] \param translation T [m]
 [[gnu::always_inline]] inline ReprojectionResidual reprojection_residual(const ReprojectionTerm& term,
                                                                          const Vector3& point, double inverse_depth,
-                                                                         const Vector3& translation, double focal_x,
-                                                                         double focal_y) {
+                                                                         const Vector3& translation) {
   ReprojectionResidual result;
   result.in_front = point.z > 0;
   const double inverse_z = 1.0 / (result.in_front ? point.z : 1.0);
   const double u = point.x * inverse_z, v = point.y * inverse_z;
   const double half_way = 2.0 / (1.0 + (result.in_front ? point.z : 1.0));
   const double growth = (1.0 - (result.in_front ? point.z : 1.0)) * half_way;  // log(1 / y_z)
-  const double error_x = focal_x * (u - term.current_x - growth * term.scale_shift_x);
-  const double error_y = focal_y * (v - term.current_y - growth * term.scale_shift_y);
+  const double error_x = u - term.current_x - growth * term.scale_shift_x;
+  const double error_y = v - term.current_y - growth * term.scale_shift_y;
   const double weight = term.current_inverse_depth_weight;
   result.value = {term.across_x * error_x + term.across_y * error_y, term.along_x * error_x + term.along_y * error_y,
                   (inverse_depth * inverse_z - term.current_inverse_depth) * weight};
 
-  // Derivative of an image axis with respect to the point: (a_x f_x, a_y f_y, -(a_x f_x u + a_y f_y v)) / y_z, plus the
-  // change of the magnification with y_z.
+  // Derivative of an axis with respect to the point: (a_x, a_y, -(a_x u + a_y v)) / y_z, plus the change of the
+  // magnification with y_z.
   const auto by_point = [&](double axis_x, double axis_y) -> Vector3 {
-    const double by_x = axis_x * focal_x * inverse_z, by_y = axis_y * focal_y * inverse_z;
-    const double by_growth = axis_x * focal_x * term.scale_shift_x + axis_y * focal_y * term.scale_shift_y;
+    const double by_x = axis_x * inverse_z, by_y = axis_y * inverse_z;
+    const double by_growth = axis_x * term.scale_shift_x + axis_y * term.scale_shift_y;
     return {by_x, by_y, -(by_x * u + by_y * v) + half_way * half_way * by_growth};
   };
   result.across_by_point = by_point(term.across_x, term.across_y);

@@ -100,7 +100,7 @@ void sum_blocks(const SampleBlock* blocks, std::size_t count, const SampleEvalua
 
 SampleTerm make_sample_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
                             const PinholeCamera& left) {
-  return {per_ray_unit(make_reprojection_term(quads, quad, noise), left), make_direction_term(quads, quad, noise)};
+  return {make_reprojection_term(quads, quad, left, noise), make_direction_term(quads, quad, noise)};
 }
 
 bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int32_t>& rows, const PoseConfig& config,

@@ -17,7 +17,7 @@ struct SampleTerm {
   DirectionTerm direction;
 };
 
-/// \param quad its row in `quads` \param left the camera per whose rays the term is, see per_ray_unit()
+/// \param quad its row in `quads` \param left the current camera
 SampleTerm make_sample_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
                             const PinholeCamera& left);
 

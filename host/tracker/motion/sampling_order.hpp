@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "motion/quads.hpp"
@@ -29,11 +30,8 @@ inline std::uint32_t ordered_bits(float value) {
 /// are sorted.
 class SamplingOrder {
  public:
-  /// A quad and its sort key, smallest first.
-  struct Entry {
-    std::uint64_t key;
-    std::int32_t row;
-  };
+  /// The sort key of a quad, smallest first, and the quad.
+  using Entry = std::pair<std::uint64_t, std::int32_t>;
 
   /// \param order a buffer that is kept between calls
   SamplingOrder(const QuadObservations& quads, std::vector<Entry>& order) : order_(order) {
@@ -47,19 +45,18 @@ class SamplingOrder {
   /// Sorts the first `count` quads.
   void sort_first(std::size_t count) {
     if (count <= sorted_) return;
-    const auto before = [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; };
     const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
     sorted_ = std::min(order_.size(), std::max(count, kGrowth * sorted_));
     const auto end = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
-    std::nth_element(begin, end, order_.end(), before);
-    std::sort(begin, end, before);
+    std::nth_element(begin, end, order_.end());
+    std::sort(begin, end);
   }
   std::size_t size() const { return order_.size(); }
-  std::size_t operator[](std::size_t rank) const { return static_cast<std::size_t>(order_[rank].row); }
+  std::size_t operator[](std::size_t rank) const { return static_cast<std::size_t>(order_[rank].second); }
 
  private:
-  static constexpr std::size_t kGrowth =
-      4;  ///< factor by which the sorted part grows, because each extension passes over all remaining quads
+  /// Factor by which the sorted part grows, because each extension passes over all remaining quads.
+  static constexpr std::size_t kGrowth = 4;
 
   std::vector<Entry>& order_;
   std::size_t sorted_ = 0;

@@ -16,14 +16,6 @@ struct OrientedPair {
   OrientedPoint first, second;
 };
 
-/// Thresholds of Equation 9, converted to the quantities that are compared.
-struct ConstraintLimits {
-  ConstraintLimits();
-  double length, angle, tangent;  ///< relative length, differences of cosines
-  double max_cosine;              ///< D and T1 count as parallel if |cos(D, T1)| exceeds this
-  double determinant;             ///< of unit vectors
-};
-
 /// Outcome of each constraint of Equation 9; all quantities are independent of scale.
 struct ConstraintCheck {
   /// [0] relative difference of |D|, divided by the previous |D|; [1], [2] signed cosines between D and T1, T2; [3]
@@ -37,21 +29,17 @@ struct ConstraintCheck {
 
 /// Checks all six constraints. If the two points coincide (|D| = 0 before or after), every constraint that uses D
 /// fails.
-ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current,
-                                  const ConstraintLimits& limits);
+ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current);
 
 /// The motion that maps the previous pair to the current one: e1 = D / |D|, e2 = the part of T1 orthogonal to e1, e3 =
 /// e1 x e2, B = [e1 e2 e3] before and B_bar after, R = B_bar B^T. The translation maps midpoint to midpoint, which
 /// halves the effect of one point's error; the paper's Gamma_bar_1 - R Gamma_1 uses one point only. Points in metres in
 /// the left camera frames, tangents of unit length. Exact for exact pairs; for noisy ones R is still orthonormal.
-/// \param max_cosine |cos(D, T1)| above which the pair counts as degenerate, before or after
-/// \returns current_from_previous, or nothing if D is zero or parallel to T1; the roles of the quads can then be
-/// swapped
-std::optional<Eigen::Isometry3d> solve_two_quads(const OrientedPair& previous, const OrientedPair& current,
-                                                 double max_cosine);
+/// \returns current_from_previous, or nothing if D is zero or parallel to T1 (kMinAngleDeg), before or after; the roles
+/// of the quads can then be swapped
+std::optional<Eigen::Isometry3d> solve_two_quads(const OrientedPair& previous, const OrientedPair& current);
 
 /// The motion of two pairs that pass all six constraints. Swaps the quads if they hold only in the other roles.
-std::optional<Eigen::Isometry3d> solve_constrained(OrientedPair& previous, OrientedPair& current,
-                                                   const ConstraintLimits& limits);
+std::optional<Eigen::Isometry3d> solve_constrained(OrientedPair& previous, OrientedPair& current);
 
 }  // namespace quadedge::pose

@@ -107,9 +107,8 @@ void exchange_place(Archive& archive, Place& place) {
   archive.value(kept.edges_spacing);
   archive.bytes(place.signature.data(), sizeof place.signature);
   const std::size_t count = archive.count(kept.edges.left_x);
-  for (auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
-                       &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_shift, &kept.edges.ncc})
-    archive.array(*column, count);
+  for (const auto column : frontend::kStereoColumns) archive.array(kept.edges.*column, count);
+  archive.array(kept.edges.ncc, count);
   archive.array(kept.patches, count * frontend::kKeptPatchBytes);
   archive.array(kept.wide, count * frontend::kKeptWideBytes);
 }

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "edges/global_search.hpp"
 #include "edges/tap_lists.hpp"
 #include "geometry/disparity_range.hpp"
 #include "geometry/epipolar_geometry.hpp"
