@@ -2,7 +2,6 @@
 #include "oracle/reference_frontend.hpp"
 
 #include <numeric>
-#include <stdexcept>
 
 #include "edges/global_search.hpp"
 #include "edges/tap_lists.hpp"
