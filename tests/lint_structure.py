@@ -21,7 +21,7 @@ SOURCES = (".cpp", ".hpp", ".cl", ".inc", ".py", ".sh")
 SIZED = {"host", "include", "kernels", "python", "bench", "ros2", "scripts", "tests"}
 # Most lines of source per folder. Whoever raises a limit says why in the commit.
 MOST_LINES = {
-    "bench": 549,
+    "bench": 548,
     "host/tracker/common": 1060,
     "host/tracker/device": 4700,
     "host/tracker/edges": 2915,
@@ -29,21 +29,21 @@ MOST_LINES = {
     "host/tracker/motion": 6678,
     "host/tracker/places": 2305,
     "host/tracker/rig": 4118,
-    "host/workbench/benchmark": 1085,
-    "host/workbench/cli": 4332,
-    "host/workbench/data": 5955,
-    "host/workbench/data/calibrations": 2143,
-    "host/workbench/oracle": 437,
-    "host/workbench/output": 2695,
-    "host/workbench/paper": 909,
-    "host/workbench/reference": 2380,
-    "host/workbench/scenes": 2844,
+    "host/workbench/benchmark": 1081,
+    "host/workbench/cli": 4278,
+    "host/workbench/data": 5879,
+    "host/workbench/data/calibrations": 2084,
+    "host/workbench/oracle": 436,
+    "host/workbench/output": 2671,
+    "host/workbench/paper": 898,
+    "host/workbench/reference": 2352,
+    "host/workbench/scenes": 2775,
     "include": 2262,
     "kernels": 6450,
     "python": 10445,
     "ros2": 90,
     "scripts": 2191,
-    "tests": 31761,
+    "tests": 31738,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.
