@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <exception>
 #include <random>
-#include <vector>
 
 #include "motion/latest_frame.hpp"
 #include "places/place_store.hpp"

@@ -9,7 +9,6 @@ namespace quadedge::synthetic::corridor {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using TexturePointer = std::shared_ptr<const Texture>;
 
 // Its frame: x right, y down, z along the corridor; the origin is the start of the path "ellipse", at the height of a
 // handheld camera. Only the tiles of floor and ceiling differ from bay to bay.
@@ -56,13 +55,13 @@ class Corridor {
     return style;
   }
   TexturePointer speckled(const TextureStyle& style, double half_width, double half_height) {
-    return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, kTexelDistance);
+    return build_.speckled(style, half_width, half_height, kTexelDistance);
   }
   TexturePointer tiled(double side, double mean, double spread, double half_width, double half_height) {
     CladdingStyle style;
     style.unit_width = style.unit_height = side, style.joint = 0.008;
     style.mean = mean, style.spread = spread, style.joint_grey = 0.6 * mean, style.noise = 6.0;
-    return build_.shared_texture(cladding(style, build_.next_seed()), half_width, half_height, kTexelDistance);
+    return build_.clad(style, half_width, half_height, kTexelDistance);
   }
 
   /// Tiles in tones of their own, which tell one part of the corridor from another; and the walls at its ends.

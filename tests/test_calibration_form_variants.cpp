@@ -108,7 +108,7 @@ TEST_CASE("calibration form variants: a ZED camera's lens in a section of its ow
   CHECK(zed.right.model == LensModel::equidistant);
   CHECK(zed.right.parameters == std::vector<double>{0.1, 0.2, 0.3, 0.4});
   CHECK((zed.right_from_left.translation() - Eigen::Vector3d(-0.12, 0.0003, -0.0004)).norm() < 1e-9);
-  CHECK_THROWS_WITH(read(rational, "\n"), Contains("RIGHT_CAM_FHD1200:K1"));
+  CHECK_THROWS_WITH(read(rational, "\n"), Contains("no entry RIGHT_CAM_FHD1200.K1"));
 }
 
 TEST_CASE("calibration form variants: MATLAB's numbers as displayed, in any order, in their own unit") {

@@ -43,7 +43,7 @@ Surroundings look_around(const synthetic::Scene& scene, const Isometry3d& scene_
         (Eigen::AngleAxisd(yaw * kPi, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch * kPi, Vector3d::UnitX()))
             .toRotationMatrix();
     synthetic::VisibleSurfaces parts;
-    for (const auto& surface : scene.surfaces) surface->view((scene_from_camera * turn).inverse(), parts);
+    for (const auto& surface : scene.surfaces) surface((scene_from_camera * turn).inverse(), parts);
     for (int j = 0; j < kRays; ++j) {
       for (int i = 0; i < kRays; ++i) {
         const Vector3d ray((2.0 * i + 1.0) / kRays - 1.0, (2.0 * j + 1.0) / kRays - 1.0, 1.0);

@@ -19,8 +19,7 @@ RenderedScene panels(const std::vector<double>& places, bool spots) {
   synthetic::SceneBuilder build(11, rig.left.fx, Eigen::Isometry3d::Identity());
   const double half = 0.5 * kPanel, distance = 3;
   const auto texture = [&](double size) {
-    return build.shared_texture(dead_leaves(synthetic::leaves(0.12, 3, 0.5, 120.0), build.next_seed()), size, size,
-                                distance);
+    return build.speckled(synthetic::leaves(0.12, 3, 0.5, 120.0), size, size, distance);
   };
   const auto panel = texture(half);
   for (int column = -6; column < 14; ++column)

@@ -6,8 +6,8 @@
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
+using data::decode_video;
 using data::describe_video;
-using data::VideoFile;
 namespace fs = std::filesystem;
 
 namespace {
@@ -35,8 +35,8 @@ std::string video(const TemporaryFolder& folder, const std::string& pictures, co
 std::string read_all(const std::string& file, int& pictures) {
   pictures = 0;
   return message_of([&] {
-    VideoFile read(describe_video(file));
-    while (read.next()) ++pictures;
+    const auto next = decode_video(describe_video(file));
+    while (next()) ++pictures;
   });
 }
 
@@ -50,15 +50,15 @@ TEST_CASE("video: lossless grey images are read byte for byte, at their bit dept
     const data::Video about = describe_video(file);
     CHECK(about.promised == 5);
     CHECK(about.fps == Approx(20));
-    VideoFile read(about);
+    const auto read = decode_video(about);
     for (int i = 0; i < 5; ++i) {
-      const auto next = read.next();
+      const auto next = read();
       REQUIRE(next);
       CHECK(next->image.max_value == max_value);
       CHECK(next->image.pixels == picture(i, 48, 32, max_value).pixels);
       CHECK(next->stamp_ns == i * 50'000'000);
     }
-    CHECK_FALSE(read.next());
+    CHECK_FALSE(read());
   }
 }
 
@@ -69,8 +69,8 @@ TEST_CASE("video: colour becomes full-range luma, and RGB becomes grey as in ima
                               "-c:v ffv1 -pix_fmt yuv422p10le", "-c:v ffv1 -pix_fmt gbrp12le",
                               "-c:v rawvideo -pix_fmt uyvy422", "-c:v rawvideo -pix_fmt nv12"}) {
     INFO(options);
-    VideoFile read(describe_video(video(folder, pictures, options, "colour.mkv")));
-    const auto next = read.next();
+    const auto read = decode_video(describe_video(video(folder, pictures, options, "colour.mkv")));
+    const auto next = read();
     REQUIRE(next);
     const Image expected = picture(0);
     double largest = 0;
@@ -137,8 +137,8 @@ TEST_CASE("video: no process stays behind a video that is not read to its end") 
   const TemporaryFolder folder;
   const std::string file = video(folder, stream(0, 40, 640, 480), "-c:v ffv1 -pix_fmt gray", "long.mkv");
   {
-    VideoFile read(describe_video(file));
-    REQUIRE(read.next());
+    const auto read = decode_video(describe_video(file));
+    REQUIRE(read());
     CHECK(waitpid(-1, nullptr, WNOHANG) == 0);  // ffmpeg runs
   }
   CHECK((waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD));

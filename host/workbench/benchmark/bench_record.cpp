@@ -16,13 +16,12 @@ namespace quadedge::bench {
 namespace {
 
 using report::Json;
-using report::to_json;
 
 constexpr double kSmallShare = 0.05;  // of the frame; smaller stages are printed but not judged
 
 /// Every stage's times and its percentage of the frame; the host's rest last.
 Json shares_json(const FrameShares& shares) {
-  const auto percent = [&](double ms) { return to_json(100 * ms / shares.frame_ms); };
+  const auto percent = [&](double ms) { return 100 * ms / shares.frame_ms; };
   Json json = {{"frame_ms", shares.frame_ms}, {"stages", Json::object()}};
   for (const auto& stage : shares.stages) {
     json["stages"][stage.stage] = {{"wall_ms", stage.wall_ms()},   {"percent", percent(stage.wall_ms())},
@@ -185,22 +184,22 @@ std::string bench_json(const BenchRecord& record) {
   json["warm_up"] = record.warm_up;
   json["threads"] = record.threads;
   json["edges_wanted"] = record.edges_wanted == 0 ? Json(nullptr) : Json(record.edges_wanted);
-  json["edge_detection_ms"] = {{"median", to_json(report::median(record.edges_ms))},
-                               {"p90", to_json(report::percentile(record.edges_ms, 0.9))}};
+  json["edge_detection_ms"] = {{"median", report::median(record.edges_ms)},
+                               {"p90", report::percentile(record.edges_ms, 0.9)}};
   json["waits_per_frame"] = record.waits;
   json["launches_per_frame"] = record.launches;
   json["writes_per_frame"] = record.writes;
-  json["processor_ms"] = {{"median", to_json(report::median(record.processor_ms))},
-                          {"p90", to_json(report::percentile(record.processor_ms, 0.9))}};
+  json["processor_ms"] = {{"median", report::median(record.processor_ms)},
+                          {"p90", report::percentile(record.processor_ms, 0.9)}};
   if (!record.profiled.empty()) json["shares"] = shares_json(record.shares());
   json["moved_mb_per_frame"] = {{"to_device", record.to_device_mb}, {"to_host", record.to_host_mb}};
   json["memory_mb"]["frames"] = record.frames_mb;
   if (record.yardsticks) {
-    json["baseline"] = {{"opencv_sift_both_ms", to_json(report::median(record.yardsticks->sift_both_ms))},
-                        {"opencv_sepfilter_nine_ms", to_json(report::median(record.yardsticks->sepfilter_nine_ms))},
+    json["baseline"] = {{"opencv_sift_both_ms", report::median(record.yardsticks->sift_both_ms)},
+                        {"opencv_sepfilter_nine_ms", report::median(record.yardsticks->sepfilter_nine_ms)},
                         {"threads", record.yardsticks->threads},
-                        {"frame_ratio", to_json(record.frame_ratio())},
-                        {"edges_ratio", to_json(record.edges_ratio())}};
+                        {"frame_ratio", record.frame_ratio()},
+                        {"edges_ratio", record.edges_ratio()}};
   }
   return report::json_text(json);
 }

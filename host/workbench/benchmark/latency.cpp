@@ -9,6 +9,7 @@
 
 #include "common/numeric.hpp"
 #include "common/timing.hpp"
+#include "data/image_file.hpp"
 #include "device/context.hpp"
 #include "device/edge_detection.hpp"
 #include "device/images.hpp"
@@ -61,10 +62,7 @@ class Detector {
 constexpr double kSigma = 2;  // as that of the edges [px]
 constexpr int kFilters = 9;   // as many as third-order edges have derivatives
 
-cv::Mat grey_matrix(const Image& image) {
-  Image grey = to_8_bits(image.view());
-  return cv::Mat(grey.height, grey.width, CV_8UC1, grey.pixels.data()).clone();
-}
+cv::Mat grey_matrix(const Image& image) { return data::matrix_of(to_8_bits(image.view())).clone(); }
 
 template <class Function>
 double milliseconds(const Function& work) {

@@ -95,7 +95,6 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
 }
 
 using report::Json;
-using report::to_json;
 
 constexpr const char* kContent = "quadedge kernel variants";
 constexpr int kSchema = 1;
@@ -208,7 +207,7 @@ std::string comparison_json(const DeviceInfo& device, const std::vector<StageRes
   Json json;
   json["schema"] = kBenchSchema;
   report::add_origin(json, command);
-  json["device"] = report::to_json(device);
+  json["device"] = device;
   json["stages"] = Json::array();
   for (const auto& stage : stages) {
     Json rows = Json::array();
@@ -217,11 +216,11 @@ std::string comparison_json(const DeviceInfo& device, const std::vector<StageRes
                       {"default", variant.is_default},
                       {"agrees", variant.agrees},
                       {"why", variant.why},
-                      {"median_ms", to_json(variant.median_ms)},
-                      {"p10_ms", to_json(variant.p10_ms)},
-                      {"p90_ms", to_json(variant.p90_ms)},
-                      {"ratio_to_default", to_json(variant.ratio_to_default)},
-                      {"ratio_p90", to_json(variant.ratio_p90)}});
+                      {"median_ms", variant.median_ms},
+                      {"p10_ms", variant.p10_ms},
+                      {"p90_ms", variant.p90_ms},
+                      {"ratio_to_default", variant.ratio_to_default},
+                      {"ratio_p90", variant.ratio_p90}});
     }
     json["stages"].push_back({{"stage", stage.stage}, {"best", stage.best()}, {"variants", rows}});
   }

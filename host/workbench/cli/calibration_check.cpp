@@ -2,7 +2,6 @@
 #include "cli/calibration_check.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "common/printed.hpp"
 #include "geometry/disparity_range.hpp"

@@ -2,8 +2,6 @@
 /// \file calibration_export.hpp  Options that write a calibration for other programs.
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "cli/command.hpp"
 #include "quadedge/calibration.hpp"

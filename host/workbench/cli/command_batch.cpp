@@ -1,7 +1,6 @@
 /// \file command_batch.cpp  quadedge batch: says what is to be run and starts Snakemake (python/quadedge/batch), which
 /// runs it.
 #include <cstdio>
-#include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
 #include <link.h>
@@ -14,7 +13,6 @@
 #include "data/atomic_file.hpp"
 #include "data/content_hash.hpp"
 #include "data/find_sequences.hpp"
-#include "data/text.hpp"
 #include "output/config_toml.hpp"
 #include "output/json_values.hpp"
 #include "output/output_folder.hpp"

@@ -21,23 +21,6 @@
 namespace quadedge::cli {
 namespace {
 
-/// The files that grow with every frame.
-class LocationFiles {
- public:
-  explicit LocationFiles(const std::string& folder)
-      : trajectory_(folder + "/trajectory.txt"), rows_(folder + "/locations.csv") {
-    trajectory_.append(data::tum_header());
-    rows_.append(report::locations_row(0, {}).heading());
-  }
-  void add(int number, const Localisation& frame) {
-    if (frame.map_from_left) trajectory_.append(data::tum_row({frame.stamp_ns, *frame.map_from_left}));
-    rows_.append(report::locations_row(number, frame).line());
-  }
-
- private:
-  report::AppendFile trajectory_, rows_;
-};
-
 class LocaliseCommand : public Command {
  public:
   LocaliseCommand()
@@ -97,7 +80,7 @@ class LocaliseCommand : public Command {
     record.device = device.info();
     Localiser localiser(map, source.rig(), device, record.config, follow_);
     data::write_atomically(output_ + "/config.toml", report::config_toml(record.config, method_.device_choice()));
-    LocationFiles files(output_);
+    report::LocationFiles files(output_);
     Progress progress(quiet_, "frames");
     int lost = 0;
     while (const auto frame = source.next()) {

@@ -17,11 +17,15 @@
 
 namespace quadedge::cli {
 
+namespace {
+
+/// Whether a stream (STDERR_FILENO) is a terminal that understands escape codes: not with TERM=dumb, nor without TERM.
 bool has_escape_codes(int stream) {
   const char* kind = std::getenv("TERM");
   return isatty(stream) != 0 && kind != nullptr && *kind != '\0' && std::strcmp(kind, "dumb") != 0;
 }
 
+/// Columns of the terminal that a stream goes to: COLUMNS if set, else the terminal's own value; 0: no terminal.
 int terminal_width(int stream) {
   if (const char* columns = std::getenv("COLUMNS"); columns != nullptr) {
     int width = 0;
@@ -32,8 +36,6 @@ int terminal_width(int stream) {
   winsize window{};
   return ioctl(stream, TIOCGWINSZ, &window) == 0 ? window.ws_col : 0;
 }
-
-namespace {
 
 constexpr std::chrono::seconds kPlainInterval{5};            // between two lines of a log
 constexpr std::chrono::milliseconds kTerminalInterval{100};  // between two updates of a terminal's line
@@ -58,6 +60,14 @@ void print_errors(const char* title, const PoseErrors& errors) {
 }
 
 std::string milliseconds(double value) { return dashed("%.1f ms", value); }
+
+/// "47 s", "2 min 05 s", "1 h 03 min".
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 60) return printed("%ld s", whole);
+  if (whole < 3600) return printed("%ld min %02ld s", whole / 60, whole % 60);
+  return printed("%ld h %02ld min", whole / 3600, whole / 60 % 60);
+}
 
 /// "1.4 frames/s, 2 min 05 s left" for `done` of `total` after a time; empty while nothing is done yet.
 std::string rate_and_rest(int done, int total, const std::string& unit, std::chrono::steady_clock::duration elapsed) {
@@ -106,19 +116,14 @@ std::string length(double metres) {
   return std::abs(metres) < 0.1 ? dashed("%.3g mm", 1e3 * metres) : dashed("%.3g m", metres);
 }
 
-/// The number of the slowest frame but the first, which is reported by itself.
-std::size_t slowest_frame(const report::RunRecord& run) {
-  std::size_t slowest = std::min<std::size_t>(1, run.frames.size());
-  for (std::size_t i = slowest; i < run.frames.size(); ++i) {
-    if (run.frames[i].result.timing.latency_ms > run.frames[slowest].result.timing.latency_ms) slowest = i;
-  }
-  return slowest;
-}
-
 void print_time(const report::RunRecord& run) {
   const report::LatencySummary time = report::latency_summary(run.frames);
-  std::printf("time       %s per frame (median), p99 %s, at most %s in frame %zu\n", milliseconds(time.median).c_str(),
-              milliseconds(time.p99).c_str(), milliseconds(time.max).c_str(), slowest_frame(run));
+  const auto first = run.frames.begin() + (run.frames.empty() ? 0 : 1);  // the first frame is reported by itself
+  const auto slowest = std::max_element(first, run.frames.end(), [](const auto& a, const auto& b) {
+    return a.result.timing.latency_ms < b.result.timing.latency_ms;
+  });
+  std::printf("time       %s per frame (median), p99 %s, at most %s in frame %td\n", milliseconds(time.median).c_str(),
+              milliseconds(time.p99).c_str(), milliseconds(time.max).c_str(), slowest - run.frames.begin());
   if (run.loops)
     std::printf("           with loops: median %s, p99 %s\n", milliseconds(run.loops->latency.median).c_str(),
                 milliseconds(run.loops->latency.p99).c_str());
@@ -154,12 +159,12 @@ void print_tracked(const report::RunRecord& run) {
   }
 }
 
-/// How a shell finds this program: as the user typed it.
-std::string program_as_typed() {
+/// The words that this process was started with.
+std::vector<std::string> process_words() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
-  std::string program;
-  std::getline(stream, program, '\0');
-  return program.find('/') == std::string::npos ? "quadedge" : data::shell_word(program);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+  return words;
 }
 
 }  // namespace
@@ -196,12 +201,6 @@ void StatusLine::show(const std::string& sentence, bool last) {
   if (last) end_line();
 }
 
-void StatusLine::say(const std::string& text) {
-  if (quiet_) return;
-  std::fprintf(stderr, line_open_ ? "\r%s\x1b[K\n" : "%s\n", visible(text).c_str());
-  line_open_ = false;
-}
-
 void Progress::update(const std::string& what, int done, int total, const std::string& note) {
   const auto now = std::chrono::steady_clock::now();
   if (what != what_) start_ = updated_;
@@ -219,18 +218,10 @@ void Progress::update(const std::string& what, int done, int total, const std::s
 
 std::string dashed(const char* format, double value) { return std::isfinite(value) ? printed(format, value) : "-"; }
 
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long>(std::lround(seconds));
-  if (whole < 60) return printed("%ld s", whole);
-  if (whole < 3600) return printed("%ld min %02ld s", whole / 60, whole % 60);
-  return printed("%ld h %02ld min", whole / 3600, whole / 60 % 60);
-}
-
 std::string command_line() {
-  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
-  std::string argument, line = "quadedge";
-  std::getline(stream, argument, '\0');  // the program
-  while (std::getline(stream, argument, '\0')) line += " " + argument;
+  std::string line = "quadedge";
+  const auto words = process_words();
+  for (std::size_t i = 1; i < words.size(); ++i) line += " " + words[i];
   return line;
 }
 
@@ -254,7 +245,10 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   print_tracked(run);
   print_path(run);
   print_time(run);
-  const std::string command = program_as_typed() + " report " + data::shell_word(output);
+  const auto words = process_words();
+  const bool is_path = !words.empty() && words[0].find('/') != std::string::npos;
+  const std::string command =
+      (is_path ? data::shell_word(words[0]) : "quadedge") + " report " + data::shell_word(output);
   std::printf("results    %s/trajectory.txt (TUM format); report.json has all figures\n", output.c_str());
   std::printf("next       %s    # makes a page with plots: %s/report.html\n", command.c_str(), output.c_str());
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file console.hpp  Progress on stderr, tables on stdout, and what the terminal can do.
+/// \file console.hpp  Progress on stderr, tables on stdout.
 
 #include <chrono>
 #include <string>
@@ -8,14 +8,6 @@
 #include "quadedge/evaluation.hpp"
 
 namespace quadedge::cli {
-
-// What the user's terminal can do.
-
-/// Whether a stream (STDERR_FILENO) is a terminal that understands escape codes: not with TERM=dumb, nor without TERM.
-bool has_escape_codes(int stream);
-
-/// Columns of the terminal that a stream goes to: COLUMNS if set, else the terminal's own value; 0: no terminal.
-int terminal_width(int stream);
 
 /// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds;
 /// nothing with --quiet.
@@ -29,8 +21,6 @@ class StatusLine {
   bool due(bool last = false) const;
   /// Shows a text, which the next one replaces on a terminal unless it is the `last`.
   void show(const std::string& text, bool last = false);
-  /// Prints a line that is not replaced.
-  void say(const std::string& text);
 
  private:
   void end_line();
@@ -57,9 +47,6 @@ class Progress {
 
 /// A number as printf() formats it, or a dash for one that does not exist.
 std::string dashed(const char* format, double value);
-
-/// "47 s", "2 min 05 s", "1 h 03 min".
-std::string duration_text(double seconds);
 
 /// The command line of this process as it was typed, the program itself named quadedge: results say it.
 std::string command_line();

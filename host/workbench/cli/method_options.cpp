@@ -49,6 +49,25 @@ std::string heading(const std::string& section) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+/// Keeps a verdict in $XDG_CACHE_HOME/quadedge/self_tests (~/.cache without it). Where that cannot be written, the next
+/// start tests again.
+void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
+                  const std::string& method, const SelfTestResult& result) {
+  if (data::cache_folder().empty()) return;
+  const std::string key = fingerprint(device, variants, method);
+  const Json json = {{"content", kContent},   {"key", key},
+                     {"device", device.name}, {"driver", device.driver},
+                     {"stage", result.stage}, {"difference", result.difference},
+                     {"variants", variants}};
+  std::error_code failed;
+  std::filesystem::create_directories(data::cache_folder() + "/self_tests", failed);
+  try {
+    data::write_atomically(verdict_path(key), report::json_text(json));
+  } catch (const DataError&) {
+    std::filesystem::remove(verdict_path(key), failed);  // tested again the next time
+  }
+}
+
 /// The verdict on a device; not cached for kernels from a folder, which are being worked on.
 SelfTestResult verdict(Device& device, const Config& config, bool own_kernels) {
   if (device.is_reference()) return {};
@@ -72,23 +91,6 @@ std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device, const std::
   if (!json.is_object() || text("content") != kContent || text("key") != key || !json.contains("stage"))
     return std::nullopt;
   return SelfTestResult{text("stage"), text("difference")};
-}
-
-void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
-                  const std::string& method, const SelfTestResult& result) {
-  if (data::cache_folder().empty()) return;
-  const std::string key = fingerprint(device, variants, method);
-  const Json json = {{"content", kContent},   {"key", key},
-                     {"device", device.name}, {"driver", device.driver},
-                     {"stage", result.stage}, {"difference", result.difference},
-                     {"variants", variants}};
-  std::error_code failed;
-  std::filesystem::create_directories(data::cache_folder() + "/self_tests", failed);
-  try {
-    data::write_atomically(verdict_path(key), report::json_text(json));
-  } catch (const DataError&) {
-    std::filesystem::remove(verdict_path(key), failed);  // tested again the next time
-  }
 }
 
 void MethodOptions::declare(Options& options) {

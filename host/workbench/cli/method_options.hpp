@@ -25,11 +25,6 @@ constexpr int kBenchEdges = 25'000;
 std::optional<SelfTestResult> kept_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
                                            const std::string& method = "quadedge");
 
-/// Keeps a verdict in $XDG_CACHE_HOME/quadedge/self_tests (~/.cache without it). Where that cannot be written, the next
-/// start tests again.
-void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::string>& variants,
-                  const std::string& method, const SelfTestResult& result);
-
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:

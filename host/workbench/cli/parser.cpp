@@ -83,11 +83,9 @@ class ParserOptions : public Options {
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
               const std::string& help) override {
     add_choice(names, value, allowed, help);
-    set_from_file([&value, allowed](const data::TomlEntry& entry, bool keep) {
-      std::string word;
-      data::assign(entry, word);
-      if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) data::refuse(entry, joined(allowed, "|"));
-      if (!keep) value = word;
+    set_from_file([&value, allowed](const data::TomlEntry& entry) {
+      data::assign(entry, value);
+      if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) data::refuse(entry, joined(allowed, "|"));
     });
   }
   void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
@@ -108,11 +106,8 @@ class ParserOptions : public Options {
     if (auto* const* word = std::get_if<std::string*>(&field)) {
       add_choice(names, **word, constant.choices, constant.help);
     }
-    set_from_file([&constant, &config](const data::TomlEntry& entry, bool keep) {
-      Config tried = config;
-      report::set_constant(entry, constant, tried);
-      if (!keep) config = std::move(tried);
-    });
+    set_from_file(
+        [&constant, &config](const data::TomlEntry& entry) { report::set_constant(entry, constant, config); });
   }
   void environment(const std::string& variable) override { last_->envname(variable); }
   void group(const std::string& heading, bool only_in_full_help) override {
@@ -147,10 +142,12 @@ class ParserOptions : public Options {
 
   bool has_full_help() const { return has_full_help_; }
 
-  /// Sets the options of the configuration file that are not set yet; checks the others.
-  void apply_config_file() const {
+  /// Sets the options of preset and configuration file, also those that command line or environment have set.
+  /// \returns whether there are such files
+  bool apply_config_file() const {
     if (!preset_.empty()) apply(data::read_preset(preset_));
     if (!config_file_.empty()) apply(data::read_toml(config_file_));
+    return !preset_.empty() || !config_file_.empty();
   }
 
  private:
@@ -158,16 +155,12 @@ class ParserOptions : public Options {
     for (const auto& entry : entries) {
       const auto setting = from_file_.find(entry.key);
       if (setting == from_file_.end()) data::refuse_key(entry, keys());
-      setting->second.set(entry, setting->second.option->count() > 0);
+      setting->second(entry);
     }
   }
 
-  /// Sets an option to an entry's value; `keep`: only checks it, as the command line or the environment has set it.
-  using SetFromFile = std::function<void(const data::TomlEntry& entry, bool keep)>;
-  struct FileSetting {
-    const CLI::Option* option;
-    SetFromFile set;
-  };
+  /// Sets an option to an entry's value.
+  using SetFromFile = std::function<void(const data::TomlEntry& entry)>;
 
   template <class T>
   CLI::Option* add(const std::string& names, T& value, const std::string& help) {
@@ -187,15 +180,11 @@ class ParserOptions : public Options {
   /// The option declared last takes values of its type from the file.
   template <class T>
   void read_from_file(T& value) {
-    set_from_file([&value](const data::TomlEntry& entry, bool keep) {
-      T read{};
-      data::assign(entry, read);
-      if (!keep) value = std::move(read);
-    });
+    set_from_file([&value](const data::TomlEntry& entry) { data::assign(entry, value); });
   }
 
   /// The option declared last is set by `set`.
-  void set_from_file(const SetFromFile& set) { from_file_[last_->get_lnames().front()] = {last_, set}; }
+  void set_from_file(const SetFromFile& set) { from_file_[last_->get_lnames().front()] = set; }
 
   std::vector<std::string> keys() const {
     std::vector<std::string> names;
@@ -209,7 +198,7 @@ class ParserOptions : public Options {
   std::string group_ = "Options";
   std::string preset_, config_file_;
   CLI::Option* last_ = nullptr;
-  std::map<std::string, FileSetting> from_file_;
+  std::map<std::string, SetFromFile> from_file_;
   std::vector<const std::string*> inputs_,
       outputs_;  ///< texts that may name a file to read, and that name one to write
 };
@@ -277,6 +266,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
       "quadedge COMMAND --help shows a command's options, with examples.\n"
       "Exit codes: 0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,\n"
       "5 finished but tracked too few frames, 6 regression found by bench --compare");
+  std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);
   std::map<std::string, CLI::App*> groups;
   std::vector<CLI::App*> apps;
   std::vector<std::unique_ptr<ParserOptions>> options;
@@ -290,7 +280,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
     }
   }
   try {
-    program.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
+    program.parse(std::vector(reversed));
   } catch (const CLI::Success& request) {               // --help, --help-all, --version
     const bool is_known = program.remaining().empty();  // CLI11 answers `rnu --help`, too
     return {nullptr, is_known ? program.exit(request) : refuse(program, request)};
@@ -299,7 +289,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   }
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (!apps[i]->parsed()) continue;
-    options[i]->apply_config_file();
+    if (options[i]->apply_config_file()) program.parse(reversed);  // the command line wins
     options[i]->check_outputs();
     return {commands[i].get(), 0};
   }

@@ -15,12 +15,6 @@ namespace quadedge {
 namespace data {
 namespace {
 
-std::int64_t median_period(const Dataset& dataset) {
-  std::vector<std::int64_t> stamps;
-  for (const FrameFiles& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
-  return usual_period(stamps);
-}
-
 void describe_camera(const PinholeCamera& camera, const char* which, DatasetCheck& check) {
   check.facts.push_back(std::string(which) + " camera: " + std::to_string(camera.width) + " x " +
                         std::to_string(camera.height) + ", fx " + format_fixed(camera.fx, 3) + " fy " +
@@ -59,7 +53,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
   describe_lenses(dataset, check);
   check.facts.push_back("baseline: " + format_fixed(dataset.rig.baseline(), 6) + " m");
   check.facts.push_back("disparity range at the start: " + format_fixed(dataset.rig.disparity_range(), 1) + " px");
-  if (const std::int64_t period = median_period(dataset); period > 0) {
+  if (const std::int64_t period = usual_period(stamps_of(dataset)); period > 0) {
     check.facts.push_back(
         "rate: " + format_fixed(1e9 / static_cast<double>(period), 2) + " Hz, " +
         format_fixed(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
@@ -70,7 +64,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
 
 /// Finds steps of more than twice the usual one.
 void find_gaps(const Dataset& dataset, DatasetCheck& check) {
-  const std::int64_t period = median_period(dataset);
+  const std::int64_t period = usual_period(stamps_of(dataset));
   for (std::size_t i = 1; period > 0 && i < dataset.frames.size(); ++i) {
     const std::int64_t step = dataset.frames[i].stamp_ns - dataset.frames[i - 1].stamp_ns;
     if (step > 2 * period) {

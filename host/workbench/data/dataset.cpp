@@ -58,17 +58,13 @@ void check_stamps(const Dataset& dataset, Findings& findings) {
   }
 }
 
-/// Sets the image sizes from the first images. \throws DataError if the calibration contains other sizes
-void set_sizes_from_images(StereoCalibration& calibration, const Dataset& dataset) {
-  const FrameFiles& first = dataset.frames.front();
-  set_image_sizes(calibration, image_size(first.left), image_size(first.right), first.left + ", " + first.right);
-}
-
 /// Applies the user's calibration, field of view and mask to the layout's own.
 void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
   if (!options.calibration.empty()) {
     dataset.calibration = read_calibration(options.calibration, options.rectified);
-    set_sizes_from_images(*dataset.calibration, dataset);
+    const FrameFiles& first = dataset.frames.front();
+    set_image_sizes(*dataset.calibration, image_size(first.left), image_size(first.right),
+                    first.left + ", " + first.right);
   }
   if (options.rectified && options.calibration.empty())
     throw UsageError("--rectified is for a --calibration that describes rectified images, as ROS's camera_info does");
@@ -115,9 +111,8 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
 
 void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings& findings) {
   check_stamps(dataset, findings);
-  std::vector<std::int64_t> stamps;
-  for (const FrameFiles& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
-  if (const std::string complaint = rate_complaint(stamps); !complaint.empty()) dataset.warnings.push_back(complaint);
+  if (const std::string complaint = rate_complaint(stamps_of(dataset)); !complaint.empty())
+    dataset.warnings.push_back(complaint);
   if (!dataset.frames.empty()) cut_frames(dataset, first_frame, last_frame);
   // After an error, a rig that was not read says nothing more.
   if (!findings.errors().empty() && dataset.rig.left.width == 0) return;
@@ -125,6 +120,12 @@ void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings&
     check_rig(dataset.rig, calibration_of(dataset).c_str());
     check_disparity_range(dataset.rig, calibration_of(dataset));
   });
+}
+
+std::vector<std::int64_t> stamps_of(const Dataset& dataset) {
+  std::vector<std::int64_t> stamps;
+  for (const FrameFiles& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
+  return stamps;
 }
 
 std::string calibration_of(const Dataset& dataset) {

@@ -7,6 +7,7 @@
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
+#include "data/trajectory_rows.hpp"
 
 namespace quadedge::data {
 
@@ -71,12 +72,7 @@ std::optional<Eigen::Isometry3d> read_pose(const std::string& file) {
     if (words.size() != kColumns || fs::path(words.back()).filename() != "im0.png") continue;
     double v[8];
     for (std::size_t i = 1; i < 8; ++i) v[i] = parse_number(words[i], file, line.number, expected);
-    const Eigen::Quaterniond rotation(v[1], v[2], v[3], v[4]);
-    if (std::abs(rotation.norm() - 1) > 1e-3)
-      fail(file, line.number, "a quaternion of length " + format_exact(rotation.norm()), expected);
-    Eigen::Isometry3d camera_from_world(rotation.normalized());
-    camera_from_world.translation() << v[5], v[6], v[7];
-    return camera_from_world.inverse();
+    return stated_pose({v[5], v[6], v[7]}, {v[1], v[2], v[3], v[4]}, "QW QX QY QZ", file, line.number).inverse();
   }
   fail(file, "no row of im0.png", expected);
 }

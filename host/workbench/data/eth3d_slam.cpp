@@ -28,15 +28,10 @@ PinholeCamera read_camera(const std::string& file) {
 Eigen::Isometry3d read_extrinsics(const std::string& file) {
   const auto lines = data_lines(file);
   if (lines.size() != 3) fail(file, counted(lines.size(), "row"), "three rows of four numbers, camera1_from_camera2");
-  Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
-  Eigen::Matrix3d rotation;
-  for (int row = 0; row < 3; ++row) {
-    const auto values = parse_row(lines[static_cast<std::size_t>(row)], file, 4, "a row of camera1_from_camera2");
-    rotation.row(row) << values[0], values[1], values[2];
-    camera1_from_camera2.translation()[row] = values[3];
-  }
-  camera1_from_camera2.linear() = nearest_rotation(rotation, file);
-  return camera1_from_camera2;
+  std::vector<double> rows;
+  for (const Line& line : lines)
+    for (const double value : parse_row(line, file, 4, "a row of camera1_from_camera2")) rows.push_back(value);
+  return nearest_transform(rows, file);
 }
 
 /// Timestamps and file names of the images of camera 1: from rgb.txt, or from the names in rgb/ if there is none.

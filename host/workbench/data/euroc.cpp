@@ -4,8 +4,6 @@
 /// describes pinhole images with the same K, created by two tables.
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "data/calibrations/forms.hpp"
 #include "data/image_list.hpp"
@@ -32,7 +30,7 @@ std::vector<std::pair<std::int64_t, std::string>> read_camera(const fs::path& ca
     if (fs::is_directory(camera / name)) folder = camera / name;
   CameraImages images = list_images(folder);
   for (const fs::path& times : {camera / ".." / "timestamps.txt", camera / ".." / ".." / "timestamps.txt"})
-    if (images.stamps_ns.empty() && fs::exists(times)) images.stamps_ns = read_time_rows(times.string()).stamps_ns;
+    if (images.stamps_ns.empty() && fs::exists(times)) images.stamps_ns = read_times(times.string());
   if (images.stamps_ns.size() != images.files.size())
     fail(camera.string(), counted(images.stamps_ns.size(), "time") + " for " + counted(images.files.size(), "image"),
          "data.csv, times.txt, or names that are times");
@@ -63,18 +61,11 @@ void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
 
 /// Body poses of the ground truth, and the left camera's pose at each frame from the nearest row.
 void read_truth(Dataset& dataset, const Eigen::Isometry3d& body_from_left) {
-  std::map<std::int64_t, Eigen::Isometry3d> rows;
-  for (const StampedPose& pose : read_euroc_poses(dataset.truth_file)) rows[pose.stamp_ns] = pose.world_from_left;
-  for (const auto& frame : dataset.frames) {
-    auto nearest = rows.lower_bound(frame.stamp_ns);
-    if (nearest == rows.end() ||
-        (nearest != rows.begin() && frame.stamp_ns - std::prev(nearest)->first < nearest->first - frame.stamp_ns)) {
-      if (nearest == rows.begin()) return;
-      --nearest;
-    }
-    if (std::abs(nearest->first - frame.stamp_ns) > kTruthToleranceNs) continue;
-    dataset.truth.push_back({frame.stamp_ns, nearest->second * body_from_left});
-  }
+  Trajectory rows = read_euroc_poses(dataset.truth_file);
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
+  for (const auto& frame : dataset.frames)
+    if (const StampedPose* nearest = pose_at(rows, frame.stamp_ns, kTruthToleranceNs))
+      dataset.truth.push_back({frame.stamp_ns, nearest->world_from_left * body_from_left});
 }
 
 /// Kalibr's chain of a TUM-VI recording; empty if there is none.

@@ -78,7 +78,7 @@ std::vector<FoundRecording> search_list(const std::string& list) {
   std::vector<FoundRecording> found;
   const std::string folder = fs::path(list).parent_path().string();
   for (const auto& line : data_lines(list)) {
-    if (is_source_line(line.text)) {
+    if (line.text.rfind("--", 0) == 0) {  // an option: a custom camera
       const StereoSource source = parse_source_line(line.text, folder, list, line.number);
       found.push_back({source.video.empty() ? source.left : source.video, "", source});
       continue;
@@ -208,8 +208,6 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 }  // namespace
-
-bool is_source_line(const std::string& text) { return text.rfind("--", 0) == 0; }
 
 StereoSource parse_source_line(const std::string& text, const std::string& folder, const std::string& file, int line) {
   StereoSource source;

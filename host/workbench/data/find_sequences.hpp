@@ -38,9 +38,6 @@ std::string plain_name(const std::string& text);
 
 // Converts a custom camera to and from words of a command line, for list files of batches.
 
-/// Whether a line of a list describes a custom camera, that is, begins with an option.
-bool is_source_line(const std::string& text);
-
 /// The source described by a line such as `--left a/left --right a/right --calibration rig.yaml`; words with spaces are
 /// in double quotes. Paths are relative to `folder`. `file` and `line` are used in messages. \throws DataError for an
 /// option other than those of `quadedge run` for custom cameras

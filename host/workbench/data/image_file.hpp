@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::data {
@@ -17,6 +18,13 @@ struct ImageSize {
   bool operator==(const ImageSize& other) const { return width == other.width && height == other.height; }
   bool operator!=(const ImageSize& other) const { return !(*this == other); }
 };
+
+inline ImageSize size_of(const PinholeCamera& camera) { return {camera.width, camera.height}; }
+inline ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
+inline void set_size(PinholeCamera& camera, ImageSize size) {
+  camera.width = size.width;
+  camera.height = size.height;
+}
 
 constexpr int kLargestImageSide = 1 << 16;  ///< px
 
@@ -37,20 +45,6 @@ bool is_other_image_name(const std::string& name);
 inline constexpr const char* kConverted =
     "PNG, JPEG, PGM or PPM; `mogrify -format png *` of ImageMagick converts others, at their full depth";
 
-// PNG and JPEG in memory, by libpng and libjpeg; samples of images.
-
-/// Columns, rows and largest value by the header of a JPEG. \throws std::runtime_error with libjpeg's reason
-ImageSize jpeg_size(std::string_view bytes);
-
-/// height x width samples of 8 bits: one channel for grey images, three (R, G, B) for colour, on the recorded pixel
-/// grid whatever EXIF says. Most decoders fill what they cannot read with grey and go on; here libjpeg's warnings are
-/// errors. \throws std::runtime_error with libjpeg's reason
-cv::Mat decode_jpeg(std::string_view bytes);
-
-/// height x width samples of 8 or 16 bits: one channel for grey images, three (R, G, B) for colour and palettes; alpha
-/// is dropped, or a further channel. Fewer than 8 bits become 8. \throws std::runtime_error with libpng's reason
-cv::Mat decode_png(std::string_view bytes, bool keeps_alpha = false);
-
 /// A mask: a grey image. \throws DataError for one with transparent pixels, of which nobody knows what they mean
 Image read_mask(const std::string& file);
 
@@ -59,6 +53,9 @@ std::string encode_jpeg(const cv::Mat& picture, int quality);
 
 /// Encodes a picture of 8 or 16 bits, grey or B, G, R. \throws std::runtime_error with libpng's reason
 std::string encode_png(const cv::Mat& picture);
+
+/// The pixels of an image for OpenCV, which shares them.
+cv::Mat matrix_of(const Image& image);
 
 /// Brings 16-bit samples as PNM files have them into the machine's byte order; leaves 8-bit samples as they are.
 void from_big_endian(cv::Mat& samples);

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <ctime>
+#include <iomanip>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
@@ -65,17 +66,55 @@ std::optional<std::vector<std::int64_t>> integer_stamps(const std::vector<std::s
 
 /// "2011-09-26 13:02:25.967790592", as UTC. \throws DataError
 std::int64_t dated_stamp(const std::vector<std::string>& words, const std::string& file, int line) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0, end = 0;
-  const bool is_date = std::sscanf(words[0].c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 &&
-                       words[0].size() == static_cast<std::size_t>(end);
-  const bool is_time = is_date && std::sscanf(words[1].c_str(), "%2d:%2d:%n", &hour, &minute, &end) == 2;
-  if (!is_time || year < 1970 || month < 1 || month > 12 || day < 1 || day > 31 || hour > 23 || minute > 59)
-    fail(file, line, in_quotes(words[0] + " " + words[1]), "YYYY-MM-DD HH:MM:SS.fraction");
   std::tm whole_minutes{};
-  whole_minutes.tm_year = year - 1900, whole_minutes.tm_mon = month - 1, whole_minutes.tm_mday = day;
-  whole_minutes.tm_hour = hour, whole_minutes.tm_min = minute;
-  return timegm(&whole_minutes) * 1'000'000'000 +
-         parse_seconds(words[1].substr(static_cast<std::size_t>(end)), file, line);
+  std::string seconds;
+  std::istringstream text(words[0] + " " + words[1]);
+  if (!(text >> std::get_time(&whole_minutes, "%Y-%m-%d %H:%M:") >> seconds) || whole_minutes.tm_year < 70)
+    fail(file, line, in_quotes(text.str()), "YYYY-MM-DD HH:MM:SS.fraction");
+  return timegm(&whole_minutes) * 1'000'000'000 + parse_seconds(seconds, file, line);
+}
+
+/// The rows of a file of times.
+struct TimeRows {
+  std::vector<std::int64_t> stamps_ns;
+  std::vector<std::string> names;  ///< image names without extension, one per row; empty if the rows state none
+};
+
+/// As read_times(), but for data.csv.
+TimeRows read_time_rows(const std::string& file, bool restarts = false) {
+  TimeRows rows;
+  const std::vector<Line> lines = table_lines(file);
+  if (lines.empty()) fail(file, "no timestamps", "one in seconds on every line");
+  std::vector<std::string> words_of_times;
+  for (const Line& line : lines) {
+    const auto words = split(line.text, ", \t\r");
+    if (words.size() == 2 && words[0].find('-') != std::string::npos) {
+      rows.stamps_ns.push_back(dated_stamp(words, file, line.number));
+    } else if (words.size() == 1) {
+      words_of_times.push_back(words[0]);
+    } else if (words.size() <= 3) {
+      rows.names.push_back(words[0]);
+      words_of_times.push_back(words[1]);
+    } else {
+      fail(file, line.number, in_quotes(line.text), "one time in seconds, or \"name seconds exposure\"");
+    }
+  }
+  if (words_of_times.size() + rows.stamps_ns.size() != lines.size() ||
+      (!words_of_times.empty() && !rows.stamps_ns.empty()) ||
+      (!rows.names.empty() && rows.names.size() != lines.size()))
+    fail(file, "rows of different formats", "one time in seconds, or \"name seconds exposure\", in every row");
+  if (auto stamps = integer_stamps(words_of_times, file); stamps && !words_of_times.empty()) {
+    rows.stamps_ns = std::move(*stamps);
+  } else {
+    for (std::size_t i = 0; i < words_of_times.size(); ++i)
+      rows.stamps_ns.push_back(parse_seconds(words_of_times[i], file, lines[i].number));
+  }
+  for (std::size_t i = 1; i < rows.stamps_ns.size(); ++i) {
+    const std::int64_t step = rows.stamps_ns[i] - rows.stamps_ns[i - 1];
+    if (step > 0 || (step < 0 && restarts)) continue;
+    fail_order(file, lines[i].number, rows.stamps_ns[i], rows.stamps_ns[i - 1]);
+  }
+  return rows;
 }
 
 bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
@@ -127,44 +166,6 @@ std::optional<std::vector<std::int64_t>> stamps_of_names(const std::vector<std::
   std::vector<std::int64_t> stamps;
   for (const std::string& stem : stems) stamps.push_back(parse_seconds(stem, folder, 1));
   return stamps;
-}
-
-TimeRows read_time_rows(const std::string& file, bool restarts) {
-  TimeRows rows;
-  const std::vector<Line> lines = table_lines(file);
-  if (lines.empty()) fail(file, "no timestamps", "one in seconds on every line");
-  std::vector<std::string> words_of_times;
-  for (const Line& line : lines) {
-    const auto words = split(line.text, ", \t\r");
-    if (words.size() == 2 && words[0].find('-') != std::string::npos) {
-      rows.stamps_ns.push_back(dated_stamp(words, file, line.number));
-    } else if (words.size() == 1) {
-      words_of_times.push_back(words[0]);
-    } else if (words.size() <= 3) {
-      rows.names.push_back(words[0]);
-      words_of_times.push_back(words[1]);
-    } else {
-      fail(file, line.number, in_quotes(line.text), "one time in seconds, or \"name seconds exposure\"");
-    }
-  }
-  if (words_of_times.size() + rows.stamps_ns.size() != lines.size() ||
-      (!words_of_times.empty() && !rows.stamps_ns.empty()) ||
-      (!rows.names.empty() && rows.names.size() != lines.size()))
-    fail(file, "rows of different formats", "one time in seconds, or \"name seconds exposure\", in every row");
-  if (auto stamps = integer_stamps(words_of_times, file); stamps && !words_of_times.empty()) {
-    rows.stamps_ns = std::move(*stamps);
-  } else {
-    for (std::size_t i = 0; i < words_of_times.size(); ++i)
-      rows.stamps_ns.push_back(parse_seconds(words_of_times[i], file, lines[i].number));
-  }
-  for (std::size_t i = 1; i < rows.stamps_ns.size(); ++i) {
-    const std::int64_t step = rows.stamps_ns[i] - rows.stamps_ns[i - 1];
-    if (step > 0 || (step < 0 && restarts)) continue;
-    fail(file, lines[i].number,
-         "timestamp " + format_seconds(rows.stamps_ns[i]) + " after " + format_seconds(rows.stamps_ns[i - 1]),
-         "increasing timestamps");
-  }
-  return rows;
 }
 
 StampPairs pair_stamps(const std::vector<std::int64_t>& left_ns, const std::vector<std::int64_t>& right_ns,

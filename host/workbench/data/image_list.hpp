@@ -18,17 +18,6 @@ namespace quadedge::data {
 std::optional<std::vector<std::int64_t>> stamps_of_names(const std::vector<std::string>& stems,
                                                          const std::string& folder);
 
-/// The rows of a file of times.
-struct TimeRows {
-  std::vector<std::int64_t> stamps_ns;
-  std::vector<std::string> names;  ///< image names without extension, one per row; empty if the rows state none
-};
-
-/// Reads one row per frame: seconds; integers as stamps_of_names(); "name seconds exposure" as DSO and TUM-VI write it;
-/// a date and time as KITTI's raw drives have them. \throws DataError for other rows, for stamps that repeat, and
-/// unless `restarts` for stamps that go back
-TimeRows read_time_rows(const std::string& file, bool restarts = false);
-
 /// Indices of left and right timestamps that are mutually nearest.
 struct StampPairs {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< in the order of the left timestamps
@@ -54,8 +43,10 @@ std::string number_jump(const std::vector<std::string>& files);
 /// refers to another folder
 std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file);
 
-/// Timestamps [ns] of a file with one row per frame, in its order: read_time_rows(), or EuRoC's format if the name ends
-/// in .csv. \throws DataError
+/// Timestamps [ns] of a file with one row per frame, in its order: seconds; integers as stamps_of_names(); "name
+/// seconds exposure" as DSO and TUM-VI write it; a date and time as KITTI's raw drives have them; or EuRoC's format if
+/// the name ends in .csv. \throws DataError for other rows, for stamps that repeat, and unless `restarts` for stamps
+/// that go back
 std::vector<std::int64_t> read_times(const std::string& file, bool restarts = false);
 
 /// The images of one camera.

@@ -30,10 +30,7 @@ std::string calibration_beside(const fs::path& drive, const char* name) {
 }
 
 Eigen::Isometry3d read_transform(const std::string& file) {
-  const YamlMap map(file, "R and T of KITTI's calibrations");
-  Eigen::Isometry3d transform(map.rotation("R"));
-  transform.translation() = map.vector("T");
-  return transform;
+  return YamlMap(file, "R and T of KITTI's calibrations").transform("R", "T");
 }
 
 /// The pose of an OXTS packet in metres, by the Mercator projection of KITTI's development kit.
@@ -103,7 +100,7 @@ Dataset read_kitti_raw(const fs::path& root, const DatasetOptions& options, Find
   findings.attempt([&] {
     const std::string times_file = (drive / ("image_" + left) / "timestamps.txt").string();
     rows = add_numbered_frames(dataset, images_of(drive / ("image_" + left)), images_of(drive / ("image_" + right)),
-                               read_time_rows(times_file).stamps_ns, times_file, findings);
+                               read_times(times_file), times_file, findings);
   });
   findings.attempt([&] {
     const std::string of_360 = calibration_beside(drive, "perspective.txt"),

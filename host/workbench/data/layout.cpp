@@ -13,8 +13,6 @@
 namespace quadedge::data {
 namespace {
 
-ImageSize size_of(const PinholeCamera& camera) { return {camera.width, camera.height}; }
-
 /// Parses "[f 0 cx; 0 f cy; 0 0 1]" into a camera.
 void set_camera(PinholeCamera& camera, const std::string& text, const std::string& file, int line) {
   const auto tokens = split(text, " \t[];,");
@@ -136,11 +134,8 @@ fs::path sequence_in(const fs::path& folder, bool (*is_recording)(const fs::path
 
 void set_sizes_from_first_frame(Dataset& dataset) {
   if (dataset.frames.empty()) return;
-  const ImageSize left = image_size(dataset.frames[0].left), right = image_size(dataset.frames[0].right);
-  dataset.rig.left.width = left.width;
-  dataset.rig.left.height = left.height;
-  dataset.rig.right.width = right.width;
-  dataset.rig.right.height = right.height;
+  set_size(dataset.rig.left, image_size(dataset.frames[0].left));
+  set_size(dataset.rig.right, image_size(dataset.frames[0].right));
 }
 
 bool sizes_fit(const Dataset& dataset) {
@@ -191,6 +186,13 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::strin
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Eigen::Isometry3d nearest_transform(const std::vector<double>& rows, const std::string& file) {
+  const Eigen::Matrix<double, 3, 4> matrix = Eigen::Map<const Eigen::Matrix<double, 4, 3>>(rows.data()).transpose();
+  Eigen::Isometry3d transform(nearest_rotation(matrix.leftCols<3>(), file));
+  transform.translation() = matrix.col(3);
+  return transform;
 }
 
 void set_rectified_rig(StereoRig& rig, double focal, double cx, double cy, double right_cx, double baseline) {

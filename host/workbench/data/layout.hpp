@@ -69,6 +69,9 @@ DatasetCheck check_opened(const std::string& path, const std::function<Dataset(F
 /// `source`
 void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int max_value);
 
+/// Timestamps of all frames [ns].
+std::vector<std::int64_t> stamps_of(const Dataset& dataset);
+
 /// Folder and files that a dataset's rig was read from, for messages.
 std::string calibration_of(const Dataset& dataset);
 
@@ -115,6 +118,9 @@ std::string unreadable_place(const std::string& path, const fs::filesystem_error
 
 /// The rotation nearest to a matrix read from a file. \throws DataError if it deviates by more than rounding (1e-3)
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file);
+
+/// The transform of a 3 x 4 matrix, row by row, with the rotation nearest to its 3 x 3 part. \throws DataError as above
+Eigen::Isometry3d nearest_transform(const std::vector<double>& rows, const std::string& file);
 
 /// The cameras of a rectified pair, but not their sizes: equal focal lengths, the right one `baseline` metres to the
 /// right.

@@ -46,9 +46,9 @@ void mask_rig(StereoRig& rig, const std::string& files) {
   const auto apply = [](const std::string& file, const PinholeCamera& camera, const UndistortionTable& table,
                         PixelMask& mask) {
     const Image drawn = data::read_mask(file);
-    if (drawn.width != camera.width || drawn.height != camera.height)
-      data::fail(file, "a mask of " + data::to_string({drawn.width, drawn.height}) + " pixels",
-                 data::to_string({camera.width, camera.height}) + ", the size of the images");
+    if (data::size_of(drawn) != data::size_of(camera))
+      data::fail(file, "a mask of " + data::to_string(data::size_of(drawn)) + " pixels",
+                 data::to_string(data::size_of(camera)) + ", the size of the images");
     hide(drawn, camera, table, mask);
     if (std::count(mask.hidden.begin(), mask.hidden.end(), 0) == 0)
       data::fail(file, "a mask that is black everywhere", "black where no edges are wanted, white elsewhere");

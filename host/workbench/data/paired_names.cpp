@@ -70,7 +70,7 @@ Dataset read_paired_names(const fs::path& folder, const DatasetOptions& options,
     findings.error(pairs.unpaired, "a left image alone", "the right image of the same name beside it");
   auto stamps = stamps_of_names(pairs.names, folder.string());
   if (const fs::path times = folder / "times.txt"; !stamps && fs::exists(times)) {
-    stamps = read_time_rows(times.string()).stamps_ns;
+    stamps = read_times(times.string());
     if (stamps->size() != pairs.files.size())
       findings.error(times.string(), counted(stamps->size(), "time"),
                      std::to_string(pairs.files.size()) + ", one per pair");

@@ -18,10 +18,9 @@ namespace quadedge {
 namespace data {
 
 void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int max_value) {
-  if (image.width != camera.width || image.height != camera.height) {
-    fail(source, to_string({image.width, image.height}) + " pixels",
-         to_string({camera.width, camera.height}) + " as the calibration and the other frames");
-  }
+  if (size_of(image) != size_of(camera))
+    fail(source, to_string(size_of(image)) + " pixels",
+         to_string(size_of(camera)) + " as the calibration and the other frames");
   if (image.max_value != max_value) {
     fail(source, "values to " + std::to_string(image.max_value),
          "to " + std::to_string(max_value) + " as in the first left image");
@@ -112,9 +111,9 @@ class FramePrefetcher::Implementation {
     if (mask.pixels.empty()) return;
     const FrameFiles& files = frames_[static_cast<std::size_t>(pair.number)];
     const std::string& file = side == Side::left ? files.left_mask : files.right_mask;
-    if (mask.width != image.width || mask.height != image.height)
-      data::fail(file, "a mask of " + data::to_string({mask.width, mask.height}) + " pixels",
-                 data::to_string({image.width, image.height}) + ", the size of its image");
+    if (data::size_of(mask) != data::size_of(image))
+      data::fail(file, "a mask of " + data::to_string(data::size_of(mask)) + " pixels",
+                 data::to_string(data::size_of(image)) + ", the size of its image");
     if (mask.max_value != kMaxValue8) data::fail(file, "a mask of more than 8 bits", "8 bits: black, or anything else");
   }
 

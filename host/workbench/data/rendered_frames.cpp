@@ -119,8 +119,7 @@ Image RenderedFrames::view(int frame, Side side) const {
   if (!caches_) return image;
   try {
     fs::create_directories(folder_, problem);
-    const int type = image.max_value > kMaxValue8 ? CV_16UC1 : CV_8UC1;
-    write_atomically(file, encode_png(cv::Mat(image.height, image.width, type, image.pixels.data())));
+    write_atomically(file, encode_png(matrix_of(image)));
   } catch (const DataError& error) {
     if (caches_.exchange(false)) cache_error_ = error.what();
   }

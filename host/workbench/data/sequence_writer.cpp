@@ -2,7 +2,6 @@
 #include "data/sequence_writer.hpp"
 
 #include <filesystem>
-#include <opencv2/core.hpp>
 
 #include "data/atomic_file.hpp"
 #include "data/image_file.hpp"
@@ -14,12 +13,6 @@ namespace quadedge {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_png(const fs::path& file, const Image& image) {
-  const cv::Mat pixels(image.height, image.width, image.max_value > kMaxValue8 ? CV_16U : CV_8U,
-                       const_cast<std::uint8_t*>(image.pixels.data()));
-  data::write_atomically(file.string(), data::encode_png(pixels));
-}
 
 /// A PFM: little-endian, from the bottom row up.
 void write_depths(const fs::path& file, const RenderedView& view) {
@@ -69,7 +62,8 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
     for (const Side side : kSides) {
       const bool second = side != first;
       const RenderedView view = sequence.render(frame, side);
-      write_png(root / (second ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
+      data::write_atomically((root / (second ? "rgb2" : "rgb") / (stamp + ".png")).string(),
+                             data::encode_png(data::matrix_of(view.image)));
       write_depths(root / (second ? "depth2" : "depth") / (stamp + ".pfm"), view);
     }
     list += stamp + " rgb/" + stamp + ".png\n";

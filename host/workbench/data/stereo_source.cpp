@@ -138,8 +138,6 @@ Dataset open_images(const StereoSource& source, Findings& findings) {
   return dataset;
 }
 
-ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
-
 /// Sets the rig for images of these sizes. \throws DataError if the calibration is for other sizes
 void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
   dataset.calibration = read_calibration(source.calibration, source.rectified);

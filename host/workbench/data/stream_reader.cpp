@@ -18,15 +18,9 @@
 namespace quadedge::data {
 namespace {
 
-/// The part of an image that starts at a pixel.
-Image part_of(const Image& whole, int x, int y, int width, int height) {
-  Image part(width, height, whole.max_value);
-  const std::size_t pixel = bytes_per_pixel(whole.max_value), row = pixel * static_cast<std::size_t>(width);
-  for (int i = 0; i < height; ++i) {
-    const std::size_t from =
-        static_cast<std::size_t>(y + i) * static_cast<std::size_t>(whole.width) + static_cast<std::size_t>(x);
-    std::memcpy(part.pixels.data() + static_cast<std::size_t>(i) * row, whole.pixels.data() + from * pixel, row);
-  }
+Image part_of(const Image& whole, const cv::Rect& place) {
+  Image part(place.width, place.height, whole.max_value);
+  matrix_of(whole)(place).copyTo(matrix_of(part));
   return part;
 }
 
@@ -185,8 +179,8 @@ StereoPair StreamReader::halves(const Image& both, const std::string& picture) c
     fail(picture, to_string({both.width, both.height}) + " pixels",
          beside ? "an even width to halve" : "an even height to halve");
   const int width = beside ? both.width / 2 : both.width, height = beside ? both.height : both.height / 2;
-  return {0, 0, part_of(both, 0, 0, width, height),
-          part_of(both, both.width - width, both.height - height, width, height)};
+  return {0, 0, part_of(both, {0, 0, width, height}),
+          part_of(both, {both.width - width, both.height - height, width, height})};
 }
 
 StereoPair StreamOfReaders::look(const std::string& stream) {

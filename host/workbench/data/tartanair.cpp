@@ -6,6 +6,7 @@
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
+#include "data/trajectory_rows.hpp"
 
 namespace quadedge::data {
 namespace {
@@ -24,14 +25,10 @@ const Names* version_of(const fs::path& folder) {
 
 Eigen::Isometry3d read_pose(const Line& line, const std::string& file) {
   const auto v = parse_row(line, file, 7, "tx ty tz qx qy qz qw");
-  const Eigen::Quaterniond turn(v[6], v[3], v[4], v[5]);
-  if (std::abs(turn.norm() - 1) > 1e-3)
-    fail(file, line.number, "a quaternion of length " + std::to_string(turn.norm()), "a unit quaternion qx qy qz qw");
   Eigen::Matrix3d body_from_camera;
   body_from_camera << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  Eigen::Isometry3d pose(Eigen::Matrix3d(turn.normalized().toRotationMatrix() * body_from_camera));
-  pose.translation() << v[0], v[1], v[2];
-  return pose;
+  return stated_pose({v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}, "qx qy qz qw", file, line.number) *
+         Eigen::Isometry3d(body_from_camera);
 }
 
 bool is_tartanair(const fs::path& folder) { return version_of(folder) != nullptr; }

@@ -25,6 +25,10 @@ void fail(const std::string& file, int line, const std::string& found, const std
   fail(file + ":" + std::to_string(line), found, expected);
 }
 
+void fail_order(const std::string& file, int line, std::int64_t stamp, std::int64_t before) {
+  fail(file, line, "timestamp " + format_seconds(stamp) + " after " + format_seconds(before), "increasing timestamps");
+}
+
 std::string irregular_kind(const std::string& file) {
   std::error_code ignored;
   switch (std::filesystem::status(file, ignored).type()) {

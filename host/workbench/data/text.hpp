@@ -13,6 +13,9 @@ namespace quadedge::data {
 [[noreturn]] void fail(const std::string& file, const std::string& found, const std::string& expected);
 [[noreturn]] void fail(const std::string& file, int line, const std::string& found, const std::string& expected);
 
+/// \throws DataError about a timestamp [ns] that is not later than the one before it.
+[[noreturn]] void fail_order(const std::string& file, int line, std::int64_t stamp, std::int64_t before);
+
 /// "a folder", "a pipe", "a device" or "a socket"; empty for regular files and if nothing exists. Reading a pipe may
 /// block, and a device may never end.
 std::string irregular_kind(const std::string& file);

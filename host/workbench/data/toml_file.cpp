@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <limits>
 #include <locale>
@@ -67,11 +66,6 @@ void set_value(TomlEntry& entry, const toml::node& node) {
     std::vector<std::string> texts;
     for (const auto& element : *array) texts.push_back(element.ref<std::string>());
     entry.value = std::move(texts);
-  } else if (array != nullptr &&
-             std::all_of(array->begin(), array->end(), [](const auto& e) { return e.is_number(); })) {
-    std::vector<double> numbers;
-    for (const auto& element : *array) numbers.push_back(*element.value<double>());
-    entry.value = std::move(numbers);
   }
 }
 

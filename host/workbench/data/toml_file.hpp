@@ -15,9 +15,8 @@ struct TomlEntry {
   std::size_t line = 0;  ///< from 1
   std::string key;       ///< including its tables: "stereo.ncc_min"
   std::string found;     ///< the value, for messages: "the boolean true"
-  /// std::monostate for types that no option uses: dates, arrays of anything except strings or numbers.
-  std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<double>>
-      value;
+  /// std::monostate for types that no option uses: dates, arrays of anything except strings.
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::string>> value;
 };
 
 /// All keys of a file, in the order of its lines. \throws UsageError for a file that cannot be read, is longer than 1

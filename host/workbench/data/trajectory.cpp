@@ -1,8 +1,10 @@
 /// \file trajectory.cpp  Tells TUM, KITTI and EuRoC apart by their columns; comment lines of TUM files begin segments.
 #include "quadedge/trajectory.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
@@ -35,30 +37,27 @@ std::int64_t stamp_of(const std::string& word, const std::string& file, int line
   return data::parse_seconds(word, file, line);
 }
 
-/// \param order of the quaternion in the file \throws DataError for one that is not a rotation's
-StampedPose pose_at(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation, const char* order,
-                    const std::string& file, int line) {
-  if (std::abs(rotation.norm() - 1) > kRotationInFiles)
-    data::fail(file, line, "a quaternion of length " + std::to_string(rotation.norm()),
-               std::string("a unit quaternion ") + order);
-  StampedPose pose;
-  pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
-  pose.world_from_left.translation() = position;
-  return pose;
-}
-
 StampedPose tum_pose(const data::Line& line, const std::string& path) {
   const auto v = data::parse_row(line, path, 8, kTumColumns);
-  StampedPose pose = pose_at({v[1], v[2], v[3]}, {v[7], v[4], v[5], v[6]}, "qx qy qz qw", path, line.number);
   const std::string stamp = data::split(line.text)[0];
-  pose.stamp_ns = are_nanoseconds(stamp) ? data::parse_nanoseconds(stamp.substr(0, stamp.find('.')), path, line.number)
-                                         : data::parse_seconds(stamp, path, line.number);
-  return pose;
+  return {are_nanoseconds(stamp) ? data::parse_nanoseconds(stamp.substr(0, stamp.find('.')), path, line.number)
+                                 : data::parse_seconds(stamp, path, line.number),
+          data::stated_pose({v[1], v[2], v[3]}, {v[7], v[4], v[5], v[6]}, "qx qy qz qw", path, line.number)};
 }
 
 }  // namespace
 
 namespace data {
+
+Eigen::Isometry3d stated_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation, const char* order,
+                              const std::string& file, int line) {
+  if (std::abs(rotation.norm() - 1) > kRotationInFiles)
+    fail(file, line, "a quaternion of length " + std::to_string(rotation.norm()),
+         std::string("a unit quaternion ") + order);
+  Eigen::Isometry3d pose(rotation.normalized());
+  pose.translation() = position;
+  return pose;
+}
 
 Trajectory read_euroc_poses(const std::string& file) {
   const std::string expected = "timestamp [ns], p_x, p_y, p_z, q_w, q_x, q_y, q_z, ...";
@@ -72,10 +71,22 @@ Trajectory read_euroc_poses(const std::string& file) {
     if (cells.size() < kColumns) fail(file, line.number, in_quotes(line.text), expected);
     double v[kColumns];
     for (std::size_t i = 1; i < kColumns; ++i) v[i] = parse_number(cells[i], file, line.number, expected);
-    trajectory.push_back(pose_at({v[1], v[2], v[3]}, {v[4], v[5], v[6], v[7]}, "q_w q_x q_y q_z", file, line.number));
-    trajectory.back().stamp_ns = stamp_of(cells[0], file, line.number);
+    trajectory.push_back(
+        {stamp_of(cells[0], file, line.number),
+         stated_pose({v[1], v[2], v[3]}, {v[4], v[5], v[6], v[7]}, "q_w q_x q_y q_z", file, line.number)});
   }
   return trajectory;
+}
+
+const StampedPose* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
+  const auto later =
+      std::lower_bound(poses.begin(), poses.end(), stamp_ns,
+                       [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+  const auto distance = [&](Trajectory::const_iterator pose) { return std::abs(pose->stamp_ns - stamp_ns); };
+  auto nearest = later;
+  if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later)))
+    nearest = std::prev(later);
+  return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &*nearest : nullptr;
 }
 
 std::string tum_header() { return "# timestamp[s] tx ty tz[m] qx qy qz qw: world_from_left_camera\n"; }
@@ -151,10 +162,7 @@ Trajectory read_tum(const std::string& path) {
     const bool starts_segment =
         count > 1 && trajectory[count - 2].segment != segment;  // where a clock may have been set
     if (count > 1 && !starts_segment && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
-      data::fail(path, line.number,
-                 "timestamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
-                     data::format_seconds(trajectory[count - 2].stamp_ns),
-                 "increasing timestamps");
+      data::fail_order(path, line.number, trajectory[count - 1].stamp_ns, trajectory[count - 2].stamp_ns);
     }
   }
   return trajectory;

@@ -15,7 +15,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <utility>
 
 #include "data/image_file.hpp"
 #include "data/text.hpp"
@@ -52,7 +51,63 @@ int spawn(const std::vector<std::string>& command, int output, int messages, pid
   return problem;
 }
 
-constexpr const char* kPurpose = "reading a video";
+/// A running program with an empty standard input. It is killed with this object; where this process dies without
+/// destructors, it ends at its next output. A terminal's Ctrl-C does not reach it.
+class ProgramOutput {
+ public:
+  /// Starts a program that is found as a shell finds it. \throws DataError if it is not installed
+  explicit ProgramOutput(const std::vector<std::string>& command) {
+    int ends[2][2] = {{-1, -1}, {-1, -1}};
+    int problem = pipe2(ends[0], O_CLOEXEC) != 0 || pipe2(ends[1], O_CLOEXEC) != 0 ? errno : 0;
+    if (problem == 0) problem = spawn(command, ends[0][1], ends[1][1], process_);
+    for (int i = 0; i < 2; ++i) {
+      pipes_[i] = ends[i][0];
+      if (ends[i][1] >= 0) close(ends[i][1]);
+    }
+    if (problem == 0) return;
+    close_pipes();
+    throw DataError("reading a video needs the program " + command.front() + ", which cannot be started: " +
+                    (problem == ENOENT ? "it is not installed" : std::strerror(problem)));
+  }
+  ~ProgramOutput() {
+    kill(process_, SIGKILL);
+    close_pipes();
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  ProgramOutput(const ProgramOutput&) = delete;
+  ProgramOutput& operator=(const ProgramOutput&) = delete;
+
+  /// Waits until something was appended to `output` or `messages`, or one of them ended. \returns false if both have
+  bool wait() {
+    pollfd waiting[2] = {{pipes_[0], POLLIN, 0}, {pipes_[1], POLLIN, 0}};
+    if (poll(waiting, 2, -1) < 0) return errno == EINTR;
+    for (int i = 0; i < 2; ++i) {
+      if (pipes_[i] < 0 || waiting[i].revents == 0) continue;
+      std::string& text = i == 0 ? output : messages;
+      const std::size_t before = text.size();
+      text.resize(before + kBlock);
+      const ssize_t count = read(pipes_[i], text.data() + before, kBlock);
+      text.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
+      if (count > 0 || (count < 0 && errno == EINTR)) continue;
+      close(pipes_[i]);
+      pipes_[i] = -1;
+    }
+    return pipes_[0] >= 0 || pipes_[1] >= 0;
+  }
+
+  std::string output, messages;  ///< from standard output and standard error; taken out by whoever uses it
+
+ private:
+  void close_pipes() const {
+    for (const int pipe : pipes_)
+      if (pipe >= 0) close(pipe);
+  }
+
+  pid_t process_ = -1;
+  int pipes_[2] = {-1, -1};  ///< of output and messages; -1 once ended
+};
+
 constexpr int kReadAhead = 8;             // packets that ffmpeg's demuxer may be ahead of its decoder
 constexpr double kStampsPerSecond = 1e9;  // nanoseconds
 
@@ -101,166 +156,23 @@ std::string value_after(const std::string& line, const char* key) {
   return line.substr(first, line.find(' ', first) - first);
 }
 
-class VideoReader : public StreamReader {
+std::vector<std::string> command_for(const Video& video) {
+  auto words = split(
+      "ffmpeg -hide_banner -nostdin -nostats -loglevel repeat+level+info -threads 1 -err_detect crccheck+explode "
+      "-noautorotate -copyts -i");
+  words.push_back("file:" + video.file);
+  for (const auto& word : split("-map 0:V:0 -fps_mode passthrough -autoscale 0 -f rawvideo -vf")) words.push_back(word);
+  words.push_back(video.grey + ",showinfo=checksum=0");
+  words.emplace_back("pipe:1");
+  return words;
+}
+
+/// A running ffmpeg and its frames so far.
+class Decoder {
  public:
-  VideoReader(const Video& left, const std::optional<Video>& right, const StreamOptions& options)
-      : StreamReader(options), about_left_(left), left_(left) {
-    if (!right) return;
-    about_right_ = *right;
-    right_.emplace(*right);
-  }
+  explicit Decoder(const Video& video) : video_(video), ffmpeg_(command_for(video)) {}
 
- private:
-  std::optional<StereoPair> read() override {
-    auto left = left_.next();
-    StereoPair pair;
-    if (right_) {
-      auto right = right_->next();
-      if (left && !right) end_early(about_right_, about_left_);
-      if (right && !left) end_early(about_left_, about_right_);
-      if (!left) return std::nullopt;
-      check_times(left->stamp_ns, right->stamp_ns);
-      pair.left = std::move(left->image);
-      pair.right = std::move(right->image);
-    } else {
-      if (!left) return std::nullopt;
-      pair = halves(left->image, about_left_.file);
-    }
-    pair.stamp_ns = left->stamp_ns;
-    return pair;
-  }
-  [[noreturn]] void end_early(const Video& shorter, const Video& other) const {
-    fail(shorter.file, "the end after " + counted(number_, "frame"), "as many as in " + other.file);
-  }
-  /// Checks that the frames of a pair differ by less than half a period in time.
-  void check_times(std::int64_t left, std::int64_t right) const {
-    const double fps = about_left_.fps, apart = static_cast<double>(right - left) / kStampsPerSecond;
-    if (options_.fps > 0 || !(fps > 0) || std::abs(apart) * fps < 0.5) return;
-    fail(about_right_.file, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
-         format_seconds(left) + " s as in " + about_left_.file);
-  }
-
-  const Video about_left_;
-  Video about_right_;
-  VideoFile left_;
-  std::optional<VideoFile> right_;
-};
-
-}  // namespace
-
-ProgramOutput::ProgramOutput(const std::vector<std::string>& command, const std::string& needed_for) {
-  int ends[2][2] = {{-1, -1}, {-1, -1}};
-  int problem = pipe2(ends[0], O_CLOEXEC) != 0 || pipe2(ends[1], O_CLOEXEC) != 0 ? errno : 0;
-  if (problem == 0) problem = spawn(command, ends[0][1], ends[1][1], process_);
-  for (int i = 0; i < 2; ++i) {
-    pipes_[i] = ends[i][0];
-    if (ends[i][1] >= 0) close(ends[i][1]);
-  }
-  if (problem == 0) return;
-  for (const int pipe : pipes_)
-    if (pipe >= 0) close(pipe);
-  throw DataError(needed_for + " needs the program " + command.front() +
-                  ", which cannot be started: " + (problem == ENOENT ? "it is not installed" : std::strerror(problem)));
-}
-
-ProgramOutput::~ProgramOutput() {
-  kill(process_, SIGKILL);
-  for (const int pipe : pipes_)
-    if (pipe >= 0) close(pipe);
-  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-  }
-}
-
-bool ProgramOutput::wait() {
-  pollfd waiting[2] = {{pipes_[0], POLLIN, 0}, {pipes_[1], POLLIN, 0}};
-  if (poll(waiting, 2, -1) < 0) return errno == EINTR;
-  for (int i = 0; i < 2; ++i) {
-    if (pipes_[i] < 0 || waiting[i].revents == 0) continue;
-    std::string& text = i == 0 ? output : messages;
-    const std::size_t before = text.size();
-    text.resize(before + kBlock);
-    const ssize_t count = read(pipes_[i], text.data() + before, kBlock);
-    text.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
-    if (count > 0 || (count < 0 && errno == EINTR)) continue;
-    close(pipes_[i]);
-    pipes_[i] = -1;
-  }
-  return pipes_[0] >= 0 || pipes_[1] >= 0;
-}
-
-Video describe_video(const std::string& file) {
-  constexpr const char* kVideo = "a video file";
-  if (const std::string kind = irregular_kind(file); !kind.empty()) fail(file, kind, kVideo);
-  if (std::FILE* exists = std::fopen(file.c_str(), "rb")) {
-    std::fclose(exists);
-  } else {
-    fail(file, "no such file", kVideo);
-  }
-  ProgramOutput probe({"ffprobe", "-loglevel", "repeat+level+warning", "-select_streams", "V:0", "-show_streams",
-                       "-show_format", "-show_pixel_formats", "-of", "json", "file:" + file},
-                      kPurpose);
-  while (probe.wait()) {
-  }
-  const nlohmann::json about = nlohmann::json::parse(probe.output, nullptr, false);
-  if (!about.is_object() || !about.contains("format")) {
-    const std::string error = first_error(probe.messages), name = "file:" + file + ": ";
-    fail(file, "no video (" + (error.rfind(name, 0) == 0 ? error.substr(name.size()) : error) + ")", kVideo);
-  }
-  if (about["streams"].empty()) fail(file, "no video in it", kVideo);
-  const nlohmann::json &stream = about["streams"][0], &container = about["format"];
-  Video video;
-  video.file = file;
-  video.demuxer = container.value("format_name", "");
-  if (video.demuxer == stream.value("codec_name", "")) video.demuxer.clear();
-  video.has_times = stream.contains("start_pts");
-  video.delay = stream.value("has_b_frames", 0);
-  video.fps = rate_of(stream, "avg_frame_rate");
-  if (!(video.fps > 0)) video.fps = rate_of(stream, "r_frame_rate");
-  video.promised = std::atoi(stream.value("nb_frames", "").c_str());
-  const bool is_guess = probe.messages.find("Estimating duration from bitrate") != std::string::npos;
-  const std::string duration = container.value("duration", "");
-  double seconds = 0;
-  std::from_chars(duration.data(), duration.data() + duration.size(), seconds);
-  if (video.promised == 0 && !is_guess) video.promised = static_cast<int>(std::lround(seconds * video.fps));
-  const std::string format = stream.value("pix_fmt", "");
-  for (const nlohmann::json& known : about["pixel_formats"])
-    if (known["name"] == format) choose_grey(known, stream.value("color_range", ""), video);
-  if (video.grey.empty()) fail(file, "a video that cannot be decoded (" + first_error(probe.messages) + ")", kVideo);
-  return video;
-}
-
-class VideoFile::Implementation {
- public:
-  explicit Implementation(Video video)
-      : video_(std::move(video)),
-        ffmpeg_({"ffmpeg",
-                 "-hide_banner",
-                 "-nostdin",
-                 "-nostats",
-                 "-loglevel",
-                 "repeat+level+info",
-                 "-threads",
-                 "1",
-                 "-err_detect",
-                 "crccheck+explode",
-                 "-noautorotate",
-                 "-copyts",
-                 "-i",
-                 "file:" + video_.file,
-                 "-map",
-                 "0:V:0",
-                 "-vf",
-                 video_.grey + ",showinfo=checksum=0",
-                 "-fps_mode",
-                 "passthrough",
-                 "-autoscale",
-                 "0",
-                 "-f",
-                 "rawvideo",
-                 "pipe:1"},
-                kPurpose) {}
-
-  std::optional<Picture> next() {
+  std::optional<VideoPicture> next() {
     const auto facts = next_facts();
     if (!facts) return std::nullopt;
     if (decoded_ == 0) first_ = *facts;
@@ -268,7 +180,7 @@ class VideoFile::Implementation {
       refuse(picture() + " of " + to_string({facts->width, facts->height}) + " pixels",
              to_string({first_.width, first_.height}) + " as the first one");
     }
-    Picture result{stamp(*facts), image(*facts)};
+    VideoPicture result{stamp(*facts), image(*facts)};
     ++decoded_;
     return result;
   }
@@ -378,9 +290,95 @@ class VideoFile::Implementation {
   int last_frame_ = 0;         ///< that may follow the demuxer's error in a video that only ends early
 };
 
-VideoFile::VideoFile(Video video) : implementation_(std::make_unique<Implementation>(std::move(video))) {}
-VideoFile::~VideoFile() = default;
-std::optional<VideoFile::Picture> VideoFile::next() { return implementation_->next(); }
+class VideoReader : public StreamReader {
+ public:
+  VideoReader(const Video& left, const std::optional<Video>& right, const StreamOptions& options)
+      : StreamReader(options), about_left_(left), next_left_(decode_video(left)) {
+    if (!right) return;
+    about_right_ = *right;
+    next_right_ = decode_video(*right);
+  }
+
+ private:
+  std::optional<StereoPair> read() override {
+    auto left = next_left_();
+    StereoPair pair;
+    if (next_right_) {
+      auto right = next_right_();
+      if (left && !right) end_early(about_right_, about_left_);
+      if (right && !left) end_early(about_left_, about_right_);
+      if (!left) return std::nullopt;
+      check_times(left->stamp_ns, right->stamp_ns);
+      pair.left = std::move(left->image);
+      pair.right = std::move(right->image);
+    } else {
+      if (!left) return std::nullopt;
+      pair = halves(left->image, about_left_.file);
+    }
+    pair.stamp_ns = left->stamp_ns;
+    return pair;
+  }
+  [[noreturn]] void end_early(const Video& shorter, const Video& other) const {
+    fail(shorter.file, "the end after " + counted(number_, "frame"), "as many as in " + other.file);
+  }
+  /// Checks that the frames of a pair differ by less than half a period in time.
+  void check_times(std::int64_t left, std::int64_t right) const {
+    const double fps = about_left_.fps, apart = static_cast<double>(right - left) / kStampsPerSecond;
+    if (options_.fps > 0 || !(fps > 0) || std::abs(apart) * fps < 0.5) return;
+    fail(about_right_.file, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
+         format_seconds(left) + " s as in " + about_left_.file);
+  }
+
+  const Video about_left_;
+  Video about_right_;
+  std::function<std::optional<VideoPicture>()> next_left_, next_right_;
+};
+
+}  // namespace
+
+Video describe_video(const std::string& file) {
+  constexpr const char* kVideo = "a video file";
+  if (const std::string kind = irregular_kind(file); !kind.empty()) fail(file, kind, kVideo);
+  if (std::FILE* exists = std::fopen(file.c_str(), "rb")) {
+    std::fclose(exists);
+  } else {
+    fail(file, "no such file", kVideo);
+  }
+  ProgramOutput probe({"ffprobe", "-loglevel", "repeat+level+warning", "-select_streams", "V:0", "-show_streams",
+                       "-show_format", "-show_pixel_formats", "-of", "json", "file:" + file});
+  while (probe.wait()) {
+  }
+  const nlohmann::json about = nlohmann::json::parse(probe.output, nullptr, false);
+  if (!about.is_object() || !about.contains("format")) {
+    const std::string error = first_error(probe.messages), name = "file:" + file + ": ";
+    fail(file, "no video (" + (error.rfind(name, 0) == 0 ? error.substr(name.size()) : error) + ")", kVideo);
+  }
+  if (about["streams"].empty()) fail(file, "no video in it", kVideo);
+  const nlohmann::json &stream = about["streams"][0], &container = about["format"];
+  Video video;
+  video.file = file;
+  video.demuxer = container.value("format_name", "");
+  if (video.demuxer == stream.value("codec_name", "")) video.demuxer.clear();
+  video.has_times = stream.contains("start_pts");
+  video.delay = stream.value("has_b_frames", 0);
+  video.fps = rate_of(stream, "avg_frame_rate");
+  if (!(video.fps > 0)) video.fps = rate_of(stream, "r_frame_rate");
+  video.promised = std::atoi(stream.value("nb_frames", "").c_str());
+  const bool is_guess = probe.messages.find("Estimating duration from bitrate") != std::string::npos;
+  const std::string duration = container.value("duration", "");
+  double seconds = 0;
+  std::from_chars(duration.data(), duration.data() + duration.size(), seconds);
+  if (video.promised == 0 && !is_guess) video.promised = static_cast<int>(std::lround(seconds * video.fps));
+  const std::string format = stream.value("pix_fmt", "");
+  for (const nlohmann::json& known : about["pixel_formats"])
+    if (known["name"] == format) choose_grey(known, stream.value("color_range", ""), video);
+  if (video.grey.empty()) fail(file, "a video that cannot be decoded (" + first_error(probe.messages) + ")", kVideo);
+  return video;
+}
+
+std::function<std::optional<VideoPicture>()> decode_video(const Video& video) {
+  return [decoder = std::make_shared<Decoder>(video)] { return decoder->next(); };
+}
 
 std::shared_ptr<StreamOfReaders> make_video_stream(const Video& left, const std::optional<Video>& right,
                                                    const StreamOptions& options) {

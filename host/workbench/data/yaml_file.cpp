@@ -114,20 +114,19 @@ void YamlMap::add_numbers(const YAML::Node& list, const std::string& expected, s
   }
 }
 
-std::vector<double> YamlMap::numbers(const std::string& key) const {
+std::vector<double> YamlMap::numbers(const std::string& key, std::optional<std::size_t> count) const {
   const YAML::Node list = entry(key);
-  const std::string expected = name(key) + ": [numbers]";
+  const std::string expected = name(key) + ": [" + (count ? std::to_string(*count) + " " : "") + "numbers]";
   if (!list.IsSequence()) fail(file_, line(key), "no list for " + name(key), expected);
   std::vector<double> values;
   add_numbers(list, expected, values);
+  if (count && values.size() != *count) complain(key, std::to_string(values.size()) + " numbers", expected);
   return values;
 }
 
-std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) const {
-  const std::string expected = name(key) + ": [" + std::to_string(count) + " numbers]";
-  if (!entry(key).IsSequence()) fail(file_, line(key), "no list for " + name(key), expected);
-  const auto values = numbers(key);
-  if (values.size() != count) complain(key, std::to_string(values.size()) + " numbers", expected);
+std::vector<double> YamlMap::numbers_of(const std::vector<const char*>& names, const std::string& prefix) const {
+  std::vector<double> values;
+  for (const char* name : names) values.push_back(number(prefix + name));
   return values;
 }
 
@@ -169,8 +168,7 @@ std::vector<double> YamlMap::matrix(const std::string& key, std::size_t rows, st
 
 Eigen::Matrix3d YamlMap::rotation(const std::string& key) const {
   const auto values = matrix(key, 3, 3);
-  return nearest_rotation(Eigen::Map<const Eigen::Matrix3d>(values.data()).transpose(),
-                          file_ + ":" + std::to_string(line(key)) + " (" + name(key) + ")");
+  return nearest_rotation(Eigen::Map<const Eigen::Matrix3d>(values.data()).transpose(), place(key));
 }
 
 Eigen::Vector3d YamlMap::vector(const std::string& key) const {
@@ -204,14 +202,12 @@ Eigen::Isometry3d YamlMap::transform(const std::string& key) const {
   if (values.size() != 16) complain(key, counted(values.size(), "number"), "4 x 4 numbers, row by row, or 3 x 4");
   if (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1)
     complain(key, "a last row other than 0 0 0 1", name(key) + ": a 4 x 4 matrix, row by row");
-  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  Eigen::Matrix3d rotation;
-  for (int i = 0; i < 3; ++i) {
-    const auto first = static_cast<std::size_t>(4 * i);
-    rotation.row(i) << values[first], values[first + 1], values[first + 2];
-    transform.translation()[i] = values[first + 3];
-  }
-  transform.linear() = nearest_rotation(rotation, file_ + ":" + std::to_string(line(key)) + " (" + name(key) + ")");
+  return nearest_transform(values, place(key));
+}
+
+Eigen::Isometry3d YamlMap::transform(const std::string& turn, const std::string& shift) const {
+  Eigen::Isometry3d transform(rotation(turn));
+  transform.translation() = vector(shift);
   return transform;
 }
 

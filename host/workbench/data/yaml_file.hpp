@@ -2,6 +2,7 @@
 /// \file yaml_file.hpp  Strict parsing of YAML files. Error messages state file, line and entry.
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,10 @@ class YamlMap {
   bool holds_map(const std::string& key) const { return node_[key].IsMap(); }
   /// Line number of the entry, from 1.
   int line(const std::string& key) const { return node_[key].Mark().line + 1; }
+  /// "FILE:LINE (NAME)", for messages about an entry.
+  std::string place(const std::string& key) const {
+    return file_ + ":" + std::to_string(line(key)) + " (" + name(key) + ")";
+  }
   /// Full name of the entry, "cam0.intrinsics".
   std::string name(const std::string& key) const { return prefix_ + key; }
 
@@ -53,8 +58,10 @@ class YamlMap {
   double number(const std::string& key) const;
   /// The number, or `otherwise` if there is no such entry.
   double number_or(const std::string& key, double otherwise) const { return has(key) ? number(key) : otherwise; }
-  std::vector<double> numbers(const std::string& key) const;
-  std::vector<double> numbers(const std::string& key, std::size_t count) const;
+  /// Of a list, which has `count` of them if that is given.
+  std::vector<double> numbers(const std::string& key, std::optional<std::size_t> count = std::nullopt) const;
+  /// The numbers of several entries, whose names begin with `prefix`.
+  std::vector<double> numbers_of(const std::vector<const char*>& names, const std::string& prefix = "") const;
   /// A list, a list of rows, OpenCV's or ROS's {rows, cols, data}, or numbers in a line.
   YamlMatrix matrix(const std::string& key) const;
   /// The same, of this shape or a plain list of as many numbers.
@@ -68,6 +75,8 @@ class YamlMap {
   ImageSize size(const std::string& columns, const std::string& rows) const;
   /// A 4 x 4 matrix, or its first three rows. Its 3 x 3 part is replaced by the nearest rotation.
   Eigen::Isometry3d transform(const std::string& key) const;
+  /// A rotation matrix and a translation in separate entries.
+  Eigen::Isometry3d transform(const std::string& turn, const std::string& shift) const;
 
   /// \throws DataError about an existing entry.
   [[noreturn]] void complain(const std::string& key, const std::string& found, const std::string& expected) const;

@@ -2,7 +2,6 @@
 #include "oracle/reference_frontend.hpp"
 
 #include <numeric>
-#include <stdexcept>
 
 #include "edges/tap_lists.hpp"
 #include "geometry/disparity_range.hpp"

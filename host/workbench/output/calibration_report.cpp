@@ -1,7 +1,6 @@
 /// \file calibration_report.cpp  The numbers as JSON and as a table.
 #include "output/calibration_report.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/numeric.hpp"
@@ -10,21 +9,14 @@
 namespace quadedge::report {
 namespace {
 
-Json both_sides(const std::array<double, 2>& values) {
-  return {{"left", to_json(values[0])}, {"right", to_json(values[1])}};
-}
+Json both_sides(const std::array<double, 2>& values) { return {{"left", values[0]}, {"right", values[1]}}; }
 
 Json parts_json(const UnseenDistances& parts) {
-  Json json = {{"columns", UnseenDistances::kColumns}, {"rows", UnseenDistances::kRows}};
-  const auto array = [](const auto& values) {
-    Json list = Json::array();
-    for (const double value : values) list.push_back(to_json(value));
-    return list;
-  };
-  json["left"] = array(parts.by_place[0]);
-  json["right"] = array(parts.by_place[1]);
-  json["by_distance"] = array(parts.by_distance);
-  return json;
+  return {{"columns", UnseenDistances::kColumns},
+          {"rows", UnseenDistances::kRows},
+          {"left", parts.by_place[0]},
+          {"right", parts.by_place[1]},
+          {"by_distance", parts.by_distance}};
 }
 
 template <class... Values>
@@ -34,14 +26,15 @@ std::string line(const char* format, Values... values) {
 
 }  // namespace
 
-Json to_json(const DriveCalibration& result) {
+std::string calibration_json(const DriveCalibration& result, const std::string& command) {
   Json json;
+  add_origin(json, command);
   json["verdict"] = to_string(result.verdict);
   json["text"] = result.text();
   json["frames"] = result.frames;
   json["pairs"] = result.pairs;
   json["points"] = result.points;
-  json["contradiction"] = to_json(result.contradiction);
+  json["contradiction"] = result.contradiction;
   json["unseen_px"] = {{"given", both_sides(result.unseen_given)}, {"learned", both_sides(result.unseen_learned)}};
   json["unseen_parts_px"] = {{"farthest_m", UnseenDistances::kFarthest},
                              {"given", parts_json(result.unseen_parts_given)},
@@ -57,7 +50,7 @@ Json to_json(const DriveCalibration& result) {
   }
   json["depth_error"] = Json::array();
   for (const auto& at : result.change.depths)
-    json["depth_error"].push_back({{"depth_m", at.depth}, {"percent", to_json(100 * at.error)}});
+    json["depth_error"].push_back({{"depth_m", at.depth}, {"percent", 100 * at.error}});
   json["rotation_deg"] = result.change.rotation / kDegree;
   json["largest_displacement_px"] = both_sides(result.change.largest_displacement);
   json["covariance"] = Json::array();
@@ -67,13 +60,6 @@ Json to_json(const DriveCalibration& result) {
       values.push_back(result.covariance(row, column));
     json["covariance"].push_back(std::move(values));
   }
-  return json;
-}
-
-std::string calibration_json(const DriveCalibration& result, const std::string& command) {
-  Json json;
-  add_origin(json, command);
-  json.update(to_json(result));
   return json_text(json);
 }
 

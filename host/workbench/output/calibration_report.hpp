@@ -8,10 +8,7 @@
 
 namespace quadedge::report {
 
-/// Judgement, numbers with their deviations, what they change, covariance.
-Json to_json(const DriveCalibration& result);
-
-/// The same as a file, with its origin.
+/// Judgement, numbers with their deviations, what they change, covariance, as a file with its origin.
 std::string calibration_json(const DriveCalibration& result, const std::string& command);
 
 /// A line per number: change, deviation and prior; then what they change: depths, rotation, distances from the epipolar

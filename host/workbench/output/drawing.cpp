@@ -36,10 +36,9 @@ class Canvas {
  public:
   Canvas(const ImageView& image, double brightness, int legend_lines)
       : scale_(scale_for(image.width)), image_height_(image.height * scale_) {
-    Image pixels = to_8_bits(image);
-    const cv::Mat grey(image.height, image.width, CV_8UC1, pixels.pixels.data());
+    const Image grey = to_8_bits(image);
     cv::Mat large;
-    cv::resize(grey, large, {}, scale_, scale_, cv::INTER_LINEAR);
+    cv::resize(data::matrix_of(grey), large, {}, scale_, scale_, cv::INTER_LINEAR);
     large.convertTo(large, CV_8UC1, brightness);
     picture_ =
         cv::Mat::zeros(large.rows + legend_lines * kLegendLine + 8, std::max(large.cols, kSmallestWidth), CV_8UC3);
@@ -219,10 +218,9 @@ void draw_stereo(const std::string& path, const ImageView& left, const StereoEdg
 void draw_pair(const std::string& path, const ImageView& left, const ImageView& right) {
   cv::Mat views[2];
   for (const auto& [image, view] : {std::pair(&left, &views[0]), std::pair(&right, &views[1])}) {
-    Image pixels = to_8_bits(*image);
+    const Image pixels = to_8_bits(*image);
     const int height = std::max(1, kThumbnailWidth * image->height / image->width);
-    cv::resize(cv::Mat(pixels.height, pixels.width, CV_8U, pixels.pixels.data()), *view, {kThumbnailWidth, height}, 0,
-               0, cv::INTER_AREA);
+    cv::resize(data::matrix_of(pixels), *view, {kThumbnailWidth, height}, 0, 0, cv::INTER_AREA);
   }
   cv::Mat pair = cv::Mat::zeros(std::max(views[0].rows, views[1].rows), 2 * kThumbnailWidth, CV_8U);
   views[0].copyTo(pair(cv::Rect({}, views[0].size())));
@@ -261,8 +259,8 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
 }
 
 void write_image(const std::string& path, const ImageView& image) {
-  Image grey = to_8_bits(image);
-  write_png(path, cv::Mat(grey.height, grey.width, CV_8U, grey.pixels.data()));
+  const Image grey = to_8_bits(image);
+  write_png(path, data::matrix_of(grey));
 }
 
 namespace {

@@ -10,45 +10,41 @@ namespace quadedge::report {
 namespace {
 
 Json accuracy(const TrajectoryEvaluation& evaluation) {
-  Json json = to_json(evaluation);
+  Json json = evaluation;
   json["estimate_poses"] = evaluation.estimate_poses;
   json["truth_poses"] = evaluation.truth_poses;
   for (const auto& segment : evaluation.segments) {
-    json["segments"].push_back(to_json(segment));
+    json["segments"].push_back(segment);
     json["segments"].back()["segment"] = segment.segment;
   }
   return json;
 }
 
 Json normalised(const evaluation::Consistency& consistency) {
-  return {{"pose", to_json(consistency.pose)},
-          {"rotation", to_json(consistency.rotation)},
-          {"translation", to_json(consistency.translation)}};
+  return {{"pose", consistency.pose}, {"rotation", consistency.rotation}, {"translation", consistency.translation}};
 }
 
 Json consistency(const evaluation::StepConsistency& step) {
   return {{"frames", step.frames},
           {"motions", step.edges.poses},
-          {"error_m", to_json(step.error_m)},
-          {"promised_m", to_json(step.promised_m)},
-          {"error_deg", to_json(step.error_deg)},
-          {"promised_deg", to_json(step.promised_deg)},
+          {"error_m", step.error_m},
+          {"promised_m", step.promised_m},
+          {"error_deg", step.error_deg},
+          {"promised_deg", step.promised_deg},
           {"normalised_error_squared_by_edges", normalised(step.edges)},
           {"normalised_error_squared", normalised(step.with_rig)}};
 }
 
 Json stages(const std::vector<std::vector<StageTime>>& frames) {
   Json object = Json::object();
-  for (const auto& row : stage_summary(frames))
-    object[row.stage] = {{"median", to_json(row.median)}, {"p90", to_json(row.p90)}};
+  for (const auto& row : stage_summary(frames)) object[row.stage] = {{"median", row.median}, {"p90", row.p90}};
   return object;
 }
 
 Json loops_json(const LoopFacts& loops) {
-  return {{"compared", loops.compared}, {"kept", loops.kept},
-          {"segments", loops.segments}, {"frames", loops.frames},
-          {"key_rigs", loops.key_rigs}, {"megabytes", loops.megabytes},
-          {"total_ms", loops.total_ms}, {"latency_ms", to_json(loops.latency)}};
+  return {{"compared", loops.compared}, {"kept", loops.kept},         {"segments", loops.segments},
+          {"frames", loops.frames},     {"key_rigs", loops.key_rigs}, {"megabytes", loops.megabytes},
+          {"total_ms", loops.total_ms}, {"latency_ms", loops.latency}};
 }
 
 std::map<LocalisationStatus, int> counts_of(const std::vector<Localisation>& frames) {
@@ -69,7 +65,7 @@ std::string report_json(const RunRecord& run) {
   Json report;
   report["schema"] = kReportSchema;
   add_origin(report, run.command);
-  report["device"] = to_json(run.device);
+  report["device"] = run.device;
   report["self_test"] = {{"verdict", run.self_test.verdict},
                          {"stage", run.self_test.test.stage},
                          {"difference", run.self_test.test.difference}};
@@ -88,20 +84,20 @@ std::string report_json(const RunRecord& run) {
   report["segments"] = run.frames.empty() ? 0 : run.frames.back().result.segment + 1;
   if (const std::string text = segments_text(run.frames); !text.empty()) report["segments_text"] = text;
   report["path_length_m"] = path_length_m(run.frames);
-  if (!run.frames.empty()) report["disparity_error_px"] = to_json(run.frames.back().result.rig.disparity_error);
+  if (!run.frames.empty()) report["disparity_error_px"] = run.frames.back().result.rig.disparity_error;
   report["warnings"] = Json::array();
   for (const auto& warning : run.input.warnings) report["warnings"].push_back({{"frame", nullptr}, {"text", warning}});
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     for (const Warning& warning : run.frames[i].result.warnings)
       report["warnings"].push_back({{"frame", i}, {"kind", to_string(warning.kind)}, {"text", warning.text}});
   }
-  report["latency_ms"] = to_json(latency_summary(run.frames));
+  report["latency_ms"] = latency_summary(run.frames);
   report["stages_ms"] = stages(stage_times(run.frames));
   if (!run.kernel_times.empty()) report["kernels_ms"] = stages(run.kernel_times);
   report["start_ms"] = {{"total", run.start_ms}, {"kernel_build", run.kernel_build_ms}};
   report["memory_mb"] = {{"host_peak", run.host_peak_mb}, {"device_peak", run.device_peak_mb}};
   report["counts"] = Json::object();
-  for (const auto& [name, value] : count_medians(run.frames)) report["counts"][name] = to_json(value);
+  for (const auto& [name, value] : count_medians(run.frames)) report["counts"][name] = value;
   if (run.points) {
     report["points"] = {
         {"count", run.points->points}, {"key_rigs", run.points->views}, {"dropped", run.points->dropped}};
@@ -138,10 +134,10 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
   json["per_pose"] = Json::array();
   for (const auto& pose : evaluation.per_pose) {
     json["per_pose"].push_back({{"stamp_ns", pose.stamp_ns},
-                                {"ape_rotation_deg", to_json(pose.ape_rotation_deg)},
-                                {"ape_translation_m", to_json(pose.ape_translation_m)},
-                                {"rpe_rotation_deg", to_json(pose.rpe_rotation_deg)},
-                                {"rpe_translation_m", to_json(pose.rpe_translation_m)}});
+                                {"ape_rotation_deg", pose.ape_rotation_deg},
+                                {"ape_translation_m", pose.ape_translation_m},
+                                {"rpe_rotation_deg", pose.rpe_rotation_deg},
+                                {"rpe_translation_m", pose.rpe_translation_m}});
   }
   return json_text(json);
 }
@@ -190,7 +186,7 @@ std::string localisation_json(const LocalisationRecord& record) {
   Json json;
   json["schema"] = kReportSchema;
   add_origin(json, record.command);
-  json["device"] = to_json(record.device);
+  json["device"] = record.device;
   json["map"] = {{"path", record.map_file}, {"key_rigs", record.key_rigs}};
   json["input"] = {{"path", record.input.path},
                    {"format", record.input.format},
@@ -200,10 +196,10 @@ std::string localisation_json(const LocalisationRecord& record) {
   json["frames_located"] = record.located();
   json["frames"] = Json::object();
   for (const auto& [status, count] : counts_of(record.frames)) json["frames"][to_string(status)] = count;
-  json["latency_ms"] = {{"median", to_json(median_latency_ms(record.frames))}};
+  json["latency_ms"] = {{"median", median_latency_ms(record.frames)}};
   if (record.accuracy) {
-    json["accuracy"] = {{"origin_aligned", to_json(record.accuracy->origin_aligned)},
-                        {"se3_aligned", to_json(record.accuracy->se3_aligned)},
+    json["accuracy"] = {{"origin_aligned", record.accuracy->origin_aligned},
+                        {"se3_aligned", record.accuracy->se3_aligned},
                         {"matched_poses", record.accuracy->matched},
                         {"truth_file", record.truth_file}};
   }

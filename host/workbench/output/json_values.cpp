@@ -40,33 +40,54 @@ void add_configuration(Json& json, const Config& config) {
   }
 }
 
+}  // namespace quadedge::report
+
+namespace quadedge {
+
 /// t_rel and r_rel over sub-paths of one length, or of all.
-static Json to_json(const SubPathErrors& errors) {
-  return {{"sub_paths", errors.count},
-          {"t_rel_percent", to_json(errors.translation_percent)},
-          {"t_rel_sd_percent", to_json(errors.translation_sd_percent)},
-          {"r_rel_deg_per_m", to_json(errors.rotation_deg_per_m)},
-          {"r_rel_sd_deg_per_m", to_json(errors.rotation_sd_deg_per_m)}};
+static void to_json(report::Json& json, const SubPathErrors& errors) {
+  json = {{"sub_paths", errors.count},
+          {"t_rel_percent", errors.translation_percent},
+          {"t_rel_sd_percent", errors.translation_sd_percent},
+          {"r_rel_deg_per_m", errors.rotation_deg_per_m},
+          {"r_rel_sd_deg_per_m", errors.rotation_sd_deg_per_m}};
 }
 
-Json to_json(const TrajectoryEvaluation& evaluation) {
-  Json json = {{"origin_aligned", to_json(evaluation.origin_aligned)},
-               {"se3_aligned", to_json(evaluation.se3_aligned)},
-               {"matched_poses", evaluation.matched},
-               {"ate_rmse_m", to_json(evaluation.se3_aligned.ape_translation_m.rmse)},
-               {"rpe_steps", evaluation.rpe_steps},
-               {"rpe_interval", {{"frames", 1}, {"seconds", to_json(evaluation.rpe_interval_s)}}},
-               {"path_length_m", to_json(evaluation.path_length_m)},
-               {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
-  json["sub_paths"] = {{"all", to_json(evaluation.sub_path_mean)}, {"by_length", Json::array()}};
+void to_json(report::Json& json, const TrajectoryEvaluation& evaluation) {
+  json = {{"origin_aligned", evaluation.origin_aligned},
+          {"se3_aligned", evaluation.se3_aligned},
+          {"matched_poses", evaluation.matched},
+          {"ate_rmse_m", evaluation.se3_aligned.ape_translation_m.rmse},
+          {"rpe_steps", evaluation.rpe_steps},
+          {"rpe_interval", {{"frames", 1}, {"seconds", evaluation.rpe_interval_s}}},
+          {"path_length_m", evaluation.path_length_m},
+          {"end_drift_percent", evaluation.end_drift_percent}};
+  json["sub_paths"] = {{"all", evaluation.sub_path_mean}, {"by_length", report::Json::array()}};
   for (const SubPathErrors& errors : evaluation.sub_paths) {
     if (errors.count == 0) continue;
-    Json entry = {{"length_m", errors.length_m}};
-    entry.update(to_json(errors));
+    report::Json entry = {{"length_m", errors.length_m}};
+    entry.update(errors);
     json["sub_paths"]["by_length"].push_back(entry);
   }
   if (!evaluation.se3_open_rotation.empty()) json["se3_open_rotation"] = evaluation.se3_open_rotation;
-  return json;
 }
 
-}  // namespace quadedge::report
+void to_json(report::Json& json, const DeviceInfo& device) {
+  const FloatSupport& support = device.single_precision;
+  json = {{"name", device.name},
+          {"platform", device.platform},
+          {"driver", device.driver},
+          {"opencl", device.opencl},
+          {"type", device.type},
+          {"single_precision",
+           {{"fma", support.fma},
+            {"denormals", support.denormals},
+            {"rounding", report::Json::array()},
+            {"correctly_rounded_divide_sqrt", support.exact_divide_sqrt}}}};
+  report::Json& rounding = json["single_precision"]["rounding"];
+  if (support.rounds_to_nearest) rounding.push_back("nearest");
+  if (support.rounds_to_zero) rounding.push_back("zero");
+  if (support.rounds_to_infinity) rounding.push_back("infinity");
+}
+
+}  // namespace quadedge

@@ -2,11 +2,13 @@
 #include "output/motion_errors.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
 #include "common/numeric.hpp"
+#include "data/trajectory_rows.hpp"
 #include "geometry/uncertain_pose.hpp"
 
 namespace quadedge::evaluation {
@@ -81,8 +83,8 @@ StepConsistency judge_length(const std::vector<FrameResult>& results, const Traj
   for (int first = 0; first + frames < static_cast<int>(results.size()); ++first) {
     const auto& from = results[static_cast<std::size_t>(first)];
     const auto& to = results[static_cast<std::size_t>(first + frames)];
-    const auto* true_from = pose_at(truth, from.stamp_ns, kStampToleranceNs);
-    const auto* true_to = pose_at(truth, to.stamp_ns, kStampToleranceNs);
+    const auto* true_from = data::pose_at(truth, from.stamp_ns, kStampToleranceNs);
+    const auto* true_to = data::pose_at(truth, to.stamp_ns, kStampToleranceNs);
     if (true_from == nullptr || true_to == nullptr || !is_tracked(from.status) || !is_tracked(to.status)) continue;
     const auto motion = motion_between(results, first, first + frames);
     if (!motion || !(motion->covariance.diagonal().minCoeff() > 0)) continue;
@@ -114,8 +116,8 @@ Consistency judge_covariances(const std::vector<FrameResult>& results, const Tra
     if (result.status != FrameStatus::tracked) continue;
     if (!(result.relative_covariance->diagonal().minCoeff() > 0)) continue;
     const auto& reference = results.at(static_cast<std::size_t>(result.reference_frame));
-    const auto* true_reference = pose_at(truth, reference.stamp_ns, kStampToleranceNs);
-    const auto* true_current = pose_at(truth, result.stamp_ns, kStampToleranceNs);
+    const auto* true_reference = data::pose_at(truth, reference.stamp_ns, kStampToleranceNs);
+    const auto* true_current = data::pose_at(truth, result.stamp_ns, kStampToleranceNs);
     if (true_reference == nullptr || true_current == nullptr) continue;
     const auto error = perturbation(*result.current_from_reference,
                                     true_current->world_from_left.inverse() * true_reference->world_from_left);
@@ -147,11 +149,11 @@ StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
                           std::int64_t max_stamp_difference_ns) {
   StepJudgement result;
   for (std::size_t i = 1; i < frames_ns.size(); ++i) {
-    const auto* true_before = pose_at(truth, frames_ns[i - 1], max_stamp_difference_ns);
-    const auto* true_after = pose_at(truth, frames_ns[i], max_stamp_difference_ns);
+    const auto* true_before = data::pose_at(truth, frames_ns[i - 1], max_stamp_difference_ns);
+    const auto* true_after = data::pose_at(truth, frames_ns[i], max_stamp_difference_ns);
     if (true_before == nullptr || true_after == nullptr) continue;
-    const auto* before = pose_at(estimate, frames_ns[i - 1], max_stamp_difference_ns);
-    const auto* after = pose_at(estimate, frames_ns[i], max_stamp_difference_ns);
+    const auto* before = data::pose_at(estimate, frames_ns[i - 1], max_stamp_difference_ns);
+    const auto* after = data::pose_at(estimate, frames_ns[i], max_stamp_difference_ns);
     if (before == nullptr || after == nullptr || before->segment != after->segment) {
       ++result.lost;
       continue;

@@ -2,9 +2,7 @@
 /// \file motion_errors.hpp  Errors of motions: relative to the errors that their covariances predict, and as counts of
 /// correct, wrong and lost steps between frames.
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "quadedge/config.hpp"
@@ -13,18 +11,6 @@
 #include "quadedge/trajectory.hpp"
 
 namespace quadedge::evaluation {
-
-/// The pose nearest in time, among poses with increasing timestamps; null if none is within the tolerance.
-inline const StampedPose* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
-  const auto later =
-      std::lower_bound(poses.begin(), poses.end(), stamp_ns,
-                       [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
-  const auto distance = [&](Trajectory::const_iterator pose) { return std::abs(pose->stamp_ns - stamp_ns); };
-  auto nearest = later;
-  if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later)))
-    nearest = std::prev(later);
-  return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &*nearest : nullptr;
-}
 
 /// Normalised estimation error squared (NEES) e^T C^-1 e over the tracked frames, per degree of freedom. It is 1 if the
 /// covariances C of the poses relative to their keyframes describe the errors, and larger if they are too small.

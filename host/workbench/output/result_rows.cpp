@@ -43,6 +43,21 @@ std::string csv_line(const std::vector<std::string>& fields) {
   return line + "\n";
 }
 
+/// One record: every field with the name of its column.
+class CsvRow {
+ public:
+  void add(std::string name, std::string field) {
+    names_.push_back(std::move(name));
+    fields_.push_back(std::move(field));
+  }
+  void add(std::string name, std::int64_t value) { add(std::move(name), std::to_string(value)); }
+  std::string heading() const { return csv_line(names_); }
+  std::string line() const { return csv_line(fields_); }
+
+ private:
+  std::vector<std::string> names_, fields_;
+};
+
 /// Empty for NaN.
 std::string rounded(const char* format, double value) {
   return std::isfinite(value) ? printed(format, value) : std::string();
@@ -139,32 +154,6 @@ std::string box_text(const std::optional<Eigen::Vector4d>& box) {
   return text;
 }
 
-}  // namespace
-
-AppendFile::AppendFile(std::string path) : path_(std::move(path)), stream_(std::fopen(path_.c_str(), "wb")) {
-  if (stream_ == nullptr) fail("opened for writing");
-}
-
-AppendFile::~AppendFile() {
-  if (stream_ != nullptr) std::fclose(stream_);
-}
-
-void AppendFile::append(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0) fail("written");
-}
-
-void AppendFile::fail(const char* what) const {
-  throw DataError(path_ + ": cannot be " + what + ": " + std::strerror(errno));
-}
-
-void CsvRow::add(std::string name, std::string field) {
-  names_.push_back(std::move(name));
-  fields_.push_back(std::move(field));
-}
-
-std::string CsvRow::heading() const { return csv_line(names_); }
-std::string CsvRow::line() const { return csv_line(fields_); }
-
 CsvRow frames_row(int number, const FrameResult& result) {
   CsvRow row;
   row.add("frame", number);
@@ -207,6 +196,44 @@ CsvRow poses_row(int number, const FrameResult& result) {
   return row;
 }
 
+CsvRow locations_row(int number, const Localisation& frame) {
+  const bool located = frame.map_from_left.has_value();
+  const auto add_located = [&](CsvRow& row, const char* name, const std::string& field) {
+    row.add(name, located ? field : std::string());
+  };
+  CsvRow row;
+  row.add("frame", number);
+  row.add("stamp_s", data::format_seconds(frame.stamp_ns));
+  row.add("status", std::string(to_string(frame.status)));
+  add_located(row, "key_rig", std::to_string(frame.key_rig));
+  add_located(row, "followed", frame.is_followed ? "1" : "0");
+  add_located(row, "inliers", std::to_string(frame.inliers));
+  add_located(row, "support", data::format_exact(frame.support));
+  add_pose(row, "", frame.map_from_left);
+  row.add("latency_ms", data::format_exact(frame.latency_ms));
+  row.add("warning", joined(frame.warnings));
+  row.add("message", frame.message);
+  return row;
+}
+
+}  // namespace
+
+AppendFile::AppendFile(std::string path) : path_(std::move(path)), stream_(std::fopen(path_.c_str(), "wb")) {
+  if (stream_ == nullptr) fail("opened for writing");
+}
+
+AppendFile::~AppendFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+}
+
+void AppendFile::append(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0) fail("written");
+}
+
+void AppendFile::fail(const char* what) const {
+  throw DataError(path_ + ": cannot be " + what + ": " + std::strerror(errno));
+}
+
 GrowingFiles::GrowingFiles(const std::string& folder)
     : tum_(folder + "/trajectory.txt"),
       kitti_(folder + "/trajectory_kitti.txt"),
@@ -227,24 +254,15 @@ void GrowingFiles::add(const FrameResult& result) {
   ++number_;
 }
 
-CsvRow locations_row(int number, const Localisation& frame) {
-  const bool located = frame.map_from_left.has_value();
-  const auto add_located = [&](CsvRow& row, const char* name, const std::string& field) {
-    row.add(name, located ? field : std::string());
-  };
-  CsvRow row;
-  row.add("frame", number);
-  row.add("stamp_s", data::format_seconds(frame.stamp_ns));
-  row.add("status", std::string(to_string(frame.status)));
-  add_located(row, "key_rig", std::to_string(frame.key_rig));
-  add_located(row, "followed", frame.is_followed ? "1" : "0");
-  add_located(row, "inliers", std::to_string(frame.inliers));
-  add_located(row, "support", data::format_exact(frame.support));
-  add_pose(row, "", frame.map_from_left);
-  row.add("latency_ms", data::format_exact(frame.latency_ms));
-  row.add("warning", joined(frame.warnings));
-  row.add("message", frame.message);
-  return row;
+LocationFiles::LocationFiles(const std::string& folder)
+    : trajectory_(folder + "/trajectory.txt"), rows_(folder + "/locations.csv") {
+  trajectory_.append(data::tum_header());
+  rows_.append(locations_row(0, {}).heading());
+}
+
+void LocationFiles::add(int number, const Localisation& frame) {
+  if (frame.map_from_left) trajectory_.append(data::tum_row({frame.stamp_ns, *frame.map_from_left}));
+  rows_.append(locations_row(number, frame).line());
 }
 
 std::string errors_csv(const TrajectoryEvaluation& evaluation) { return table(evaluation.per_pose, error_row); }

@@ -1,6 +1,5 @@
 #pragma once
-/// \file result_rows.hpp  The CSV files of results (doc/reference.md), row by row. A row states its heading, too,
-/// that of a default item included. Fields without a value are empty.
+/// \file result_rows.hpp  The CSV files of results (doc/reference.md), row by row. Fields without a value are empty.
 
 #include <cstdint>
 #include <cstdio>
@@ -34,30 +33,13 @@ class AppendFile {
   std::FILE* stream_ = nullptr;
 };
 
-/// One record: every field with the name of its column.
-class CsvRow {
- public:
-  void add(std::string name, std::string field);
-  void add(std::string name, std::int64_t value) { add(std::move(name), std::to_string(value)); }
-  std::string heading() const;  ///< the line of names
-  /// The line of fields, quoted where they have commas, quotes or line breaks; these become blanks.
-  std::string line() const;
-
- private:
-  std::vector<std::string> names_, fields_;
-};
-
-/// frames.csv: status, counts and times of an input frame. `number`: in the run, from 0.
-CsvRow frames_row(int number, const FrameResult& result);
-
-/// poses.csv: frame, stamp_s, status, segment, reference_frame; the left camera's pose in the world (x, y, z [m], qx,
-/// qy, qz, qw) and in the frame of the reference's left camera (reference_x ... reference_qw); then the upper triangles
-/// of both covariances, row by row (covariance_x_x, covariance_x_y ... covariance_rz_rz and reference_covariance_...),
-/// in the order x, y, z, rotation about x, y, z of the frame that the pose is in; see PoseCovariance; and base_frame,
-/// as in FrameDiagnostics. A lost frame has the predicted pose in the world and nothing else.
-CsvRow poses_row(int number, const FrameResult& result);
-
-/// The files of a run that get a row with every frame: trajectory.txt, trajectory_kitti.txt, frames.csv and poses.csv.
+/// The files of a run that get a row with every frame: trajectory.txt, trajectory_kitti.txt; frames.csv with status,
+/// counts and times; and poses.csv: frame, stamp_s, status, segment, reference_frame; the left camera's pose in the
+/// world (x, y, z [m], qx, qy, qz, qw) and in the frame of the reference's left camera (reference_x ... reference_qw);
+/// then the upper triangles of both covariances, row by row (covariance_x_x, covariance_x_y ... covariance_rz_rz and
+/// reference_covariance_...), in the order x, y, z, rotation about x, y, z of the frame that the pose is in; see
+/// PoseCovariance; and base_frame, as in FrameDiagnostics. A lost frame has the predicted pose in the world and nothing
+/// else.
 class GrowingFiles {
  public:
   /// Truncates them. \throws DataError with path and reason, as does add().
@@ -69,9 +51,18 @@ class GrowingFiles {
   AppendFile tum_, kitti_, frames_, poses_;
 };
 
+/// The files of a localisation that get a row with every frame: trajectory.txt with those that are located, and
 /// locations.csv: frame, stamp_s, status, key_rig, followed, inliers, support; x, y, z [m] and qx, qy, qz, qw of the
 /// left camera in the map; latency_ms, warning, message.
-CsvRow locations_row(int number, const Localisation& frame);
+class LocationFiles {
+ public:
+  /// Truncates them. \throws DataError with path and reason, as does add().
+  explicit LocationFiles(const std::string& folder);
+  void add(int number, const Localisation& frame);
+
+ private:
+  AppendFile trajectory_, rows_;
+};
 
 /// errors.csv: stamp_s, ape_rotation_deg, ape_translation_m, rpe_rotation_deg, rpe_translation_m of every pose that has
 /// ground truth; origin-aligned. The first pose of a segment has no step before it: its RPE fields are empty.

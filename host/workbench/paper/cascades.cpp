@@ -227,17 +227,7 @@ StereoEdges stereo_edges(const StereoMatching& matching, const EdgeSet& left, co
   StereoEdges edges;
   for (std::size_t i = 0; i < left.size(); ++i) {
     if (matching.chosen[i] < 0) continue;
-    const auto k = static_cast<std::size_t>(matching.chosen[i]);
-    const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
-    edges.left_index.push_back(static_cast<std::int32_t>(i));
-    edges.right_index.push_back(matching.clusters.anchor[k]);
-    edges.left_x.push_back(left.x[i]);
-    edges.left_y.push_back(left.y[i]);
-    edges.left_direction.push_back(left.direction[i]);
-    edges.right_x.push_back(static_cast<float>(line.x + matching.clusters.position[k] * line.ex));
-    edges.right_y.push_back(static_cast<float>(line.y + matching.clusters.position[k] * line.ey));
-    edges.right_direction.push_back(static_cast<float>(matching.clusters.direction[k]));
-    edges.ncc.push_back(static_cast<float>(matching.clusters.similarity[k]));
+    reference::append(left, i, matching.clusters, static_cast<std::size_t>(matching.chosen[i]), geometry, edges);
   }
   return edges;
 }

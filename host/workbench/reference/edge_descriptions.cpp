@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "common/layouts.hpp"
@@ -28,6 +27,18 @@ double bilinear(int width, int height, double x, double y, const Value& value) {
   const double top = value(x0, y0) + fx * (value(x1, y0) - value(x0, y0));
   const double bottom = value(x0, y1) + fx * (value(x1, y1) - value(x0, y1));
   return top + fy * (bottom - top);
+}
+
+/// Clips bins, normalises them and stores them as bytes, as SIFT does (Lowe 2004, section 6).
+template <std::size_t Bins>
+void store(const std::array<double, Bins>& histogram, std::uint8_t* descriptor) {
+  double squares = 0, clipped_squares = 0;
+  for (const double value : histogram) squares += value * value;
+  const double clip = kHistogramClip * std::sqrt(squares);
+  for (const double value : histogram) clipped_squares += std::pow(std::min(value, clip), 2);
+  const double scale = clipped_squares > 0 ? kHistogramNorm / std::sqrt(clipped_squares) : 0.0;
+  for (const double value : histogram)
+    *descriptor++ = static_cast<std::uint8_t>(std::min(std::round(std::min(value, clip) * scale), 255.0));
 }
 
 }  // namespace
@@ -172,13 +183,7 @@ void describe(const SmallImage& small, double x, double y, double direction, std
       }
     }
   }
-  double squares = 0, clipped = 0;
-  for (double value : histogram) squares += value * value;
-  const double clip = kWideClip * std::sqrt(squares);
-  for (double value : histogram) clipped += std::pow(std::min(value, clip), 2);
-  const double scale = clipped > 0 ? kWideNorm / std::sqrt(clipped) : 0.0;
-  for (double value : histogram)
-    *descriptor++ = static_cast<std::uint8_t>(std::min(std::round(std::min(value, clip) * scale), 255.0));
+  store(histogram, descriptor);
 }
 
 }  // namespace
@@ -264,18 +269,6 @@ void add_sample(Histogram& histogram, double across, double along, double angle,
         histogram[(r * kSiftCells + c) * kSiftAngles + bin] += weight * share;
       }
     }
-  }
-}
-
-void store(const Histogram& histogram, std::uint8_t* descriptor) {
-  double squares = 0;
-  for (double value : histogram) squares += value * value;
-  const double clip = kSiftClip * std::sqrt(squares);
-  double clipped_squares = 0;
-  for (double value : histogram) clipped_squares += std::pow(std::min(value, clip), 2);
-  const double scale = clipped_squares > 0 ? kSiftNorm / std::sqrt(clipped_squares) : 0.0;
-  for (int k = 0; k < kSiftBytes; ++k) {
-    descriptor[k] = static_cast<std::uint8_t>(std::min(std::round(std::min(histogram[k], clip) * scale), 255.0));
   }
 }
 

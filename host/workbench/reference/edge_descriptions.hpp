@@ -1,7 +1,6 @@
 #pragma once
 /// \file edge_descriptions.hpp  Plain C++ twins of stage 3: what describes an edge.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -90,12 +89,13 @@ std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<
 /// the kernels give the same bits.
 float patch_ncc(const std::int8_t* a, const std::int8_t* b);
 
+inline constexpr double kHistogramClip = 0.2;    ///< largest fraction of the norm in one bin of a descriptor
+inline constexpr double kHistogramNorm = 512.0;  ///< norm of its stored bytes
+
 // Plain C++ twin of kernels/wide_description.cl.
 
 inline constexpr int kWideHalf = 7;            ///< samples on either side of the middle one
 inline constexpr double kWideCellWidth = 3.0;  ///< small pixels: 9 px of the image
-inline constexpr double kWideClip = 0.2;       ///< largest fraction of the norm in one bin
-inline constexpr double kWideNorm = 512.0;
 
 /// Means of blocks of kWideShrink x kWideShrink pixels; remaining pixels at the right and at the bottom are ignored.
 struct SmallImage {
@@ -118,9 +118,7 @@ inline constexpr double kSiftAssumedSigma = 0.5;  ///< blur that a recorded imag
 inline constexpr double kSiftBaseSigma = 1.6;     ///< blur in which gradients are taken [px]
 inline constexpr int kSiftBlurRadius = 6;         ///< taps on either side: 4 sigma of the blur that is added, rounded
 inline constexpr double kSiftCellWidth = 1.5;     ///< px
-inline constexpr int kSiftRadius = 5;       ///< half the sampling window [px]: cell width * (4 + 1) / sqrt(2), rounded
-inline constexpr double kSiftClip = 0.2;    ///< largest fraction of the norm in one bin
-inline constexpr double kSiftNorm = 512.0;  ///< norm of the stored bytes
+inline constexpr int kSiftRadius = 5;  ///< half the sampling window [px]: cell width * (4 + 1) / sqrt(2), rounded
 
 /// Length and angle of the central difference of the blurred image, height x width; zero length on the outermost
 /// pixels.

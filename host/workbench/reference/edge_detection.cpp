@@ -444,15 +444,10 @@ ReferenceEdges select_edges(const ReferenceEdges& edges, const std::vector<std::
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (kept[i] != 0) chosen.push_back(values[i]);
   };
-  filter(edges.x, result.x);
-  filter(edges.y, result.y);
-  filter(edges.direction, result.direction);
-  filter(edges.strength, result.strength);
-  filter(edges.scale_shift, result.scale_shift);
-  filter(edges.gradient_x, result.gradient_x);
-  filter(edges.gradient_y, result.gradient_y);
-  filter(edges.peak_x, result.peak_x);
-  filter(edges.peak_y, result.peak_y);
+  for (const auto numbers : {&ReferenceEdges::x, &ReferenceEdges::y, &ReferenceEdges::direction,
+                             &ReferenceEdges::strength, &ReferenceEdges::scale_shift, &ReferenceEdges::gradient_x,
+                             &ReferenceEdges::gradient_y, &ReferenceEdges::peak_x, &ReferenceEdges::peak_y})
+    filter(edges.*numbers, result.*numbers);
   filter(edges.column, result.column);
   filter(edges.row, result.row);
   std::int32_t count = 0;
@@ -468,14 +463,8 @@ ReferenceEdges outside_mask(const ReferenceEdges& edges, const PixelMask& mask, 
   if (mask.empty()) return edges;
   const PixelMask wide = with_border(mask, margin);
   std::vector<std::uint8_t> kept;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const int x = edges.column[i], y = edges.row[i];
-    kept.push_back(
-        wide.hidden[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide.width) + static_cast<std::size_t>(x)] ==
-                0
-            ? 1
-            : 0);
-  }
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    kept.push_back(1 - wide.hidden[static_cast<std::size_t>(edges.row[i] * wide.width + edges.column[i])]);
   return select_edges(edges, kept);
 }
 

@@ -19,27 +19,10 @@ Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
   return image;
 }
 
-namespace {
-
-/// A row of Pascal's triangle.
-std::vector<std::int64_t> binomial(int order) {
-  std::vector<std::int64_t> row{1};
-  for (int n = 0; n < order; ++n) {
-    std::vector<std::int64_t> next(row.size() + 1, 0);
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      next[k] += row[k];
-      next[k + 1] += row[k];
-    }
-    row = next;
-  }
-  return row;
-}
-
-}  // namespace
-
 Image smoothed(const ImageView& image) {
   constexpr int kOrder = 16;
-  const std::vector<std::int64_t> weights = binomial(kOrder);
+  std::vector<std::int64_t> weights = {1};  // a row of Pascal's triangle
+  for (int k = 0; k < kOrder; ++k) weights.push_back(weights.back() * (kOrder - k) / (k + 1));
   Image result(image.width, image.height, image.max_value);
   const auto clamped = [](int i, int size) { return std::clamp(i, 0, size - 1); };
   const auto weight = [&](int offset) { return weights[static_cast<std::size_t>(offset + kOrder / 2)]; };

@@ -345,6 +345,20 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
   return clusters;
 }
 
+void append(const EdgeSet& left, std::size_t i, const StereoClusters& clusters, std::size_t c,
+            const EpipolarGeometry& geometry, StereoEdges& edges) {
+  const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
+  edges.left_index.push_back(static_cast<std::int32_t>(i));
+  edges.right_index.push_back(clusters.anchor[c]);
+  edges.left_x.push_back(left.x[i]);
+  edges.left_y.push_back(left.y[i]);
+  edges.left_direction.push_back(left.direction[i]);
+  edges.right_x.push_back(static_cast<float>(line.x + clusters.position[c] * line.ex));
+  edges.right_y.push_back(static_cast<float>(line.y + clusters.position[c] * line.ey));
+  edges.right_direction.push_back(static_cast<float>(clusters.direction[c]));
+  edges.ncc.push_back(static_cast<float>(clusters.similarity[c]));
+}
+
 StereoEdges stereo_mutual(const StereoClusters& clusters, const StereoRelaxation& relaxation, const EdgeSet& left,
                           const EpipolarGeometry& geometry, const StereoConfig& config) {
   const auto& best = relaxation.chosen;
@@ -361,17 +375,8 @@ StereoEdges stereo_mutual(const StereoClusters& clusters, const StereoRelaxation
     const auto c = static_cast<std::size_t>(best[i]);
     const std::size_t best_left = owner.at(clusters.anchor[c]);
     if (std::hypot(left.x[best_left] - left.x[i], left.y[best_left] - left.y[i]) > config.mutual_radius) continue;
-    const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
-    edges.left_index.push_back(static_cast<std::int32_t>(i));
-    edges.right_index.push_back(clusters.anchor[c]);
-    edges.left_x.push_back(left.x[i]);
-    edges.left_y.push_back(left.y[i]);
-    edges.left_direction.push_back(left.direction[i]);
+    append(left, i, clusters, c, geometry, edges);
     edges.left_scale_shift.push_back(left.scale_shift[i]);
-    edges.right_x.push_back(static_cast<float>(line.x + clusters.position[c] * line.ex));
-    edges.right_y.push_back(static_cast<float>(line.y + clusters.position[c] * line.ey));
-    edges.right_direction.push_back(static_cast<float>(clusters.direction[c]));
-    edges.ncc.push_back(static_cast<float>(clusters.similarity[c]));
   }
   return edges;
 }

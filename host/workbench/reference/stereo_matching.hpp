@@ -80,6 +80,10 @@ StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet
 
 // Plain C++ twin of kernels/stereo_mutual.cl.
 
+/// Appends left edge i with its cluster c, but for the scale-space shift.
+void append(const EdgeSet& left, std::size_t i, const StereoClusters& clusters, std::size_t c,
+            const EpipolarGeometry& geometry, StereoEdges& edges);
+
 /// Keeps a left edge if the best left edge of its right edge, by the score of the relaxation, is itself or lies within
 /// `mutual_radius` on the same curve, and collects the survivors in the order of their left edges.
 ///

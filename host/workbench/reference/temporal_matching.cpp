@@ -63,7 +63,7 @@ TemporalMatchLists match_side(const EdgePositionsView& predicted, const EdgePosi
   return lists;
 }
 
-constexpr float kSquare = static_cast<float>(kWideNorm * kWideNorm);  // squared norm of a wide descriptor
+constexpr float kSquare = static_cast<float>(kHistogramNorm * kHistogramNorm);  // squared norm of a wide descriptor
 
 float similarity(const WideEdges& a, std::size_t i, const WideEdges& b, std::size_t j) {
   int sum = 0;

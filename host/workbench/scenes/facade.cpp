@@ -24,10 +24,6 @@ constexpr double kFacingUp = -0.5 * kPi;      // pitch of a horizontal plane
 /// Start of the path "ellipse".
 Isometry3d street_from_world() { return pose(Vector3d::Zero(), kSlant, 0.02, 0.02); }
 
-using TexturePointer = std::shared_ptr<const Texture>;
-
-Isometry3d at(double x, double y, double z) { return pose({x, y, z}, 0.0, 0.0, 0.0); }
-
 class Facade {
  public:
   Facade(std::uint64_t seed, double focal)
@@ -43,20 +39,13 @@ class Facade {
   }
 
  private:
-  TexturePointer clad(const CladdingStyle& style, double half_width, double half_height, double nearest) {
-    return build_.shared_texture(cladding(style, build_.next_seed()), half_width, half_height, nearest);
-  }
-  TexturePointer speckled(const TextureStyle& style, double half_width, double half_height, double nearest) {
-    return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, nearest);
-  }
-
   /// Road, pavement, garden, the far side and the end of the road, and the sky.
   void surroundings() {
     constexpr double kMiddle = 0.5 * (kStart + kEnd), kHalf = 0.5 * (kEnd - kStart) + 12.0;
     const auto ground = [&](double from, double to, const TextureStyle& style, double drop) {
       const double half = 0.5 * (to - from);
       build_.plane(pose({kMiddle, kGround + drop, 0.5 * (from + to)}, 0.0, kFacingUp, 0.0), kHalf, half,
-                   speckled(style, kHalf, half, 1.7));
+                   build_.speckled(style, kHalf, half, 1.7));
     };
     TextureStyle road = leaves(0.06, 3, 0.0, 105.0);
     road.spread = 35.0;
@@ -64,17 +53,17 @@ class Facade {
     CladdingStyle slabs;
     slabs.unit_width = 0.6, slabs.unit_height = 0.4, slabs.joint = 0.012, slabs.bond = 0.5;
     slabs.mean = 165.0, slabs.spread = 18.0, slabs.noise = 9.0;
-    build_.plane(pose({kMiddle, kGround, 1.3}, 0.0, kFacingUp, 0.0), kHalf, 0.8, clad(slabs, kHalf, 0.8, 1.7));
+    build_.plane(pose({kMiddle, kGround, 1.3}, 0.0, kFacingUp, 0.0), kHalf, 0.8, build_.clad(slabs, kHalf, 0.8, 1.7));
     TextureStyle lawn = leaves(0.09, 3, 0.0, 120.0);
     lawn.spread = 55.0;
     ground(2.1, kFront + 1.0, lawn, 0.0);
 
     TextureStyle hedge = leaves(0.16, 4, 0.0, 80.0);
-    build_.plane(pose({kMiddle, 0.4, -5.0}, kPi, 0.0, 0.0), kHalf, 1.2, speckled(hedge, kHalf, 1.2, 3.0));
+    build_.plane(pose({kMiddle, 0.4, -5.0}, kPi, 0.0, 0.0), kHalf, 1.2, build_.speckled(hedge, kHalf, 1.2, 3.0));
     CladdingStyle far_boards = boards();
     far_boards.unit_width = 0.3;
-    build_.plane(pose({kMiddle, -1.6, -9.0}, kPi, 0.0, 0.0), kHalf, 3.4, clad(far_boards, kHalf, 3.4, 6.0));
-    build_.plane(pose({kEnd + 6.0, -1.6, -2.0}, 0.5 * kPi, 0.0, 0.0), 12.0, 3.4, clad(bricks(), 12.0, 3.4, 6.0));
+    build_.plane(pose({kMiddle, -1.6, -9.0}, kPi, 0.0, 0.0), kHalf, 3.4, build_.clad(far_boards, kHalf, 3.4, 6.0));
+    build_.plane(pose({kEnd + 6.0, -1.6, -2.0}, 0.5 * kPi, 0.0, 0.0), 12.0, 3.4, build_.clad(bricks(), 12.0, 3.4, 6.0));
 
     TextureStyle sky;
     sky.noise = 22.0, sky.noise_size = 30.0, sky.mean = 205.0;
@@ -118,17 +107,20 @@ class Facade {
     const double half = 0.5 * (to - from), middle = 0.5 * (from + to), nearest = 3.2;
     const double front = kFront + (boarded ? 0.0 : random_(0.15, 0.3));
     const double half_height = 0.5 * (kGround - kEaves), centre = 0.5 * (kGround + kEaves);
-    const TexturePointer wall = clad(boarded ? boards() : bricks(), half, half_height, nearest);
+    const TexturePointer wall = build_.clad(boarded ? boards() : bricks(), half, half_height, nearest);
     build_.front_sides(at(middle, centre, front + 1.5), {half, half_height, 1.5}, wall);
     TextureStyle stone = leaves(0.12, 3, 0.3, random_(110.0, 140.0));
     stone.spread = 30.0;
-    build_.front_sides(at(middle, kGround - 0.2, front + 0.5), {half, 0.2, 0.54}, speckled(stone, half, 0.54, nearest));
+    build_.front_sides(at(middle, kGround - 0.2, front + 0.5), {half, 0.2, 0.54},
+                       build_.speckled(stone, half, 0.54, nearest));
     TextureStyle paint = plain(random_(190.0, 225.0));
-    build_.front_sides(at(middle, kEaves - 0.1, front + 0.5), {half, 0.12, 0.8}, speckled(paint, half, 0.8, 5.0));
+    build_.front_sides(at(middle, kEaves - 0.1, front + 0.5), {half, 0.12, 0.8},
+                       build_.speckled(paint, half, 0.8, 5.0));
     CladdingStyle tiles;
     tiles.unit_width = 0.26, tiles.unit_height = 0.3, tiles.joint = 0.02, tiles.bond = 0.5;
     tiles.mean = random_(85.0, 110.0), tiles.spread = 14.0, tiles.joint_grey = 55.0;
-    build_.plane(pose({middle, kEaves - 1.7, front + 1.9}, 0.0, -0.85, 0.0), half, 2.3, clad(tiles, half, 2.3, 6.0));
+    build_.plane(pose({middle, kEaves - 1.7, front + 1.9}, 0.0, -0.85, 0.0), half, 2.3,
+                 build_.clad(tiles, half, 2.3, 6.0));
     windows(from, to, front, boarded);
   }
 
@@ -144,7 +136,7 @@ class Facade {
     const double pitch = (to - from) / columns;
     const double half_width = random_(0.44, 0.54), half_height = random_(0.62, 0.74);
     const int bars = random_(0.0, 1.0) < 0.5 ? 1 : 2, door = static_cast<int>(random_(0.0, columns - 1e-9));
-    const TexturePointer frame = speckled(plain(random_(200.0, 230.0)), 0.8, 1.1, 3.2);
+    const TexturePointer frame = build_.speckled(plain(random_(200.0, 230.0)), 0.8, 1.1, 3.2);
     TextureStyle glass = leaves(0.7, 2, 1.0, 70.0);
     glass.spread = 28.0, glass.noise = 6.0, glass.noise_size = 0.5;
     CladdingStyle slats;
@@ -152,15 +144,16 @@ class Facade {
     slats.mean = random_(70.0, 150.0), slats.spread = 4.0, slats.joint_grey = 45.0;
     TextureStyle wood = leaves(0.5, 2, 1.0, random_(85.0, 120.0));
     wood.spread = 22.0;
-    const TexturePointer shutter = clad(slats, 0.22, 0.8, 3.2);
+    const TexturePointer shutter = build_.clad(slats, 0.22, 0.8, 3.2);
     for (int column = 0; column < columns; ++column) {
       const double x = from + (column + 0.5) * pitch;
       for (const double y : {-0.25, -2.95}) {
         if (y > -1.0 && column == door) {
-          opening({x, 0.35, front}, 0.47, 1.05, 0, frame, speckled(wood, 0.47, 1.05, 3.2));
+          opening({x, 0.35, front}, 0.47, 1.05, 0, frame, build_.speckled(wood, 0.47, 1.05, 3.2));
           continue;
         }
-        opening({x, y, front}, half_width, half_height, bars, frame, speckled(glass, half_width, half_height, 3.2));
+        opening({x, y, front}, half_width, half_height, bars, frame,
+                build_.speckled(glass, half_width, half_height, 3.2));
         build_.front_sides(at(x, y + half_height + 0.08, front), {half_width + 0.12, 0.035, 0.13}, frame);
         if (!boarded) continue;
         for (const double side : {-1.0, 1.0})
@@ -194,9 +187,9 @@ class Facade {
     for (int i = 0; i < 6; ++i) {
       TextureStyle paint = plain(random_(205.0, 222.0));
       paint.noise = 9.0, paint.noise_size = 0.06;
-      paints.push_back(speckled(paint, half_width, half_height, 1.4));
+      paints.push_back(build_.speckled(paint, half_width, half_height, 1.4));
     }
-    const TexturePointer rail = speckled(plain(195.0), 24.0, 0.05, 1.4);
+    const TexturePointer rail = build_.speckled(plain(195.0), 24.0, 0.05, 1.4);
     for (const double y : {kGround - 0.25, kGround - 0.85})
       build_.front_sides(at(0.5 * (kStart + kEnd), y, kFence + 0.03), {0.5 * (kEnd - kStart), 0.04, 0.018}, rail);
     const int count = static_cast<int>((kEnd - kStart) / pitch);
@@ -214,7 +207,7 @@ class Facade {
     for (int i = 0; i < 8; ++i) {
       TextureStyle style = plain(random_(55.0, 150.0));
       style.noise = 14.0, style.noise_size = 0.05;
-      leaf_.push_back(speckled(style, 0.09, 0.09, 1.6));
+      leaf_.push_back(build_.speckled(style, 0.09, 0.09, 1.6));
     }
     for (double x = kStart + 3.0; x < kEnd; x += random_(2.0, 3.4)) {
       const double radius = random_(0.5, 0.8);

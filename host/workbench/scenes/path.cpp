@@ -18,15 +18,6 @@ using Eigen::Vector3d;
 
 constexpr double kMotionDepth = 2.5;  // [m], depth of the points whose image motion is measured
 
-Isometry3d turned(const Vector3d& place, double yaw, double pitch, double roll) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = place;
-  pose.linear() = (Eigen::AngleAxisd(yaw, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Vector3d::UnitX()) *
-                   Eigen::AngleAxisd(roll, Vector3d::UnitZ()))
-                      .toRotationMatrix();
-  return pose;
-}
-
 /// An ellipse in the horizontal plane, traversed in 114 frames, while height and attitude sway at other frequencies.
 /// Stays within 0.7 m of the start at all times: steps of 1 to 4 cm and less than 1 degree per frame.
 Isometry3d room_from_ellipse(double phase) {
@@ -34,8 +25,8 @@ Isometry3d room_from_ellipse(double phase) {
   const double yaw = -0.14 * std::sin(p) + 0.03 * std::sin(1.7 * p + 1.0);  // towards the middle of the scene
   const double pitch = 0.035 * std::sin(1.3 * p + 0.4);
   const double roll = 0.05 * std::sin(1.1 * p + 2.0);
-  return turned({0.50 * std::sin(p), 0.10 * std::sin(0.73 * p + 0.6), -0.24 * std::cos(p) + 0.02 * std::sin(2.1 * p)},
-                yaw, pitch, roll);
+  return pose({0.50 * std::sin(p), 0.10 * std::sin(0.73 * p + 0.6), -0.24 * std::cos(p) + 0.02 * std::sin(2.1 * p)},
+              yaw, pitch, roll);
 }
 Isometry3d ellipse(double phase) {
   if (phase == 0.0) return Isometry3d::Identity();  // exactly
@@ -78,7 +69,7 @@ std::function<Isometry3d(double)> handheld(std::uint64_t seed) {
   const Sway pitch({{1.2 * kDegree, 0.19}, {0.8 * kDegree, 0.55}, {0.32 * kDegree, 0.92}}, random);
   const Sway roll({{1.8 * kDegree, 0.17}, {0.8 * kDegree, 0.41}}, random);
   return [=](double phase) {
-    return turned({x(phase), y(phase), z(phase) - 0.35}, yaw(phase), pitch(phase), roll(phase));
+    return pose({x(phase), y(phase), z(phase) - 0.35}, yaw(phase), pitch(phase), roll(phase));
   };
 }
 
@@ -93,8 +84,8 @@ std::function<Isometry3d(double)> drive(std::uint64_t seed, const Lane& lane) {
   return [=](double phase) {
     const double distance = lane.step * (phase + speed_change(phase) - speed_change(0.0));
     const double track = rhythm * distance + start;
-    return lane.world_from_start * turned({lateral * (std::sin(track) - std::sin(start)), bounce(phase), distance},
-                                          std::atan(lateral * rhythm * std::cos(track)), pitch(phase), roll(phase));
+    return lane.world_from_start * pose({lateral * (std::sin(track) - std::sin(start)), bounce(phase), distance},
+                                        std::atan(lateral * rhythm * std::cos(track)), pitch(phase), roll(phase));
   };
 }
 
@@ -107,8 +98,8 @@ std::function<Isometry3d(double)> loop(std::uint64_t seed, int period) {
     const double wrapped = std::fmod(phase, static_cast<double>(period));  // so that the last pose equals the first
     const double p = 2.0 * kPi * wrapped / period;
     const Vector3d place(0.6 * std::sin(p), 0.06 * std::sin(2.0 * p + a), 0.5 * (std::cos(p) - 1.0));
-    return turned(size * place, size * 0.1 * std::sin(p + b), size * 0.03 * std::sin(2.0 * p + c),
-                  size * 0.05 * std::sin(p + a));
+    return pose(size * place, size * 0.1 * std::sin(p + b), size * 0.03 * std::sin(2.0 * p + c),
+                size * 0.05 * std::sin(p + a));
   };
 }
 

@@ -249,8 +249,8 @@ constexpr double kMomentsPerPixel = 2.0;  // of image motion
 Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry3d& camera_from_world,
                 int supersampling, int threads, const Surface* extra) {
   VisibleSurfaces parts;
-  for (const auto& surface : scene.surfaces) surface->view(camera_from_world, parts);
-  if (extra != nullptr) extra->view(camera_from_world, parts);
+  for (const auto& surface : scene.surfaces) surface(camera_from_world, parts);
+  if (extra != nullptr) (*extra)(camera_from_world, parts);
   const TiledView tiled(parts, rays);
 
   Radiance view;
@@ -282,22 +282,17 @@ MovingBoard::MovingBoard(const PinholeCamera& left, double fraction, std::uint64
   sway_x_ = 0.5 * (1.0 - side) / side * half_width_;
   sway_y_ = 0.5 * (1.0 - side) / side * half_height_;
   TextureStyle style;
-  style.feature = 0.16;
-  style.levels = 3;
-  style.alignment = 0.4;
+  style.feature = 0.16, style.levels = 3, style.alignment = 0.4;
   texture_ = std::make_shared<Texture>(dead_leaves(style, combine(seed, 4)), half_width_, half_height_,
                                        0.5 * kBoardDepth / left.fx);
 }
 
-PlaneSurface MovingBoard::surface(double phase, const Eigen::Isometry3d& scene_from_left) const {
+Surface MovingBoard::surface(double phase, const Eigen::Isometry3d& scene_from_left) const {
   const double p = kBoardRhythm * phase;
-  Eigen::Isometry3d left_from_board = Eigen::Isometry3d::Identity();
-  left_from_board.translation() << sway_x_ * std::sin(p + 0.5), sway_y_ * std::sin(1.3 * p),
-      kBoardDepth + 0.05 * std::sin(0.8 * p);
-  left_from_board.linear() = (Eigen::AngleAxisd(0.12 * std::sin(0.9 * p), Eigen::Vector3d::UnitY()) *
-                              Eigen::AngleAxisd(0.08 * std::sin(1.2 * p + 1.0), Eigen::Vector3d::UnitZ()))
-                                 .toRotationMatrix();
-  return PlaneSurface(scene_from_left * left_from_board, half_width_, half_height_, texture_);
+  const Vector3d centre(sway_x_ * std::sin(p + 0.5), sway_y_ * std::sin(1.3 * p),
+                        kBoardDepth + 0.05 * std::sin(0.8 * p));
+  const Eigen::Isometry3d left_from_board = pose(centre, 0.12 * std::sin(0.9 * p), 0.0, 0.08 * std::sin(1.2 * p + 1.0));
+  return plane_surface(scene_from_left * left_from_board, half_width_, half_height_, texture_);
 }
 
 Radiance expose(const Exposure& exposure, int frame, Side side) {
@@ -307,7 +302,7 @@ Radiance expose(const Exposure& exposure, int frame, Side side) {
     if (side == Side::right) camera_from_scene = exposure.rig.right_from_left * camera_from_scene;
     if (exposure.board == nullptr)
       return render(exposure.scene, exposure.rays, camera_from_scene, rays, exposure.threads);
-    const PlaneSurface surface = exposure.board->surface(phase, scene_from_left);
+    const Surface surface = exposure.board->surface(phase, scene_from_left);
     return render(exposure.scene, exposure.rays, camera_from_scene, rays, exposure.threads, &surface);
   };
   if (!(exposure.duration > 0.0)) return at(frame, exposure.supersampling);

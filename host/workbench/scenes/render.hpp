@@ -34,12 +34,12 @@ class MovingBoard {
   /// \param fraction of the left image that it covers
   MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed);
   /// Its surface after `phase` frames, in front of the left camera at `scene_from_left`.
-  PlaneSurface surface(double phase, const Eigen::Isometry3d& scene_from_left) const;
+  Surface surface(double phase, const Eigen::Isometry3d& scene_from_left) const;
 
  private:
   double half_width_, half_height_;  // [m]
   double sway_x_, sway_y_;           // [m]
-  std::shared_ptr<const Texture> texture_;
+  TexturePointer texture_;
 };
 
 /// Scene, cameras and exposure time of a view.

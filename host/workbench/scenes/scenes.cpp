@@ -10,7 +10,6 @@
 namespace quadedge::synthetic {
 namespace {
 
-using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
@@ -45,15 +44,6 @@ Lane lane_ahead(double start, double length, double step) {
 
 }  // namespace
 
-Isometry3d pose(const Vector3d& centre, double yaw, double pitch, double roll) {
-  Isometry3d result = Isometry3d::Identity();
-  result.translation() = centre;
-  result.linear() =
-      (AngleAxisd(yaw, Vector3d::UnitY()) * AngleAxisd(pitch, Vector3d::UnitX()) * AngleAxisd(roll, Vector3d::UnitZ()))
-          .toRotationMatrix();
-  return result;
-}
-
 TextureStyle leaves(double feature, int levels, double alignment, double mean) {
   TextureStyle style;
   style.feature = feature;
@@ -66,30 +56,46 @@ TextureStyle leaves(double feature, int levels, double alignment, double mean) {
 void SceneBuilder::box(const Isometry3d& room_from_box, const Vector3d& half, const TextureStyle& style, double nearest,
                        bool inwards) {
   for (const BoxSide& side : box_sides(half, inwards))
-    add<PlaneSurface>(room_from_box * side.box_from_side, side.half_width, side.half_height,
-                      texture(style, side.half_width, side.half_height, nearest));
+    plane(room_from_box * side.box_from_side, side.half_width, side.half_height,
+          texture(style, side.half_width, side.half_height, nearest));
 }
 
 void SceneBuilder::sphere(const Isometry3d& room_from_sphere, double radius, const TextureStyle& style,
                           double nearest) {
-  add<SphereSurface>(room_from_sphere, radius, texture(style, kPi * radius, kPi * radius, nearest));
+  scene_.surfaces.push_back(
+      sphere_surface(world_from_room_ * room_from_sphere, radius, texture(style, kPi * radius, kPi * radius, nearest)));
 }
 
 void SceneBuilder::cylinder(const Isometry3d& room_from_cylinder, double radius, double half_height,
                             const TextureStyle& style, double nearest) {
-  add<CylinderSurface>(room_from_cylinder, radius, half_height, texture(style, kPi * radius, half_height, nearest));
+  scene_.surfaces.push_back(cylinder_surface(world_from_room_ * room_from_cylinder, radius, half_height,
+                                             texture(style, kPi * radius, half_height, nearest)));
   for (const double side : {-1.0, 1.0})
-    add<PlaneSurface>(room_from_cylinder * pose(side * half_height * Vector3d::UnitY(), 0.0, side * 0.5 * kPi, 0.0),
-                      radius, radius, texture(style, radius, radius, nearest), true);
+    plane(room_from_cylinder * pose(side * half_height * Vector3d::UnitY(), 0.0, side * 0.5 * kPi, 0.0), radius, radius,
+          texture(style, radius, radius, nearest), true);
 }
 
-std::shared_ptr<const Texture> SceneBuilder::shared_texture(std::unique_ptr<const Painter> painter, double half_width,
-                                                            double half_height, double nearest) const {
+TexturePointer SceneBuilder::shared_texture(std::unique_ptr<const Painter> painter, double half_width,
+                                            double half_height, double nearest) const {
   return std::make_shared<Texture>(std::move(painter), half_width, half_height, kTexel * nearest / focal_, kLevels);
 }
 
-void SceneBuilder::front_sides(const Isometry3d& room_from_box, const Vector3d& half,
-                               const std::shared_ptr<const Texture>& texture) {
+TexturePointer SceneBuilder::speckled(const TextureStyle& style, double half_width, double half_height,
+                                      double nearest) {
+  return shared_texture(dead_leaves(style, next_seed()), half_width, half_height, nearest);
+}
+
+TexturePointer SceneBuilder::clad(const CladdingStyle& style, double half_width, double half_height, double nearest) {
+  return shared_texture(cladding(style, next_seed()), half_width, half_height, nearest);
+}
+
+void SceneBuilder::plane(const Isometry3d& room_from_surface, double half_width, double half_height,
+                         const TexturePointer& texture, bool elliptic) {
+  scene_.surfaces.push_back(
+      plane_surface(world_from_room_ * room_from_surface, half_width, half_height, texture, elliptic));
+}
+
+void SceneBuilder::front_sides(const Isometry3d& room_from_box, const Vector3d& half, const TexturePointer& texture) {
   for (const BoxSide& side : box_sides(half, false)) {
     const Vector3d outwards = -side.box_from_side.linear().col(2);
     if (outwards.sum() > 0.0) continue;
@@ -106,8 +112,7 @@ Scene SceneBuilder::finish(double nearest, const Lane& lane) {
 }
 
 /// The tone varies slightly between faces.
-std::shared_ptr<const Texture> SceneBuilder::texture(TextureStyle style, double half_width, double half_height,
-                                                     double nearest) {
+TexturePointer SceneBuilder::texture(TextureStyle style, double half_width, double half_height, double nearest) {
   if (style.feature > 0.0) style.mean += 25.0 * (2.0 * uniform(combine(~seed_, count_)) - 1.0);
   return std::make_shared<Texture>(dead_leaves(style, next_seed()), half_width, half_height, kTexel * nearest / focal_);
 }
@@ -127,7 +132,7 @@ Scene make_room(std::uint64_t seed, double focal) {
   SceneBuilder build(combine(seed, 1), focal, pose(Vector3d::Zero(), 0.2, 0.05, 0.03));
   TextureStyle walls = leaves(0.8, 4, 0.75, 150.0);
   walls.cover = 0.3;
-  build.box(pose({0.2, -0.15, 1.3}, 0.0, 0.0, 0.0), {3.0, 1.45, 4.0}, walls, 3.2, true);
+  build.box(at(0.2, -0.15, 1.3), {3.0, 1.45, 4.0}, walls, 3.2, true);
 
   // Along the walls.
   build.box(pose({-2.0, 0.35, 3.5}, -0.25, 0.0, 0.0), {0.42, 0.95, 0.35}, leaves(0.4, 3, 1.0, 85.0), 2.3);
@@ -138,8 +143,8 @@ Scene make_room(std::uint64_t seed, double focal) {
 
   // A table with objects on it.
   build.box(pose({-0.55, 1.0, 2.5}, 0.35, 0.0, 0.0), {0.55, 0.3, 0.32}, leaves(0.24, 3, 0.5, 75.0), 1.6);
-  build.cylinder(pose({-0.82, 0.5, 2.45}, 0.0, 0.0, 0.0), 0.11, 0.2, leaves(0.14, 2, 0.0, 195.0), 1.6);
-  build.sphere(pose({-0.4, 0.53, 2.45}, 0.0, 0.0, 0.0), 0.17, leaves(0.14, 2, 0.0, 170.0), 1.5);
+  build.cylinder(at(-0.82, 0.5, 2.45), 0.11, 0.2, leaves(0.14, 2, 0.0, 195.0), 1.6);
+  build.sphere(at(-0.4, 0.53, 2.45), 0.17, leaves(0.14, 2, 0.0, 170.0), 1.5);
   build.box(pose({-0.55, 0.5, 2.75}, -0.5, 0.0, 0.0), {0.09, 0.2, 0.14}, leaves(0.14, 2, 0.6, 110.0), 1.8);
 
   // Boards and balls in the air, the nearest objects.
@@ -147,7 +152,7 @@ Scene make_room(std::uint64_t seed, double focal) {
   build.box(pose({-0.2, -0.55, 1.95}, -0.35, -0.25, -0.15), {0.24, 0.16, 0.02}, leaves(0.16, 3, 0.4, 190.0), 1.2);
   build.box(pose({-1.25, 0.05, 2.2}, -0.6, 0.15, 0.2), {0.2, 0.28, 0.02}, leaves(0.18, 3, 0.1, 175.0), 1.3);
   build.sphere(pose({-1.1, -0.75, 2.8}, 0.2, 0.1, 0.0), 0.21, leaves(0.18, 2, 0.0, 95.0), 1.8);
-  build.sphere(pose({0.75, -0.75, 2.7}, 0.0, 0.0, 0.0), 0.16, leaves(0.16, 2, 0.0, 75.0), 1.7);
+  build.sphere(at(0.75, -0.75, 2.7), 0.16, leaves(0.16, 2, 0.0, 75.0), 1.7);
   return build.finish(1.0, lane_ahead(-2.1, 2.8, 0.045));
 }
 
@@ -157,7 +162,7 @@ Scene make_cables(std::uint64_t seed, double focal) {
   plain.noise = 5.0;
   plain.noise_size = 0.8;
   plain.mean = 150.0;
-  build.box(pose({0.0, 0.0, 0.0}, 0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 8.0, true);
+  build.box(at(0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 8.0, true);
   Scene scene = build.finish(0.9, lane_ahead(-2.6, 3.1, 0.05));
 
   // Every cable has its own layer of depth, so that cables cross without intersecting.
@@ -179,7 +184,7 @@ Scene make_cables(std::uint64_t seed, double focal) {
       const double room = std::max(0.0, 0.5 * kLayer - radius);
       control.push_back(place * along + sway * beside + Vector3d(0.0, 0.0, depth + room * random(-1.0, 1.0)));
     }
-    scene.surfaces.push_back(std::make_unique<TubeSurface>(control, radius, reflectance, 0.01 * kFront / focal));
+    scene.surfaces.push_back(tube_surface(control, radius, reflectance, 0.01 * kFront / focal));
   }
   return scene;
 }

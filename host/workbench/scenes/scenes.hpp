@@ -16,8 +16,8 @@ namespace quadedge::synthetic {
 
 // Builds scenes from solids.
 
-/// Pose at `centre`, rotated about y, then x, then z of its own frame [rad].
-Eigen::Isometry3d pose(const Eigen::Vector3d& centre, double yaw, double pitch, double roll);
+/// Pose at a place, with the axes of its frame.
+inline Eigen::Isometry3d at(double x, double y, double z) { return pose({x, y, z}, 0.0, 0.0, 0.0); }
 
 /// Dead leaves with the default noise.
 TextureStyle leaves(double feature, int levels, double alignment, double mean);
@@ -35,30 +35,23 @@ class SceneBuilder {
   void cylinder(const Eigen::Isometry3d& room_from_cylinder, double radius, double half_height,
                 const TextureStyle& style, double nearest);
 
-  /// A texture for any number of surfaces, sampled for distances from `nearest` to 64 times that.
-  std::shared_ptr<const Texture> shared_texture(std::unique_ptr<const Painter> painter, double half_width,
-                                                double half_height, double nearest) const;
+  // Textures for any number of surfaces, sampled for distances from `nearest` to 64 times that.
+  TexturePointer speckled(const TextureStyle& style, double half_width, double half_height, double nearest);
+  TexturePointer clad(const CladdingStyle& style, double half_width, double half_height, double nearest);
   /// The sides of a box that face -x, -y and -z (left, up and towards the viewer), with one texture.
-  void front_sides(const Eigen::Isometry3d& room_from_box, const Eigen::Vector3d& half,
-                   const std::shared_ptr<const Texture>& texture);
+  void front_sides(const Eigen::Isometry3d& room_from_box, const Eigen::Vector3d& half, const TexturePointer& texture);
   void plane(const Eigen::Isometry3d& room_from_surface, double half_width, double half_height,
-             std::shared_ptr<const Texture> texture, bool elliptic = false) {
-    add<PlaneSurface>(room_from_surface, half_width, half_height, std::move(texture), elliptic);
-  }
-
-  /// Key of the next texture.
-  std::uint64_t next_seed();
+             const TexturePointer& texture, bool elliptic = false);
 
   /// Returns the scene. `nearest`: see Scene.
   Scene finish(double nearest, const Lane& lane);
 
  private:
-  std::shared_ptr<const Texture> texture(TextureStyle style, double half_width, double half_height, double nearest);
-  template <typename Kind, typename... Arguments>
-  void add(const Eigen::Isometry3d& room_from_surface, Arguments&&... arguments) {
-    scene_.surfaces.push_back(
-        std::make_unique<Kind>(world_from_room_ * room_from_surface, std::forward<Arguments>(arguments)...));
-  }
+  TexturePointer texture(TextureStyle style, double half_width, double half_height, double nearest);
+  TexturePointer shared_texture(std::unique_ptr<const Painter> painter, double half_width, double half_height,
+                                double nearest) const;
+  /// Key of the next texture.
+  std::uint64_t next_seed();
 
   std::uint64_t seed_;
   double focal_;

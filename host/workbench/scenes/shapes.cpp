@@ -57,8 +57,8 @@ void find_positions(const PlaneNumbers& plane, const RayBundle& rays, const Lane
 class VisiblePlane : public VisibleSurface {
  public:
   VisiblePlane(const Isometry3d& camera_from_surface, double half_width, double half_height, const Texture& texture,
-               bool elliptic)
-      : texture_(texture), elliptic_(elliptic) {
+               bool elliptic, double shade)
+      : shade_(shade), texture_(texture), elliptic_(elliptic) {
     const Eigen::Matrix3d axes = camera_from_surface.linear();
     const Vector3d centre = camera_from_surface.translation();
     const Vector3d u = axes.col(0), v = axes.col(1);
@@ -67,8 +67,6 @@ class VisiblePlane : public VisibleSurface {
     for (const auto& [across, down] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
       outline_.push_back(camera_from_surface * Vector3d(across * half_width, down * half_height, 0.0));
   }
-
-  void set_shade(double factor) { shade_ = factor; }
 
   double inverse_depth(const Vector3d& ray) const override {
     const double inverse = dot(plane_.inverse, ray.x(), ray.y());
@@ -121,7 +119,7 @@ class VisiblePlane : public VisibleSurface {
   }
 
   PlaneNumbers plane_;
-  double inverse_norm_, shade_ = 1.0;
+  double inverse_norm_, shade_;
   const Texture& texture_;
   bool elliptic_;
   std::vector<Vector3d> outline_;
@@ -294,45 +292,43 @@ PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& ca
           clip(std::floor(high.x() + kLast), camera.width), clip(std::floor(high.y() + kLast), camera.height)};
 }
 
-PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_width, double half_height,
-                           std::shared_ptr<const Texture> texture, bool elliptic)
-    : world_from_surface_(world_from_surface),
-      half_width_(half_width),
-      half_height_(half_height),
-      texture_(std::move(texture)),
-      elliptic_(elliptic) {}
-
-void PlaneSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  const Isometry3d camera_from_surface = camera_from_world * world_from_surface_;
-  if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // back face
-  auto part = std::make_unique<VisiblePlane>(camera_from_surface, half_width_, half_height_, *texture_, elliptic_);
-  part->set_shade(shade(-world_from_surface_.linear().col(2), light_direction(), kAmbient));
-  parts.push_back(std::move(part));
+Isometry3d pose(const Vector3d& centre, double yaw, double pitch, double roll) {
+  Isometry3d result = Isometry3d::Identity();
+  result.translation() = centre;
+  result.linear() = (Eigen::AngleAxisd(yaw, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Vector3d::UnitX()) *
+                     Eigen::AngleAxisd(roll, Vector3d::UnitZ()))
+                        .toRotationMatrix();
+  return result;
 }
 
-SphereSurface::SphereSurface(const Isometry3d& world_from_surface, double radius,
-                             std::shared_ptr<const Texture> texture)
-    : world_from_surface_(world_from_surface), radius_(radius), texture_(std::move(texture)) {}
-
-void SphereSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  parts.push_back(std::make_unique<VisibleSphere>(camera_from_world * world_from_surface_, radius_, *texture_,
-                                                  camera_from_world.linear() * light_direction()));
+Surface plane_surface(const Isometry3d& world_from_surface, double half_width, double half_height,
+                      const TexturePointer& texture, bool elliptic) {
+  return [=](const Isometry3d& camera_from_world, VisibleSurfaces& parts) {
+    const Isometry3d camera_from_surface = camera_from_world * world_from_surface;
+    if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // back face
+    parts.push_back(
+        std::make_unique<VisiblePlane>(camera_from_surface, half_width, half_height, *texture, elliptic,
+                                       shade(-world_from_surface.linear().col(2), light_direction(), kAmbient)));
+  };
 }
 
-CylinderSurface::CylinderSurface(const Isometry3d& world_from_surface, double radius, double half_height,
-                                 std::shared_ptr<const Texture> texture)
-    : world_from_surface_(world_from_surface),
-      radius_(radius),
-      half_height_(half_height),
-      texture_(std::move(texture)) {}
-
-void CylinderSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface_, radius_, half_height_,
-                                                    *texture_, camera_from_world.linear() * light_direction()));
+Surface sphere_surface(const Isometry3d& world_from_surface, double radius, const TexturePointer& texture) {
+  return [=](const Isometry3d& camera_from_world, VisibleSurfaces& parts) {
+    parts.push_back(std::make_unique<VisibleSphere>(camera_from_world * world_from_surface, radius, *texture,
+                                                    camera_from_world.linear() * light_direction()));
+  };
 }
 
-TubeSurface::TubeSurface(const std::vector<Vector3d>& control, double radius, double reflectance, double tolerance)
-    : radius_(radius), reflectance_(reflectance) {
+Surface cylinder_surface(const Isometry3d& world_from_surface, double radius, double half_height,
+                         const TexturePointer& texture) {
+  return [=](const Isometry3d& camera_from_world, VisibleSurfaces& parts) {
+    parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface, radius, half_height,
+                                                      *texture, camera_from_world.linear() * light_direction()));
+  };
+}
+
+Surface tube_surface(const std::vector<Vector3d>& control, double radius, double reflectance, double tolerance) {
+  const auto curve = std::make_shared<std::vector<std::pair<Vector3d, Vector3d>>>();  // points and unit tangents
   for (std::size_t i = 0; i + 3 < control.size(); ++i) {
     // A chord over dt deviates from the curve by at most |second derivative| dt^2 / 8; the second derivative is linear
     // in t.
@@ -341,18 +337,19 @@ TubeSurface::TubeSurface(const std::vector<Vector3d>& control, double radius, do
     const int links = std::max(1, static_cast<int>(std::ceil(std::sqrt(bend / (8.0 * tolerance)))));
     for (int k = 0; k < links || (k == links && i + 4 == control.size()); ++k) {
       const auto [position, derivative] = spline(control, i, static_cast<double>(k) / links);
-      points_.push_back(position);
-      tangents_.push_back(derivative.normalized());
+      curve->emplace_back(position, derivative.normalized());
     }
   }
-}
-
-void TubeSurface::view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  const Vector3d light = camera_from_world.linear() * light_direction();
-  for (std::size_t i = 0; i + 1 < points_.size(); ++i)
-    parts.push_back(std::make_unique<VisibleLink>(
-        camera_from_world * points_[i], camera_from_world * points_[i + 1], camera_from_world.linear() * tangents_[i],
-        camera_from_world.linear() * tangents_[i + 1], radius_, reflectance_, light, this));
+  return [=](const Isometry3d& camera_from_world, VisibleSurfaces& parts) {
+    const Eigen::Matrix3d turn = camera_from_world.linear();
+    for (std::size_t i = 0; i + 1 < curve->size(); ++i) {
+      const auto& [start, start_tangent] = (*curve)[i];
+      const auto& [end, end_tangent] = (*curve)[i + 1];
+      parts.push_back(std::make_unique<VisibleLink>(camera_from_world * start, camera_from_world * end,
+                                                    turn * start_tangent, turn * end_tangent, radius, reflectance,
+                                                    turn * light_direction(), curve.get()));
+    }
+  };
 }
 
 }  // namespace quadedge::synthetic

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -46,13 +47,8 @@ class VisibleSurface {
 };
 using VisibleSurfaces = std::vector<std::unique_ptr<VisibleSurface>>;
 
-/// A surface in the world.
-class Surface {
- public:
-  virtual ~Surface() = default;
-  /// Appends the surface, or its parts, as seen by a camera. The surface must outlive them.
-  virtual void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const = 0;
-};
+/// A surface in the world: appends it, or its parts, as seen by a camera. It must outlive them.
+using Surface = std::function<void(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts)>;
 
 /// A straight lane for a car, along z of its start.
 struct Lane {
@@ -63,7 +59,7 @@ struct Lane {
 
 /// A scene with diffuse surfaces and one distant light.
 struct Scene {
-  std::vector<std::unique_ptr<Surface>> surfaces;
+  std::vector<Surface> surfaces;
   Lane lane;
   double nearest = 0.0;  ///< no surface in view is closer to the camera along its path [m]
 };
@@ -79,58 +75,27 @@ inline double shade(const Eigen::Vector3d& normal, const Eigen::Vector3d& light,
 /// of the camera.
 PixelBox box_around(const std::vector<Eigen::Vector3d>& points, const PinholeCamera& camera);
 
+/// Pose at `centre`, rotated about y, then x, then z of its own frame [rad].
+Eigen::Isometry3d pose(const Eigen::Vector3d& centre, double yaw, double pitch, double roll);
+
+using TexturePointer = std::shared_ptr<const Texture>;
+
 /// Rectangle or ellipse |u| <= half_width, |v| <= half_height in the plane z = 0 of `world_from_surface`, visible from
 /// -z only (so that u points right and v down).
-class PlaneSurface : public Surface {
- public:
-  PlaneSurface(const Eigen::Isometry3d& world_from_surface, double half_width, double half_height,
-               std::shared_ptr<const Texture> texture, bool elliptic = false);
-  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
-
- private:
-  Eigen::Isometry3d world_from_surface_;
-  double half_width_, half_height_;
-  std::shared_ptr<const Texture> texture_;
-  bool elliptic_;
-};
+Surface plane_surface(const Eigen::Isometry3d& world_from_surface, double half_width, double half_height,
+                      const TexturePointer& texture, bool elliptic = false);
 
 /// Sphere; the texture is centred at the point that faces -z of `world_from_surface` (azimuthal equidistant).
-class SphereSurface : public Surface {
- public:
-  SphereSurface(const Eigen::Isometry3d& world_from_surface, double radius, std::shared_ptr<const Texture> texture);
-  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
-
- private:
-  Eigen::Isometry3d world_from_surface_;
-  double radius_;
-  std::shared_ptr<const Texture> texture_;
-};
+Surface sphere_surface(const Eigen::Isometry3d& world_from_surface, double radius, const TexturePointer& texture);
 
 /// Lateral surface of a cylinder around the y axis of `world_from_surface`, |y| <= half_height; the texture's seam
 /// faces +z.
-class CylinderSurface : public Surface {
- public:
-  CylinderSurface(const Eigen::Isometry3d& world_from_surface, double radius, double half_height,
-                  std::shared_ptr<const Texture> texture);
-  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
+Surface cylinder_surface(const Eigen::Isometry3d& world_from_surface, double radius, double half_height,
+                         const TexturePointer& texture);
 
- private:
-  Eigen::Isometry3d world_from_surface_;
-  double radius_, half_height_;
-  std::shared_ptr<const Texture> texture_;
-};
-
-/// Tube of constant radius around a uniform cubic B-spline.
-class TubeSurface : public Surface {
- public:
-  /// `control`: at least 4 control points in the world [m]. The curve is divided into links short enough that the chain
-  /// stays within `tolerance` [m] of it; normals are interpolated to avoid facets.
-  TubeSurface(const std::vector<Eigen::Vector3d>& control, double radius, double reflectance, double tolerance);
-  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
-
- private:
-  std::vector<Eigen::Vector3d> points_, tangents_;  // world frame; unit tangents
-  double radius_, reflectance_;
-};
+/// Tube of constant radius around a uniform cubic B-spline of at least 4 control points in the world [m]. The curve is
+/// divided into links short enough that the chain stays within `tolerance` [m] of it; normals are interpolated to avoid
+/// facets.
+Surface tube_surface(const std::vector<Eigen::Vector3d>& control, double radius, double reflectance, double tolerance);
 
 }  // namespace quadedge::synthetic

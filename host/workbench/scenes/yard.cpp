@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using TexturePointer = std::shared_ptr<const Texture>;
 
 /// Start of the path "ellipse".
 Isometry3d world_from_yard() { return pose(Vector3d::Zero(), 0.03, 0.02, 0.01); }
@@ -46,19 +45,11 @@ class Yard {
   static constexpr double kFacingUp = -0.5 * kPi;                    // pitch of a horizontal plane
   static constexpr double kNear = 1.2;  // [m], where a texel of what is near covers half a pixel
 
-  static Isometry3d at(double x, double y, double z) { return pose({x, y, z}, 0.0, 0.0, 0.0); }
   static TextureStyle paint(double mean, double noise) {
     TextureStyle style;
     style.mean = mean, style.noise = noise, style.noise_size = 0.4;
     return style;
   }
-  TexturePointer speckled(const TextureStyle& style, double half_width, double half_height, double nearest) {
-    return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, nearest);
-  }
-  TexturePointer clad(const CladdingStyle& style, double half_width, double half_height, double nearest) {
-    return build_.shared_texture(cladding(style, build_.next_seed()), half_width, half_height, nearest);
-  }
-
   /// A walkway of concrete slabs, a meadow below it, and the sky.
   void ground() {
     CladdingStyle slabs;
@@ -66,10 +57,11 @@ class Yard {
     slabs.mean = 150.0, slabs.spread = 5.0, slabs.noise = 4.0, slabs.noise_size = 0.3;
     const double half = 0.5 * (kRail + 0.3 - kWall);
     build_.plane(pose({kWall + half, kGround, kMiddle}, 0.0, kFacingUp, 0.0), half, kHalf,
-                 clad(slabs, half, kHalf, kNear));
+                 build_.clad(slabs, half, kHalf, kNear));
     TextureStyle meadow = leaves(0.25, 3, 0.0, 110.0);
     meadow.spread = 22.0;
-    build_.plane(pose({30.0, kBelow, kMiddle}, 0.0, kFacingUp, 0.0), 29.0, 60.0, speckled(meadow, 29.0, 60.0, 3.0));
+    build_.plane(pose({30.0, kBelow, kMiddle}, 0.0, kFacingUp, 0.0), 29.0, 60.0,
+                 build_.speckled(meadow, 29.0, 60.0, 3.0));
     TextureStyle sky;
     sky.noise = 8.0, sky.noise_size = 60.0, sky.mean = 215.0;
     build_.box(Isometry3d::Identity(), {120.0, 70.0, 120.0}, sky, 100.0, true);
@@ -80,11 +72,11 @@ class Yard {
     const auto building = [&](const Isometry3d& front, double half_width, double top, double tone) {
       const double height = 0.5 * (kBelow - top);
       build_.plane(front * at(0.0, kBelow - height, 0.0), half_width, height,
-                   speckled(paint(tone, 4.0), half_width, height, 8.0));
-      const TexturePointer roof = speckled(paint(85.0, 5.0), half_width, 0.2, 8.0);
+                   build_.speckled(paint(tone, 4.0), half_width, height, 8.0));
+      const TexturePointer roof = build_.speckled(paint(85.0, 5.0), half_width, 0.2, 8.0);
       build_.front_sides(front * at(0.0, top, 0.0), {half_width + 0.3, 0.18, 0.4}, roof);
-      const TexturePointer frame = speckled(paint(225.0, 3.0), 0.8, 1.0, 8.0);
-      const TexturePointer glass = speckled(paint(70.0, 5.0), 0.8, 1.0, 8.0);
+      const TexturePointer frame = build_.speckled(paint(225.0, 3.0), 0.8, 1.0, 8.0);
+      const TexturePointer glass = build_.speckled(paint(70.0, 5.0), 0.8, 1.0, 8.0);
       for (double x = -half_width + 2.5; x < half_width - 2.0; x += 4.5) {
         for (double y = top + 2.2; y < kGround - 1.0; y += 3.0) {
           build_.front_sides(front * at(x, y, 0.0), {0.75, 0.95, 0.05}, frame);
@@ -101,13 +93,13 @@ class Yard {
     const Isometry3d front = pose({kWall, 0.0, kMiddle}, -0.5 * kPi, 0.0, 0.0);  // x ahead, z into the wall
     const double height = 0.5 * (kGround - kWallTop);
     build_.plane(front * at(0.0, kGround - height, 0.0), kHalf, height,
-                 speckled(paint(190.0, 3.0), kHalf, height, kNear));
+                 build_.speckled(paint(190.0, 3.0), kHalf, height, kNear));
     build_.front_sides(front * at(0.0, kWallTop, 0.1), {kHalf, 0.05, 0.16},
-                       speckled(paint(120.0, 4.0), kHalf, 0.05, kNear));
+                       build_.speckled(paint(120.0, 4.0), kHalf, 0.05, kNear));
     build_.front_sides(front * at(0.0, kGround - 0.08, 0.0), {kHalf, 0.08, 0.02},
-                       speckled(paint(110.0, 4.0), kHalf, 0.08, kNear));
-    const TexturePointer door = speckled(paint(80.0, 4.0), 0.5, 1.05, kNear);
-    const TexturePointer frame = speckled(paint(225.0, 3.0), 0.6, 1.1, kNear);
+                       build_.speckled(paint(110.0, 4.0), kHalf, 0.08, kNear));
+    const TexturePointer door = build_.speckled(paint(80.0, 4.0), 0.5, 1.05, kNear);
+    const TexturePointer frame = build_.speckled(paint(225.0, 3.0), 0.6, 1.1, kNear);
     for (const double z : {7.5, 22.0}) {
       build_.front_sides(front * at(z - kMiddle, kGround - 1.05, 0.0), {0.58, 1.12, 0.04}, frame);
       build_.plane(front * at(z - kMiddle, kGround - 1.03, -0.05), 0.5, 1.03, door);
@@ -119,7 +111,7 @@ class Yard {
   /// The poles of the wires, and the upright bars of the railing.
   void posts() {
     const double tall = 0.5 * (kBelow - kArm + 0.4);
-    const TexturePointer arm = speckled(paint(70.0, 6.0), 0.9, 0.06, 5.0);
+    const TexturePointer arm = build_.speckled(paint(70.0, 6.0), 0.9, 0.06, 5.0);
     for (const double z : kPoleZ) {
       build_.cylinder(at(kPoles, kBelow - tall, z), 0.09, tall, paint(85.0, 8.0), 3.0);
       build_.front_sides(at(kPoles, kArm, z - 0.1), {0.9, 0.055, 0.05}, arm);
@@ -136,7 +128,7 @@ class Yard {
     for (const Vector3d& point : points) control.push_back(world_from_yard() * point);
     control.insert(control.begin(), 2 * control[0] - control[1]);
     control.push_back(2 * control[control.size() - 1] - control[control.size() - 2]);
-    scene.surfaces.push_back(std::make_unique<TubeSurface>(control, radius, reflectance, 0.01 * kNear / focal_));
+    scene.surfaces.push_back(tube_surface(control, radius, reflectance, 0.01 * kNear / focal_));
   }
 
   /// The rails.

@@ -33,11 +33,10 @@ StatedLens read_lens(const YamlMap& camera, ImageSize size) {
   const YamlMap numbers = camera.map("intrinsics");
   for (const Model& model : models()) {
     if (type != model.name) continue;
-    StatedLens stated(camera.file(), numbers.name("fx"), camera.name("intrinsics"));
+    StatedLens stated(camera.file(), numbers.name("fx"), camera.name("intrinsics"),
+                      numbers.numbers_of({"fx", "fy", "cx", "cy"}), size);
     stated.lens.model = model.model;
-    stated.lens.camera = {numbers.number("fx"), numbers.number("fy"), numbers.number("cx"),
-                          numbers.number("cy"), size.width,           size.height};
-    for (const char* name : model.parameters) stated.lens.parameters.push_back(numbers.number(name));
+    stated.lens.parameters = numbers.numbers_of(model.parameters);
     if (type == "ucm") stated.lens.parameters.push_back(1);  // beta
     return stated;
   }
@@ -45,15 +44,12 @@ StatedLens read_lens(const YamlMap& camera, ImageSize size) {
 }
 
 Eigen::Isometry3d read_pose(const YamlMap& pose) {
-  Eigen::Isometry3d result(
-      Eigen::Quaterniond(pose.number("qw"), pose.number("qx"), pose.number("qy"), pose.number("qz")));
-  result.translation() << pose.number("px"), pose.number("py"), pose.number("pz");
-  return result;
+  const auto v = pose.numbers_of({"px", "py", "pz", "qw", "qx", "qy", "qz"});
+  return Eigen::Translation3d(v[0], v[1], v[2]) * Eigen::Quaterniond(v[3], v[4], v[5], v[6]);
 }
 
-}  // namespace
-
-StatedCalibration read_basalt(const YamlMap& calibration) {
+StatedCalibration read_basalt(const std::vector<CalibrationText>& texts) {
+  const YamlMap& calibration = texts[0].entries();
   const YamlMap value = calibration.has("value0") ? calibration.map("value0") : calibration;
   const auto cameras = value.items("intrinsics"), poses = value.items("T_imu_cam");
   const YamlMatrix sizes = value.matrix("resolution");
@@ -69,5 +65,12 @@ StatedCalibration read_basalt(const YamlMap& calibration) {
   stated.right_from_left = read_pose(poses[1].second).inverse() * *stated.body_from_left;
   return stated;
 }
+
+}  // namespace
+
+const CalibrationForm kBasalt{
+    "basalt", "Basalt's calibration (value0: T_imu_cam, intrinsics)", false,
+    [](const CalibrationText& text) { return text.has("value0") || (text.has("T_imu_cam") && text.has("intrinsics")); },
+    read_basalt};
 
 }  // namespace quadedge::data

@@ -30,11 +30,7 @@ void apply_roi_and_binning(const YamlMap& camera, PinholeCamera& lens) {
     const YamlMap roi = camera.map("roi");
     lens.cx -= roi.number_or("x_offset", 0);
     lens.cy -= roi.number_or("y_offset", 0);
-    if (roi.number_or("width", 0) > 0) {
-      const ImageSize size = roi.size("width", "height");
-      lens.width = size.width;
-      lens.height = size.height;
-    }
+    if (roi.number_or("width", 0) > 0) set_size(lens, roi.size("width", "height"));
   }
   const double columns = std::max(1.0, camera.number_or("binning_x", 1)),
                rows = std::max(1.0, camera.number_or("binning_y", 1));
@@ -119,13 +115,13 @@ std::string camera_info(const Lens& lens, Side side, const RectifiedPair& pair, 
          matrix_lines("projection_matrix", 3, {f, 0, x, f * offset, 0, f, y, 0, 0, 0, 1, 0});
 }
 
-}  // namespace
-
 std::vector<std::string> write_camera_infos(const StereoCalibration& calibration) {
   const RectifiedPair pair = rectify(calibration);
   return {camera_info(calibration.left, Side::left, pair, 0),
           camera_info(calibration.right, Side::right, pair, -calibration.right_from_left.translation().norm())};
 }
+
+}  // namespace
 
 LensModel model_of_word(const YamlMap& camera, const std::string& key, const std::string& word) {
   for (const char* name : {"plumb_bob", "rational_polynomial", "radtan", "radial-tangential", "none", ""})
@@ -134,11 +130,13 @@ LensModel model_of_word(const YamlMap& camera, const std::string& key, const std
   camera.complain(key, in_quotes(word), "plumb_bob, rational_polynomial, equidistant or none");
 }
 
-StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right) {
+namespace {
+
+StatedCalibration read_pair(const YamlMap& left, const YamlMap& right) {
   const Names &left_names = names_of(left), &right_names = names_of(right);
   const Rectification of_left = read_rectification(left, left_names), of_right = read_rectification(right, right_names);
   const double offset = of_right.rectified_from_reference.x() - of_left.rectified_from_reference.x();
-  if (offset > 0 && left.file() == right.file()) return read_camera_infos(right, left);  // in no order
+  if (offset > 0 && left.file() == right.file()) return read_pair(right, left);  // in no order
   if (of_left.rectified_from_reference.isZero() && of_right.rectified_from_reference.isZero())
     fail(right.file(), "a fourth column of zeros in " + std::string(right_names.p) + " as in the left camera's",
          "a baseline above zero, -fx' times it there: were the cameras calibrated one by one?");
@@ -154,5 +152,24 @@ StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right) {
   stated.of_rectified.push_back(std::move(rectified));
   return stated;
 }
+
+StatedCalibration read_camera_infos(const std::vector<CalibrationText>& texts) {
+  return read_pair(texts[0].entries(), texts[1].entries());
+}
+
+bool is_camera_infos(const CalibrationText& text) {
+  return (text.has("camera_matrix") && (text.has("projection_matrix") || text.has("image_width"))) ||
+         (text.has("K") && text.has("P")) || (text.has("k") && text.has("p"));
+}
+
+}  // namespace
+
+const CalibrationForm kCameraInfos{
+    "ros",
+    "ROS camera_info, as files or as `rostopic echo` prints it (camera_matrix or K, D, R, P)",
+    true,
+    is_camera_infos,
+    read_camera_infos,
+    write_camera_infos};
 
 }  // namespace quadedge::data

@@ -40,8 +40,7 @@ std::map<int, Eigen::Isometry3d> reachable(const Cameras& cameras, int socket) {
     constexpr double kMetres = 0.01;  // per unit of the file
     const YamlMap translation = extrinsics.map("translation");
     Eigen::Isometry3d step(extrinsics.rotation("rotationMatrix"));
-    step.translation() =
-        kMetres * Eigen::Vector3d(translation.number("x"), translation.number("y"), translation.number("z"));
+    step.translation() = kMetres * Eigen::Vector3d(translation.numbers_of({"x", "y", "z"}).data());
     transforms[next] = step * transforms.at(camera->first);
     camera = cameras.find(next);
   }
@@ -55,13 +54,11 @@ void resize(PinholeCamera& camera, ImageSize size) {
   camera.cy = scale * camera.cy - 0.5 * (scale * camera.height - size.height);
   camera.fx *= scale;
   camera.fy *= scale;
-  camera.width = size.width;
-  camera.height = size.height;
+  set_size(camera, size);
 }
 
-}  // namespace
-
-StatedCalibration read_depthai(const YamlMap& device) {
+StatedCalibration read_depthai(const std::vector<CalibrationText>& texts) {
+  const YamlMap& device = texts[0].entries();
   Cameras cameras;
   for (const auto& [socket, camera] : device.items("cameraData"))
     cameras.emplace(parse_whole(socket, device.file(), device.line("cameraData"), "a camera socket", -1, 100), camera);
@@ -91,5 +88,10 @@ StatedCalibration read_depthai(const YamlMap& device) {
   }
   return stated;
 }
+
+}  // namespace
+
+const CalibrationForm kDepthai{"depthai", "DepthAI's calibration of an OAK camera (cameraData)", false,
+                               [](const CalibrationText& text) { return text.has("cameraData"); }, read_depthai};
 
 }  // namespace quadedge::data

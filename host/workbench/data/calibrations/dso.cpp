@@ -13,9 +13,7 @@ constexpr const char* kCameraModels[] = {"Pinhole", "RadTan", "FOV", "EquiDistan
 
 bool is_number(const std::string& word) { return word.find_first_not_of("0123456789.+-eE") == std::string::npos; }
 
-}  // namespace
-
-bool is_dso_camera(const CalibrationText& text) {
+bool is_stereo_dso(const CalibrationText& text) {
   for (const char* model : kCameraModels)
     if (text.text.rfind(model + std::string(" "), 0) == 0) return true;
   const auto lines = split(text.text, "\r\n");
@@ -24,7 +22,8 @@ bool is_dso_camera(const CalibrationText& text) {
          split(lines[1]).size() == 2;
 }
 
-StatedCalibration read_stereo_dso(const CalibrationText& text) {
+StatedCalibration read_stereo_dso(const std::vector<CalibrationText>& texts) {
+  const CalibrationText& text = texts[0];
   const auto lines = data_lines(text.file);
   auto words = lines.empty() ? std::vector<std::string>() : split(lines[0].text);
   if (lines.size() < 5) {
@@ -38,13 +37,12 @@ StatedCalibration read_stereo_dso(const CalibrationText& text) {
   for (std::size_t i = 1; i < words.size(); ++i)
     k.push_back(parse_number(words[i], text.file, lines[0].number, "fx fy cx cy and coefficients"));
   if (k.size() < 4) fail(text.file, lines[0].number, counted(k.size(), "number"), "fx fy cx cy and coefficients");
-  StatedLens stated(text.file, words[0], words[0]);
-  Lens& lens = stated.lens;
   const bool is_relative = k[2] < 1 && k[3] < 1;
   const double columns = is_relative ? size[0] : 1, rows = is_relative ? size[1] : 1, corner = is_relative ? 0.5 : 0;
-  lens.camera = {
-      k[0] * columns,           k[1] * rows, k[2] * columns - corner, k[3] * rows - corner, static_cast<int>(size[0]),
-      static_cast<int>(size[1])};
+  StatedLens stated(text.file, words[0], words[0],
+                    {k[0] * columns, k[1] * rows, k[2] * columns - corner, k[3] * rows - corner},
+                    {static_cast<int>(size[0]), static_cast<int>(size[1])});
+  Lens& lens = stated.lens;
   lens.parameters.assign(k.begin() + 4, k.end());
   const bool is_fov = words[0] == "FOV" && !lens.parameters.empty() && lens.parameters[0] != 0;
   if (is_fov)
@@ -58,5 +56,10 @@ StatedCalibration read_stereo_dso(const CalibrationText& text) {
   calibration.right_from_left.translation().x() = -parse_row(lines[4], text.file, 1, "the baseline in metres")[0];
   return calibration;
 }
+
+}  // namespace
+
+const CalibrationForm kStereoDso{"stereo-dso", "Stereo DSO's camera.txt (with the baseline in its fifth line)", false,
+                                 is_stereo_dso, read_stereo_dso};
 
 }  // namespace quadedge::data

@@ -26,10 +26,9 @@ StatedLens edex_lens(const YamlMap& camera) {
   const std::string name = camera.word("distortion_model");
   for (const EdexModel& model : kEdexModels) {
     if (name != model.name) continue;
-    StatedLens stated(camera.file(), camera.name("focal"), camera.name("distortion_params"));
     const auto focal = camera.numbers("focal", 2), principal = camera.numbers("principal", 2);
-    const ImageSize size = camera.size("size");
-    stated.lens.camera = {focal[0], focal[1], principal[0], principal[1], size.width, size.height};
+    StatedLens stated(camera.file(), camera.name("focal"), camera.name("distortion_params"),
+                      {focal[0], focal[1], principal[0], principal[1]}, camera.size("size"));
     stated.lens.model = model.model;
     auto& k = stated.lens.parameters;
     if (model.coefficients > 0 || camera.has("distortion_params"))
@@ -48,14 +47,13 @@ Eigen::Isometry3d with_turned_axes(const Eigen::Isometry3d& transform) {
   return turned;
 }
 
-}  // namespace
-
 bool is_edex(const CalibrationText& text) {
   const std::size_t first = text.text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text.text[first] == '[' && text.text.find("\"cameras\"") != std::string::npos;
 }
 
-StatedCalibration read_edex(const YamlMap& header) {
+StatedCalibration read_edex(const std::vector<CalibrationText>& texts) {
+  const YamlMap& header = texts[0].entries();
   const auto cameras = header.items("cameras");
   if (cameras.size() < 2) header.complain("cameras", counted(cameras.size(), "camera"), "two, left and right");
   const YamlMap &left = cameras[0].second, &right = cameras[1].second;
@@ -69,5 +67,9 @@ StatedCalibration read_edex(const YamlMap& header) {
                     "the stereo.edex of a data set: x to the right, y up, z backward");
   return stated;
 }
+
+}  // namespace
+
+const CalibrationForm kEdex{"edex", "cuVSLAM's EDEX (cameras: intrinsics, transform)", false, is_edex, read_edex};
 
 }  // namespace quadedge::data

@@ -20,21 +20,6 @@ namespace quadedge {
 namespace data {
 namespace {
 
-template <StatedCalibration (*Read)(const YamlMap&)>
-StatedCalibration of_map(const std::vector<CalibrationText>& texts) {
-  return Read(texts[0].entries());
-}
-
-template <StatedCalibration (*Read)(const YamlMap&, const YamlMap&)>
-StatedCalibration of_maps(const std::vector<CalibrationText>& texts) {
-  return Read(texts[0].entries(), texts[1].entries());
-}
-
-template <StatedCalibration (*Read)(const CalibrationText&)>
-StatedCalibration of_text(const std::vector<CalibrationText>& texts) {
-  return Read(texts[0]);
-}
-
 /// For files of one camera that no form combines: what is missing is the transform.
 [[noreturn]] StatedCalibration refuse_single_cameras(const std::vector<CalibrationText>& texts) {
   fail(
@@ -44,9 +29,20 @@ StatedCalibration of_text(const std::vector<CalibrationText>& texts) {
       "Kalibr chain (T_cn_cnm1), or OpenCV's stereo calibration (R, T)");
 }
 
-bool is_camera_info(const CalibrationText& text) {
-  return (text.has("camera_matrix") && (text.has("projection_matrix") || text.has("image_width"))) ||
-         (text.has("K") && text.has("P")) || (text.has("k") && text.has("p"));
+bool is_single_camera(const CalibrationText& text) {
+  return text.has("model_type") || text.has("projection_parameters") || text.has("camera_matrix") ||
+         kStereoDso.recognise(text);
+}
+
+constexpr CalibrationForm kSingleCameras{"single", "", false, is_single_camera, refuse_single_cameras};
+
+/// All forms, in the order in which they are tried.
+const std::vector<CalibrationForm>& calibration_forms() {
+  static const std::vector<CalibrationForm> forms = {
+      kEurocSensors, kCameraInfos, kKalibrChain, kOrbSlam, kStellaVslam,  kVinsFusion,
+      kBasalt,       kMrcal,       kEdex,        kDepthai, kZed,          kRealsense,
+      kKittiCameras, kMatlab,      kStereoDso,   kNative,  kOpencvStereo, kSingleCameras};
+  return forms;
 }
 
 /// The cameras of one file: of several documents, as `ros2 topic echo` appends messages, those that differ.
@@ -102,6 +98,30 @@ std::string all_contents() {
             (form.has_two_files ? " (two files)" : "");
   }
   return list;
+}
+
+/// Reads a text and its entries, if it has any. \throws DataError as read_text()
+CalibrationText read_calibration_text(const std::string& file) {
+  CalibrationText text{file, read_text(file), {}};
+  if (kMrcal.recognise(text)) text.text = yaml_of_python(text.text);
+  const bool is_ini = kZed.recognise(text);
+  const bool is_plain = kRealsense.recognise(text) || kMatlab.recognise(text) || kStereoDso.recognise(text);
+  const std::size_t first = text.text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text.text[first] == '<') {
+    try {
+      cv::FileStorage storage(text.text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+      if (!storage.isOpened() || !storage.root().isMap()) return text;
+      text.map.emplace(node_of(storage.root()), file, "OpenCV's stereo calibration");
+    } catch (const cv::Exception& problem) {
+      fail(file, "text that cv::FileStorage does not read (" + problem.err + ")", "OpenCV's stereo calibration");
+    }
+  } else if (!is_plain && (first == std::string::npos || text.text[first] != '[' || is_ini || kEdex.recognise(text))) {
+    const YAML::Node node = parse_yaml(is_ini ? yaml_of_ini(text.text) : text.text, file, all_contents());
+    const YAML::Node entries = node.IsSequence() && node.size() > 0 ? node[0] : node;
+    if (!entries.IsMap()) fail(file, "no entries", all_contents());
+    text.map.emplace(entries, file, all_contents());
+  }
+  return text;
 }
 
 [[noreturn]] void fail_unknown(const std::vector<CalibrationText>& texts) {
@@ -178,78 +198,6 @@ void check_lens(const StatedLens& stated) {
 
 }  // namespace
 
-const std::vector<CalibrationForm>& calibration_forms() {
-  using Text = const CalibrationText&;
-  static const std::vector<CalibrationForm> forms = {
-      {"euroc", "EuRoC's sensor.yaml (T_BS)", true,
-       [](Text text) { return text.has("T_BS") || text.has("sensor_type"); }, of_maps<read_euroc_sensors>},
-      {"ros", "ROS camera_info, as files or as `rostopic echo` prints it (camera_matrix or K, D, R, P)", true,
-       is_camera_info, of_maps<read_camera_infos>, write_camera_infos},
-      {"kalibr", "a Kalibr camera chain (cam0, cam1)", false, [](Text text) { return text.has("cam0"); },
-       of_map<read_kalibr_chain>, write_kalibr_chain},
-      {"orb-slam", "ORB-SLAM2 or ORB-SLAM3 settings (Camera1.fx or Camera.fx)", false,
-       [](Text text) { return text.has("Camera1.fx") || (text.has("Camera.fx") && !text.has("Camera.setup")); },
-       of_map<read_orb_slam_settings>},
-      {"stella-vslam", "stella_vslam's configuration (Camera: setup: stereo)", false,
-       [](Text text) { return text.has("Camera.setup") || (text.has("Camera") && !text.has("value0")); },
-       of_map<read_stella_vslam>},
-      {"vins-fusion", "VINS-Fusion's configuration (body_T_cam0, cam0_calib)", false,
-       [](Text text) { return text.has("cam0_calib") || text.has("body_T_cam0"); }, of_map<read_vins_fusion>},
-      {"basalt", "Basalt's calibration (value0: T_imu_cam, intrinsics)", false,
-       [](Text text) { return text.has("value0") || (text.has("T_imu_cam") && text.has("intrinsics")); },
-       of_map<read_basalt>},
-      {"mrcal", "mrcal's .cameramodel (lensmodel, rt_cam_ref)", true, is_mrcal, of_maps<read_mrcal>},
-      {"edex", "cuVSLAM's EDEX (cameras: intrinsics, transform)", false, is_edex, of_map<read_edex>},
-      {"depthai", "DepthAI's calibration of an OAK camera (cameraData)", false,
-       [](Text text) { return text.has("cameraData"); }, of_map<read_depthai>},
-      {"zed", "a ZED camera's SNxxxx.conf ([LEFT_CAM_HD], [STEREO])", false, is_zed, of_text<read_zed>},
-      {"realsense", "what `rs-enumerate-devices -c` prints", false, is_realsense, of_text<read_realsense>},
-      {"kitti", "KITTI's calib_cam_to_cam.txt (P_rect_00) or calib.txt (P0), KITTI-360's perspective.txt", false,
-       [](Text text) {
-         const auto has = [&](const char* key) { return text.has(key); };
-         return has("P_rect_00") || has("P_rect_02") || (has("P0") && has("P1")) || (has("P2") && has("P3"));
-       },
-       of_map<read_kitti_pair>},
-      {"matlab", "MATLAB's stereoParameters as text (CameraParameters1, TranslationOfCamera2)", false, is_matlab,
-       of_text<read_matlab>},
-      {"stereo-dso", "Stereo DSO's camera.txt (with the baseline in its fifth line)", false, is_dso_camera,
-       of_text<read_stereo_dso>},
-      {"native", "a file written by `quadedge check --write-calibration` (left_model ...)", false,
-       [](Text text) { return text.has("left_model"); }, of_map<read_native_calibration>, write_native_calibration},
-      {"opencv", "OpenCV's stereo calibration in one or two files (M1 D1 M2 D2 R T, or K1 or cameraMatrix1 ...)", false,
-       is_opencv_stereo, read_opencv_stereo, write_opencv_stereo},
-      {"single", "", false,
-       [](Text text) {
-         return text.has("model_type") || text.has("projection_parameters") || text.has("camera_matrix") ||
-                is_dso_camera(text);
-       },
-       refuse_single_cameras},
-  };
-  return forms;
-}
-
-CalibrationText read_calibration_text(const std::string& file) {
-  CalibrationText text{file, read_text(file), {}};
-  if (is_mrcal(text)) text.text = yaml_of_python(text.text);
-  const std::size_t first = text.text.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && text.text[first] == '<') {
-    try {
-      cv::FileStorage storage(text.text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-      if (!storage.isOpened() || !storage.root().isMap()) return text;
-      text.map.emplace(node_of(storage.root()), file, "OpenCV's stereo calibration");
-    } catch (const cv::Exception& problem) {
-      fail(file, "text that cv::FileStorage does not read (" + problem.err + ")", "OpenCV's stereo calibration");
-    }
-  } else if (!is_zed(text) && !is_realsense(text) && !is_matlab(text) && !is_dso_camera(text) &&
-             (first == std::string::npos || text.text[first] != '[' || is_edex(text))) {
-    const YAML::Node node = parse_yaml(text.text, file, all_contents());
-    const YAML::Node entries = is_edex(text) && node.IsSequence() && node.size() > 0 ? node[0] : node;
-    if (!entries.IsMap()) fail(file, "no entries", all_contents());
-    text.map.emplace(entries, file, all_contents());
-  }
-  return text;
-}
-
 StereoCalibration judged(const StatedCalibration& stated, const std::string& format, const std::string& files) {
   check_lens(stated.left);
   check_lens(stated.right);
@@ -268,6 +216,17 @@ StereoCalibration judged(const StatedCalibration& stated, const std::string& for
   for (const StatedCalibration& other : stated.of_rectified)
     calibration.of_rectified.push_back(judged(other, format, files));
   return calibration;
+}
+
+StatedLens::StatedLens(std::string in_file, std::string camera, std::string coefficients, const std::vector<double>& k,
+                       ImageSize size)
+    : file(std::move(in_file)), camera_entry(std::move(camera)), coefficients_entry(std::move(coefficients)) {
+  set_size(lens.camera, size);
+  if (k.empty()) return;
+  lens.camera.fx = k[0];
+  lens.camera.fy = k[1];
+  lens.camera.cx = k[2];
+  lens.camera.cy = k[3];
 }
 
 std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
@@ -316,9 +275,7 @@ std::vector<double> coefficients_of(const YamlMap& camera, const std::string& ke
 
 StatedLens read_matrix_lens(const YamlMap& camera, const std::string& matrix, const std::string& coefficients,
                             ImageSize size, double last) {
-  StatedLens stated(camera.file(), camera.name(matrix), camera.name(coefficients));
-  stated.lens.camera.width = size.width;
-  stated.lens.camera.height = size.height;
+  StatedLens stated(camera.file(), camera.name(matrix), camera.name(coefficients), {}, size);
   set_intrinsics(camera, matrix, stated.lens.camera, last);
   stated.lens.parameters = coefficients_of(camera, coefficients);
   return stated;
@@ -345,10 +302,8 @@ Eigen::Vector3d projection_offset(const YamlMap& camera, const std::string& key)
 StatedCalibration rectified_cameras(const YamlMap& left, const std::string& left_key, ImageSize left_size,
                                     const YamlMap& right, const std::string& right_key, ImageSize right_size) {
   const auto lens = [](const YamlMap& camera, const std::string& key, ImageSize size) {
-    StatedLens stated(camera.file(), key, key);
     const auto p = camera.matrix(key, 3, 4);
-    stated.lens.camera = {p[0], p[5], p[2], p[6], size.width, size.height};
-    return stated;
+    return StatedLens(camera.file(), key, key, {p[0], p[5], p[2], p[6]}, size);
   };
   StatedCalibration rectified;
   rectified.left = lens(left, left_key, left_size);
@@ -358,7 +313,6 @@ StatedCalibration rectified_cameras(const YamlMap& left, const std::string& left
 }
 
 void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize right, const std::string& images) {
-  const auto size_of = [](const PinholeCamera& camera) { return ImageSize{camera.width, camera.height}; };
   if (left == right && size_of(calibration.left.camera) != left) {
     for (StereoCalibration& other : calibration.other_sizes) {
       if (size_of(other.left.camera) != left || size_of(other.right.camera) != right) continue;
@@ -368,10 +322,7 @@ void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize r
     }
   }
   const auto set = [&](PinholeCamera& camera, ImageSize size, const char* which) {
-    if (camera.width == 0) {
-      camera.width = size.width;
-      camera.height = size.height;
-    }
+    if (camera.width == 0) set_size(camera, size);
     if (size_of(camera) == size) return;
     std::string expected = to_string(size_of(camera));
     for (const StereoCalibration& other : calibration.other_sizes)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file forms.hpp  The forms of calibration files: how each is recognised and read, how some are written, and what all
-/// of them are judged by. Every form has a file of its name beside this one; the table in forms.cpp lists them.
+/// of them are judged by. Every form has a file of its name beside this one; the list in forms.cpp has their order.
 
 #include <optional>
 #include <string>
@@ -24,8 +24,9 @@ struct CalibrationText {
 /// A lens as a form states it, with the names of its entries for messages.
 struct StatedLens {
   StatedLens() = default;
-  StatedLens(std::string in_file, std::string camera, std::string coefficients)
-      : file(std::move(in_file)), camera_entry(std::move(camera)), coefficients_entry(std::move(coefficients)) {}
+  /// `k`: fx, fy, cx, cy; none: to be set later.
+  StatedLens(std::string in_file, std::string camera, std::string coefficients, const std::vector<double>& k = {},
+             ImageSize size = {});
 
   Lens lens;
   std::string file, camera_entry, coefficients_entry;
@@ -52,48 +53,17 @@ struct CalibrationForm {
   std::vector<std::string> (*write)(const StereoCalibration& calibration) = nullptr;
 };
 
-/// All forms, in the order in which they are tried.
-const std::vector<CalibrationForm>& calibration_forms();
+extern const CalibrationForm kEurocSensors, kCameraInfos, kKalibrChain, kOrbSlam, kStellaVslam, kVinsFusion, kBasalt,
+    kMrcal, kEdex, kDepthai, kZed, kRealsense, kKittiCameras, kMatlab, kStereoDso, kNative, kOpencvStereo;
 
-StatedCalibration read_euroc_sensors(const YamlMap& left, const YamlMap& right);
-StatedCalibration read_kalibr_chain(const YamlMap& chain);
-StatedCalibration read_camera_infos(const YamlMap& left, const YamlMap& right);
-StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts);
-StatedCalibration read_orb_slam_settings(const YamlMap& settings);
-StatedCalibration read_stella_vslam(const YamlMap& settings);
-StatedCalibration read_vins_fusion(const YamlMap& configuration);
-StatedCalibration read_edex(const YamlMap& header);
-StatedCalibration read_mrcal(const YamlMap& left, const YamlMap& right);
-StatedCalibration read_basalt(const YamlMap& calibration);
-StatedCalibration read_depthai(const YamlMap& device);
-StatedCalibration read_zed(const CalibrationText& text);
-StatedCalibration read_realsense(const CalibrationText& text);
-StatedCalibration read_matlab(const CalibrationText& text);
-StatedCalibration read_stereo_dso(const CalibrationText& text);
 /// Cameras `left` and `right` of KITTI's calib_cam_to_cam.txt or KITTI-360's perspective.txt: "00" and "01" are grey,
 /// "02" and "03" colour. Rectified images first; the images as recorded have another size.
 StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& left, const std::string& right);
-StatedCalibration read_kitti_pair(const YamlMap& cameras);
-StatedCalibration read_native_calibration(const YamlMap& file);
-
-std::vector<std::string> write_kalibr_chain(const StereoCalibration& calibration);
-std::vector<std::string> write_camera_infos(const StereoCalibration& calibration);
-std::vector<std::string> write_opencv_stereo(const StereoCalibration& calibration);
-std::vector<std::string> write_native_calibration(const StereoCalibration& calibration);
-
-bool is_opencv_stereo(const CalibrationText& text);
-bool is_zed(const CalibrationText& text);
-bool is_realsense(const CalibrationText& text);
-bool is_matlab(const CalibrationText& text);
-bool is_dso_camera(const CalibrationText& text);
-bool is_edex(const CalibrationText& text);
-bool is_mrcal(const CalibrationText& text);
 
 /// A Python literal as YAML: without comments, tuples as lists, strings of bytes as strings.
 std::string yaml_of_python(const std::string& python);
-
-/// Reads a text and its entries, if it has any. \throws DataError as read_text()
-CalibrationText read_calibration_text(const std::string& file);
+/// An INI file as YAML, in upper case: a map per section.
+std::string yaml_of_ini(const std::string& ini);
 
 /// Row-major numbers as the YAML of ROS; `type` "!!opencv-matrix": as that of OpenCV.
 std::string matrix_lines(const std::string& name, std::size_t rows, const std::vector<double>& values,

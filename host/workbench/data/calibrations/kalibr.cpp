@@ -63,8 +63,6 @@ std::string camera_lines(const Lens& lens, Side side) {
          "\n  resolution: [" + std::to_string(camera.width) + ", " + std::to_string(camera.height) + "]\n";
 }
 
-}  // namespace
-
 std::vector<std::string> write_kalibr_chain(const StereoCalibration& calibration) {
   std::string text = "cam0:\n" + camera_lines(calibration.left, Side::left) + "cam1:\n" +
                      camera_lines(calibration.right, Side::right) + "  T_cn_cnm1:\n";
@@ -73,8 +71,8 @@ std::vector<std::string> write_kalibr_chain(const StereoCalibration& calibration
   return {text};
 }
 
-StatedCalibration read_kalibr_chain(const YamlMap& whole) {
-  const YamlMap chain = whole.as("a Kalibr chain of two cameras, cam0 and cam1");
+StatedCalibration read_kalibr_chain(const std::vector<CalibrationText>& texts) {
+  const YamlMap chain = texts[0].entries().as("a Kalibr chain of two cameras, cam0 and cam1");
   const YamlMap left = chain.map("cam0"), right = chain.map("cam1");
   StatedCalibration calibration;
   calibration.left = read_named_lens(left, "distortion_coeffs");
@@ -92,5 +90,14 @@ StatedCalibration read_kalibr_chain(const YamlMap& whole) {
   }
   return calibration;
 }
+
+}  // namespace
+
+const CalibrationForm kKalibrChain{"kalibr",
+                                   "a Kalibr camera chain (cam0, cam1)",
+                                   false,
+                                   [](const CalibrationText& text) { return text.has("cam0"); },
+                                   read_kalibr_chain,
+                                   write_kalibr_chain};
 
 }  // namespace quadedge::data

@@ -23,15 +23,8 @@ StatedLens read_recording(const YamlMap& cameras, const std::string& number) {
   return read_matrix_lens(cameras, "K_" + number, "D_" + number, size_of(cameras, "S_" + number), kLastOfKitti360);
 }
 
-Eigen::Isometry3d camera_from_reference(const YamlMap& cameras, const std::string& number) {
-  Eigen::Isometry3d transform(cameras.rotation("R_" + number));
-  transform.translation() = cameras.vector("T_" + number);
-  return transform;
-}
-
-}  // namespace
-
-StatedCalibration read_kitti_pair(const YamlMap& cameras) {
+StatedCalibration read_kitti_pair(const std::vector<CalibrationText>& texts) {
+  const YamlMap& cameras = texts[0].entries();
   for (const auto& [left, right] : {std::pair("00", "01"), std::pair("02", "03")})
     if (cameras.has("P_rect_" + std::string(left)) && cameras.has("P_rect_" + std::string(right)))
       return read_kitti_cameras(cameras, left, right);
@@ -40,6 +33,8 @@ StatedCalibration read_kitti_pair(const YamlMap& cameras) {
   fail(cameras.file(), "one camera of a pair", "P_rect_00 and P_rect_01, or 02 and 03, or P0 and P1, or P2 and P3");
 }
 
+}  // namespace
+
 StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& left, const std::string& right) {
   StatedCalibration rectified = rectified_cameras(cameras, "P_rect_" + left, size_of(cameras, "S_rect_" + left),
                                                   cameras, "P_rect_" + right, size_of(cameras, "S_rect_" + right));
@@ -47,10 +42,19 @@ StatedCalibration read_kitti_cameras(const YamlMap& cameras, const std::string& 
     StatedCalibration recording;
     recording.left = read_recording(cameras, left);
     recording.right = read_recording(cameras, right);
-    recording.right_from_left = camera_from_reference(cameras, right) * camera_from_reference(cameras, left).inverse();
+    recording.right_from_left =
+        cameras.transform("R_" + right, "T_" + right) * cameras.transform("R_" + left, "T_" + left).inverse();
     rectified.other_sizes.push_back(std::move(recording));
   }
   return rectified;
 }
+
+const CalibrationForm kKittiCameras{
+    "kitti", "KITTI's calib_cam_to_cam.txt (P_rect_00) or calib.txt (P0), KITTI-360's perspective.txt", false,
+    [](const CalibrationText& text) {
+      return text.has("P_rect_00") || text.has("P_rect_02") || (text.has("P0") && text.has("P1")) ||
+             (text.has("P2") && text.has("P3"));
+    },
+    read_kitti_pair};
 
 }  // namespace quadedge::data

@@ -81,36 +81,29 @@ class Numbers {
 };
 
 StatedLens read_lens(const CalibrationText& text, const Numbers& numbers, const std::string& camera) {
-  StatedLens stated(text.file, camera + "IntrinsicMatrix", camera + "RadialDistortion");
-  Lens& lens = stated.lens;
   auto k = numbers.of_first({camera + "IntrinsicMatrix", camera + "K"}, 9);
   if (k[6] != 0) k = {k[0], k[3], k[6], k[1], k[4], k[7], k[2], k[5], k[8]};
   constexpr double kFirstPixel = 1;
-  lens.camera.fx = k[0];
-  lens.camera.fy = k[4];
-  lens.camera.cx = k[2] - kFirstPixel;
-  lens.camera.cy = k[5] - kFirstPixel;
+  StatedLens stated(text.file, camera + "IntrinsicMatrix", camera + "RadialDistortion",
+                    {k[0], k[4], k[2] - kFirstPixel, k[5] - kFirstPixel});
   if (k[1] != 0) fail(text.file, "a skew of " + format_exact(k[1]), "0: estimate the calibration without skew");
-  if (const auto size = numbers.of(camera + "ImageSize"); size.size() == 2) {
-    lens.camera.width = static_cast<int>(size[1]);
-    lens.camera.height = static_cast<int>(size[0]);
-  }
+  if (const auto size = numbers.of(camera + "ImageSize"); size.size() == 2)
+    set_size(stated.lens.camera, {static_cast<int>(size[1]), static_cast<int>(size[0])});
   auto radial = numbers.of(camera + "RadialDistortion"), tangential = numbers.of(camera + "TangentialDistortion");
   if (radial.size() != 3) radial = numbers.of_first({camera + "RadialDistortion"}, 2);
   radial.resize(3);
   tangential.resize(2);
-  lens.parameters = {radial[0], radial[1], tangential[0], tangential[1], radial[2]};
+  stated.lens.parameters = {radial[0], radial[1], tangential[0], tangential[1], radial[2]};
   return stated;
 }
-
-}  // namespace
 
 bool is_matlab(const CalibrationText& text) {
   const auto has = [&](const char* name) { return text.text.find(name) != std::string::npos; };
   return has("CameraParameters1") && (has("TranslationOfCamera2") || has("PoseCamera2"));
 }
 
-StatedCalibration read_matlab(const CalibrationText& text) {
+StatedCalibration read_matlab(const std::vector<CalibrationText>& texts) {
+  const CalibrationText& text = texts[0];
   const Numbers numbers(text);
   StatedCalibration stated;
   stated.left = read_lens(text, numbers, "1.");
@@ -123,5 +116,10 @@ StatedCalibration read_matlab(const CalibrationText& text) {
   stated.right_from_left.translation() = numbers.metres() * Eigen::Vector3d(t[0], t[1], t[2]);
   return stated;
 }
+
+}  // namespace
+
+const CalibrationForm kMatlab{"matlab", "MATLAB's stereoParameters as text (CameraParameters1, TranslationOfCamera2)",
+                              false, is_matlab, read_matlab};
 
 }  // namespace quadedge::data

@@ -14,10 +14,8 @@ StatedLens mrcal_lens(const YamlMap& camera) {
   const std::string name = camera.word("lensmodel");
   for (const std::size_t coefficients : {0U, 4U, 5U, 8U, 12U}) {  // of the models that OpenCV's equations hold
     if (name != (coefficients == 0 ? "LENSMODEL_PINHOLE" : "LENSMODEL_OPENCV" + std::to_string(coefficients))) continue;
-    StatedLens stated(camera.file(), "intrinsics", "intrinsics");
     const auto k = camera.numbers("intrinsics", 4 + coefficients);
-    const ImageSize size = camera.size("imagersize");
-    stated.lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
+    StatedLens stated(camera.file(), "intrinsics", "intrinsics", k, camera.size("imagersize"));
     stated.lens.parameters.assign(k.begin() + 4, k.end());
     return stated;
   }
@@ -37,11 +35,20 @@ Eigen::Isometry3d camera_from_reference(const YamlMap& camera) {
   return pose;
 }
 
-}  // namespace
-
 bool is_mrcal(const CalibrationText& text) {
   return text.text.find("'lensmodel'") != std::string::npos || text.text.find("\"lensmodel\"") != std::string::npos;
 }
+
+StatedCalibration read_mrcal(const std::vector<CalibrationText>& texts) {
+  const YamlMap &left = texts[0].entries(), &right = texts[1].entries();
+  StatedCalibration stated;
+  stated.left = mrcal_lens(left);
+  stated.right = mrcal_lens(right);
+  stated.right_from_left = camera_from_reference(right) * camera_from_reference(left).inverse();
+  return stated;
+}
+
+}  // namespace
 
 std::string yaml_of_python(const std::string& python) {
   std::string yaml;
@@ -61,12 +68,6 @@ std::string yaml_of_python(const std::string& python) {
   return yaml;
 }
 
-StatedCalibration read_mrcal(const YamlMap& left, const YamlMap& right) {
-  StatedCalibration stated;
-  stated.left = mrcal_lens(left);
-  stated.right = mrcal_lens(right);
-  stated.right_from_left = camera_from_reference(right) * camera_from_reference(left).inverse();
-  return stated;
-}
+const CalibrationForm kMrcal{"mrcal", "mrcal's .cameramodel (lensmodel, rt_cam_ref)", true, is_mrcal, read_mrcal};
 
 }  // namespace quadedge::data

@@ -23,17 +23,14 @@ constexpr std::pair<const char*, LensModel> kModels[] = {{"radtan", LensModel::r
 
 StatedLens read_lens(const YamlMap& file, const std::string& side) {
   const std::string model = file.word(side + "model");
-  StatedLens stated(file.file(), side + "intrinsics", side + "coefficients");
-  Lens& lens = stated.lens;
   const auto* found =
       std::find_if(std::begin(kModels), std::end(kModels), [&](const auto& each) { return model == each.first; });
   if (found == std::end(kModels))
     file.complain(side + "model", in_quotes(model), "radtan, equidistant, fov, double-sphere, eucm or omni");
-  lens.model = found->second;
-  const ImageSize size = file.size(side + "size");
-  const auto k = file.numbers(side + "intrinsics", 4);
-  lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
-  lens.parameters = file.numbers(side + "coefficients");
+  StatedLens stated(file.file(), side + "intrinsics", side + "coefficients", file.numbers(side + "intrinsics", 4),
+                    file.size(side + "size"));
+  stated.lens.model = found->second;
+  stated.lens.parameters = file.numbers(side + "coefficients");
   return stated;
 }
 
@@ -47,9 +44,8 @@ std::string lens_lines(const Lens& lens, const std::string& side) {
          "coefficients: " + list(lens.parameters);
 }
 
-}  // namespace
-
-StatedCalibration read_native_calibration(const YamlMap& file) {
+StatedCalibration read_native(const std::vector<CalibrationText>& texts) {
+  const YamlMap& file = texts[0].entries();
   StatedCalibration calibration;
   calibration.left = read_lens(file, "left_");
   calibration.right = read_lens(file, "right_");
@@ -58,7 +54,7 @@ StatedCalibration read_native_calibration(const YamlMap& file) {
   return calibration;
 }
 
-std::vector<std::string> write_native_calibration(const StereoCalibration& calibration) {
+std::vector<std::string> write_native(const StereoCalibration& calibration) {
   const Eigen::Vector3d rotation = rounded_rotation(calibration.right_from_left),
                         translation = rounded(calibration.right_from_left.translation());
   return {
@@ -68,5 +64,11 @@ std::vector<std::string> write_native_calibration(const StereoCalibration& calib
       "rotation: " + list({rotation.x(), rotation.y(), rotation.z()}) +
       "translation: " + list({translation.x(), translation.y(), translation.z()})};
 }
+
+}  // namespace
+
+const CalibrationForm kNative{"native",    "a file written by `quadedge check --write-calibration` (left_model ...)",
+                              false,       [](const CalibrationText& text) { return text.has("left_model"); },
+                              read_native, write_native};
 
 }  // namespace quadedge::data

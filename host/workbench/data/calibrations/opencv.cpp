@@ -77,11 +77,8 @@ StatedLens read_lens(const std::vector<CalibrationText>& texts, const Words& sid
   stated.lens.parameters = coefficients_of(*d.map, d.key);
   if (const auto model = find(texts, {"distortionmodel"}))
     stated.lens.model = model_of_word(*model->map, model->key, model->map->word(model->key));
-  if (const auto width = find(texts, {"imagewidth"}), height = find(texts, {"imageheight"}); width && height) {
-    const ImageSize size = width->map->size(width->key, height->key);
-    stated.lens.camera.width = size.width;
-    stated.lens.camera.height = size.height;
-  }
+  if (const auto width = find(texts, {"imagewidth"}), height = find(texts, {"imageheight"}); width && height)
+    set_size(stated.lens.camera, width->map->size(width->key, height->key));
   return stated;
 }
 
@@ -90,8 +87,6 @@ Eigen::Matrix3d read_rotation(const Place& place) {
     return rotation_of_vector(place.map->vector(place.key), place.map->file() + " (" + place.key + ")");
   return place.map->rotation(place.key);
 }
-
-}  // namespace
 
 bool is_opencv_stereo(const CalibrationText& text) {
   return find({text}, kCameraNames, kLeft) || find({text}, kCameraNames, kRight) || find({text}, kRotationNames) ||
@@ -106,16 +101,15 @@ StatedCalibration read_opencv_stereo(const std::vector<CalibrationText>& texts) 
   const Place translation = required(texts, kTranslationNames);
   stated.right_from_left.translation() = translation.map->vector(translation.key);
   if (const auto left = find(texts, {"p"}, kLeft), right = find(texts, {"p"}, kRight); left && right) {
-    const auto size = [](const StatedLens& lens) { return ImageSize{lens.lens.camera.width, lens.lens.camera.height}; };
-    stated.of_rectified.push_back(
-        rectified_cameras(*left->map, left->key, size(stated.left), *right->map, right->key, size(stated.right)));
+    stated.of_rectified.push_back(rectified_cameras(*left->map, left->key, size_of(stated.left.lens.camera),
+                                                    *right->map, right->key, size_of(stated.right.lens.camera)));
   }
   return stated;
 }
 
 std::vector<std::string> write_opencv_stereo(const StereoCalibration& calibration) {
   const Lens &left = calibration.left, &right = calibration.right;
-  if (left.camera.width != right.camera.width || left.camera.height != right.camera.height)
+  if (size_of(left.camera) != size_of(right.camera))
     throw UsageError("format opencv: expected images of one size from both cameras");
   std::string text = "%YAML:1.0\n---\nimage_width: " + std::to_string(left.camera.width) +
                      "\nimage_height: " + std::to_string(left.camera.height) + "\n";
@@ -136,5 +130,15 @@ std::vector<std::string> write_opencv_stereo(const StereoCalibration& calibratio
   matrix("T", 3, row_major(calibration.right_from_left.translation()));
   return {text};
 }
+
+}  // namespace
+
+const CalibrationForm kOpencvStereo{
+    "opencv",
+    "OpenCV's stereo calibration in one or two files (M1 D1 M2 D2 R T, or K1 or cameraMatrix1 ...)",
+    false,
+    is_opencv_stereo,
+    read_opencv_stereo,
+    write_opencv_stereo};
 
 }  // namespace quadedge::data

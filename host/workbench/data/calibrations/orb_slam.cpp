@@ -16,15 +16,9 @@ ImageSize size_in(const YamlMap& settings) {
 }
 
 StatedLens read_lens(const YamlMap& settings, const std::string& prefix, bool is_rectified) {
-  StatedLens stated(settings.file(), prefix + "fx", prefix + "k1");
+  StatedLens stated(settings.file(), prefix + "fx", prefix + "k1",
+                    settings.numbers_of({"fx", "fy", "cx", "cy"}, prefix), size_in(settings));
   Lens& lens = stated.lens;
-  const ImageSize size = size_in(settings);
-  lens.camera = {settings.number(prefix + "fx"),
-                 settings.number(prefix + "fy"),
-                 settings.number(prefix + "cx"),
-                 settings.number(prefix + "cy"),
-                 size.width,
-                 size.height};
   if (is_rectified) {
     for (const char* name : {"k1", "k2", "k3", "p1", "p2"})
       if (settings.has(prefix + name) && settings.number(prefix + name) != 0)
@@ -38,8 +32,7 @@ StatedLens read_lens(const YamlMap& settings, const std::string& prefix, bool is
   else if (type != "PinHole" && type != "Pinhole")
     settings.complain("Camera.type", in_quotes(type), "PinHole, Rectified or KannalaBrandt8");
   const bool is_fisheye = lens.model == LensModel::equidistant;
-  for (const char* name : {"k1", "k2", is_fisheye ? "k3" : "p1", is_fisheye ? "k4" : "p2"})
-    lens.parameters.push_back(settings.number(prefix + name));
+  lens.parameters = settings.numbers_of({"k1", "k2", is_fisheye ? "k3" : "p1", is_fisheye ? "k4" : "p2"}, prefix);
   if (!is_fisheye && settings.has(prefix + "k3")) lens.parameters.push_back(settings.number(prefix + "k3"));
   return stated;
 }
@@ -49,9 +42,8 @@ StatedLens read_recording_lens(const YamlMap& settings, const std::string& side)
   return read_matrix_lens(settings, side + "K", side + "D", settings.size(side + "width", side + "height"));
 }
 
-}  // namespace
-
-StatedCalibration read_orb_slam_settings(const YamlMap& settings) {
+StatedCalibration read_orb_slam(const std::vector<CalibrationText>& texts) {
+  const YamlMap& settings = texts[0].entries();
   StatedCalibration stated;
   if (settings.has("LEFT.K")) {
     stated.left = read_recording_lens(settings, "LEFT.");
@@ -83,5 +75,13 @@ StatedCalibration read_orb_slam_settings(const YamlMap& settings) {
       has_baseline ? -settings.number("Stereo.b") : -settings.number("Camera.bf") / stated.left.lens.camera.fx;
   return stated;
 }
+
+}  // namespace
+
+const CalibrationForm kOrbSlam{"orb-slam", "ORB-SLAM2 or ORB-SLAM3 settings (Camera1.fx or Camera.fx)", false,
+                               [](const CalibrationText& text) {
+                                 return text.has("Camera1.fx") || (text.has("Camera.fx") && !text.has("Camera.setup"));
+                               },
+                               read_orb_slam};
 
 }  // namespace quadedge::data

@@ -18,6 +18,13 @@ std::vector<double> numbers_in(const std::string& text, const std::string& file,
   return values;
 }
 
+/// The camera with the image size of another one.
+std::vector<StatedLens>::const_iterator of_size(const std::vector<StatedLens>& cameras, const StatedLens& other) {
+  return std::find_if(cameras.begin(), cameras.end(), [&](const StatedLens& camera) {
+    return size_of(camera.lens.camera) == size_of(other.lens.camera);
+  });
+}
+
 /// The cameras of a stream, one per resolution.
 std::vector<StatedLens> read_stream(const CalibrationText& text, const std::vector<Line>& lines,
                                     const std::string& stream) {
@@ -52,13 +59,9 @@ std::vector<StatedLens> read_stream(const CalibrationText& text, const std::vect
     }
   }
   // A resolution is printed once per pixel format.
-  const auto same = [](const StatedLens& one, const StatedLens& other) {
-    return one.lens.camera.width == other.lens.camera.width && one.lens.camera.height == other.lens.camera.height;
-  };
   std::vector<StatedLens> distinct;
   for (const StatedLens& lens : found)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const auto& other) { return same(lens, other); }))
-      distinct.push_back(lens);
+    if (of_size(distinct, lens) == distinct.end()) distinct.push_back(lens);
   return distinct;
 }
 
@@ -84,23 +87,20 @@ Eigen::Isometry3d read_extrinsics(const CalibrationText& text, const std::vector
   fail(text.file, "no extrinsics from \"" + from + "\" to \"" + to + "\"", "what `rs-enumerate-devices -c` prints");
 }
 
-}  // namespace
-
 bool is_realsense(const CalibrationText& text) {
   return text.text.find("Intrinsic of \"") != std::string::npos ||
          text.text.find("Stream Profiles supported by") != std::string::npos;
 }
 
-StatedCalibration read_realsense(const CalibrationText& text) {
+StatedCalibration read_realsense(const std::vector<CalibrationText>& texts) {
+  const CalibrationText& text = texts[0];
   const auto lines = data_lines(text.file);
   for (const std::string kind : {"Infrared", "Fisheye"}) {
     const std::string left = kind + " 1", right = kind + " 2";
     const auto lefts = read_stream(text, lines, left), rights = read_stream(text, lines, right);
     StatedCalibration stated;
     for (const StatedLens& one : lefts) {
-      const auto other = std::find_if(rights.begin(), rights.end(), [&](const StatedLens& lens) {
-        return lens.lens.camera.width == one.lens.camera.width && lens.lens.camera.height == one.lens.camera.height;
-      });
+      const auto other = of_size(rights, one);
       if (other == rights.end()) continue;
       StatedCalibration pair;
       pair.left = one;
@@ -116,5 +116,10 @@ StatedCalibration read_realsense(const CalibrationText& text) {
   fail(text.file, "no intrinsics of Infrared 1 and 2, or Fisheye 1 and 2",
        "what `rs-enumerate-devices -c` prints of a stereo camera");
 }
+
+}  // namespace
+
+const CalibrationForm kRealsense{"realsense", "what `rs-enumerate-devices -c` prints", false, is_realsense,
+                                 read_realsense};
 
 }  // namespace quadedge::data

@@ -27,9 +27,8 @@ StatedLens read_recording_lens(const Section& rectifier, const std::string& side
   return stated;
 }
 
-}  // namespace
-
-StatedCalibration read_stella_vslam(const YamlMap& settings) {
+StatedCalibration read_stella_vslam(const std::vector<CalibrationText>& texts) {
+  const YamlMap& settings = texts[0].entries();
   const Section camera = section(settings, "Camera"), rectifier = section(settings, "StereoRectifier");
   const YamlMap& map = camera.map;
   if (const std::string setup = map.has(camera.key("setup")) ? map.word(camera.key("setup")) : ""; setup != "stereo")
@@ -39,10 +38,8 @@ StatedCalibration read_stella_vslam(const YamlMap& settings) {
   Rectification left, right;
   right.rectified_from_reference.x() = -map.number(camera.key("focal_x_baseline")) / focal;
   StatedCalibration rectified;
-  rectified.left = StatedLens(map.file(), map.name(camera.key("fx")), map.name(camera.key("fx")));
-  rectified.left.lens.camera = {
-      focal,      map.number(camera.key("fy")), map.number(camera.key("cx")), map.number(camera.key("cy")), size.width,
-      size.height};
+  rectified.left = StatedLens(map.file(), map.name(camera.key("fx")), map.name(camera.key("fx")),
+                              map.numbers_of({"fx", "fy", "cx", "cy"}, camera.prefix), size);
   rectified.right = rectified.left;
   rectified.right_from_left = right_from_left_of(left, right);
   if (!rectifier.map.has(rectifier.key("K_left"))) {
@@ -60,5 +57,12 @@ StatedCalibration read_stella_vslam(const YamlMap& settings) {
   stated.of_rectified.push_back(std::move(rectified));
   return stated;
 }
+
+}  // namespace
+
+const CalibrationForm kStellaVslam{
+    "stella-vslam", "stella_vslam's configuration (Camera: setup: stereo)", false,
+    [](const CalibrationText& text) { return text.has("Camera.setup") || (text.has("Camera") && !text.has("value0")); },
+    read_stella_vslam};
 
 }  // namespace quadedge::data
