@@ -86,9 +86,9 @@ TEST_CASE("rig monitor: a mismatch is reported with its likely cause", "[rig]") 
   check_mismatch(rig, left, negative, "as their negative");
   const int last_column = right.width - 1, last_row = right.height - 1;
   const Image mirrored = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, y); });
-  check_mismatch(rig, left, mirrored, "is the right image mirrored?");
+  check_mismatch(rig, left, mirrored, "is one image mirrored or rotated?");
   const Image upside_down = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, last_row - y); });
-  check_mismatch(rig, left, upside_down, "is the right image rotated by 180 degrees?");
+  check_mismatch(rig, left, upside_down, "is one image mirrored or rotated?");
 }
 
 TEST_CASE("rig monitor: small errors are warnings and stop nothing", "[rig]") {

@@ -12,16 +12,6 @@
 namespace quadedge::rig {
 namespace {
 
-/// The transformation of the right image with which a search finds most corners; none if there is no such.
-ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
-                    const HiddenPixels& hidden) {
-  for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
-    const CornerSearch search = matcher.search(frame, max_disparity, turn, 1, hidden);
-    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
-  }
-  return ImageTurn::none;
-}
-
 /// By how much farther along its line a match lies than rows and disparity offset predict of a point at infinity [px].
 double disparity_of(const CornerMatch& match, const StereoRig& rig, const RigEstimate& known) {
   const double roll = known.rows.slope_x / rig.right.width;
@@ -90,17 +80,6 @@ double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, c
   return static_cast<double>(contradicting) / std::max(1, search.aligned);
 }
 
-std::string text_of(ImageTurn turn) {
-  switch (turn) {
-    case ImageTurn::none: return "unchanged";
-    case ImageTurn::mirrored: return "mirrored";
-    case ImageTurn::half: return "rotated by 180 degrees";
-    case ImageTurn::quarter: return "rotated by 90 degrees";
-    case ImageTurn::three_quarters: return "rotated by -90 degrees";
-  }
-  return {};
-}
-
 std::string seen_across(const EpipolarFit& fit) {
   return printed(
       "corners are found %.1f px off their epipolar lines (%.1f px in the middle of the image, changing by %.1f px "
@@ -123,22 +102,18 @@ std::string cause_across(const EpipolarFit& fit) {
 }
 
 /// What is wrong where few corners are found.
-std::string cause_of_few(const CornerSearch& search, ImageTurn turn, const RigEvidence& evidence) {
+std::string cause_of_few(const CornerSearch& search, const RigEvidence& evidence) {
   const std::string found = percent(evidence.found_ratio) + " of " + std::to_string(search.searched) +
                             " corners of the left image are found in the right one";
   if (search.negative > kMajority * search.searched)
     return found + ", and " + percent(static_cast<double>(search.negative) / search.searched) +
            " as their negative; is one image a negative?";
-  if (turn != ImageTurn::none)
-    return found + ", but most are found if it is " + text_of(turn) + "; is the right image " + text_of(turn) + "?";
   return found + "; do both cameras see the same scene at the same time? is one image mirrored or rotated?";
 }
 
 /// Judges the rig by the results of a search.
-/// \param turn transformation of the right image with which most corners are found, or none
 // LONG: a sentence per finding.
-std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evidence, ImageTurn turn,
-                              const PinholeCamera& left) {
+std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evidence, const PinholeCamera& left) {
   const CornerSearch& search = answer.search;
   const EpipolarFit& fit = answer.fit;
   const std::string matched =
@@ -149,16 +124,14 @@ std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evi
   };
   if (finds_few_corners(search, evidence)) {
     if (const std::string poor = is_uneven(search) && search.more_saturated > kUnevenSaturation &&
-                                         turn == ImageTurn::none && !(search.negative > kMajority * search.searched)
+                                         !(search.negative > kMajority * search.searched)
                                      ? poor_images(search, "; few corners are found in both images")
                                      : "";
         !poor.empty())
       return {{{WarningKind::poor_images, poor}}};
     // Few corners have a partner where something comes near the lenses, but chance puts none on their lines.
-    if (!(evidence.matched_ratio >= 0) && turn == ImageTurn::none && !fit.is_coarse &&
-        evidence.on_line_ratio > kSoundOnLine)
-      return {};
-    return mismatch(cause_of_few(search, turn, evidence));
+    if (!(evidence.matched_ratio >= 0) && !fit.is_coarse && evidence.on_line_ratio > kSoundOnLine) return {};
+    return mismatch(cause_of_few(search, evidence));
   }
   if (search.found.size() < static_cast<std::size_t>(kMinMatches)) return {};
   const bool is_uncorrected = evidence.epipolar_correction == 0,
@@ -222,13 +195,10 @@ EpipolarFit fit_of(const CornerSearch& search, const PinholeCamera& left) {
 
 CornerAnswer search_and_judge(const CornerQuestion& question, RigReport& report, std::size_t every) {
   const auto& [matcher, rig, frame, max_disparity, known, hidden, last_view] = question;
-  CornerAnswer answer{matcher.search(frame, max_disparity, ImageTurn::none, every, hidden, last_view), {}};
+  CornerAnswer answer{matcher.search(frame, max_disparity, every, hidden, last_view), {}};
   answer.fit = fit_of(answer.search, rig.left);
   add_search_results(answer, rig, known, report.evidence);
-  const ImageTurn turn = finds_few_corners(answer.search, report.evidence)
-                             ? find_turn(matcher, frame, max_disparity, hidden)
-                             : ImageTurn::none;
-  report.findings = judge(answer, report.evidence, turn, rig.left);
+  report.findings = judge(answer, report.evidence, rig.left);
   return answer;
 }
 

@@ -90,19 +90,6 @@ struct SearchedCorner {
   std::optional<CornerMatch> found;
 };
 
-/// Pixel of the actual right image that corresponds to pixel `at` of the calibrated one.
-Eigen::Vector2d turned(const Eigen::Vector2d& at, ImageTurn turn, const PinholeCamera& camera) {
-  const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1)), from = at - middle;
-  switch (turn) {
-    case ImageTurn::none: return at;
-    case ImageTurn::mirrored: return middle + Eigen::Vector2d(-from.x(), from.y());
-    case ImageTurn::half: return middle - from;
-    case ImageTurn::quarter: return middle + Eigen::Vector2d(-from.y(), from.x());
-    case ImageTurn::three_quarters: return middle + Eigen::Vector2d(from.y(), -from.x());
-  }
-  return at;
-}
-
 }  // namespace
 
 CornerMatcher::CornerMatcher(const StereoRig& rig)
@@ -196,24 +183,20 @@ struct CornerMatcher::CoarseViews {
   Eigen::Vector2d in_left(const Eigen::Vector2d& at) const { return in_left(at, scale); }
 };
 
-CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, const PinholeView& right,
-                                                       ImageTurn turn) const {
+CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, const PinholeView& right) const {
   const double scale = std::max(1.0, std::round(rig_.left.width / kCoarseWidth));
   const int width = static_cast<int>(rig_.left.width / scale), height = static_cast<int>(rig_.left.height / scale);
   const auto in_left = [&](const Eigen::Vector2d& at) { return std::optional(CoarseViews::in_left(at, scale)); };
   return {scale, sample_plane(left, width, height, in_left),
-          sample_plane(right, width, height, [&](const Eigen::Vector2d& at) {
-            const auto position = at_infinity(*in_left(at));
-            return position ? std::optional(turned(*position, turn, rig_.right)) : std::nullopt;
-          })};
+          sample_plane(right, width, height, [&](const Eigen::Vector2d& at) { return at_infinity(*in_left(at)); })};
 }
 
 // LONG: seek() says what is done with a corner, and uses all that is prepared before it.
-CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
+CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, std::size_t every,
                                    const HiddenPixels& hidden, const GreyPlane* last) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
-  CoarseViews views = coarse_views(left, right, turn);
+  CoarseViews views = coarse_views(left, right);
   const double scale = views.scale;
   CornerSearch result;
   result.max_disparity = max_disparity;
@@ -248,7 +231,7 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
     if (outcome.is_negative || !position) return outcome;
     outcome.is_saturated = saturates(right, *position);
     if (outcome.is_saturated) return outcome;
-    outcome.found = turn == ImageTurn::none ? refine(left, right, corner_at, *position) : std::nullopt;
+    outcome.found = refine(left, right, corner_at, *position);
     const Eigen::Vector2d from_infinity = *position - epipolar->infinity;
     if (!outcome.found)
       outcome.found = CornerMatch{corner_at,

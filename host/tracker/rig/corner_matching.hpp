@@ -32,9 +32,6 @@ struct CornerMatch {
       std::nullopt;  ///< displacement in the left image since the last frame, if searched [px]
 };
 
-/// Transformations of the right image relative to the calibration that a search can assume.
-enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
-
 /// Result of a search.
 struct CornerSearch {
   int searched = 0;                ///< corners searched for
@@ -65,8 +62,8 @@ class CornerMatcher {
   /// \param every searches for every `every`-th corner, in `every`-th of the time
   /// \param hidden neither corners there are searched for, nor counts what is found there; what the rig masks likewise
   /// \param last the last frame's left view, in which the corners found are searched for, too; null: none
-  CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none,
-                      std::size_t every = 1, const HiddenPixels& hidden = {}, const GreyPlane* last = nullptr) const;
+  CornerSearch search(const StereoFrame& frame, double max_disparity, std::size_t every = 1,
+                      const HiddenPixels& hidden = {}, const GreyPlane* last = nullptr) const;
 
  private:
   /// An epipolar line in the right image.
@@ -82,7 +79,7 @@ class CornerMatcher {
   std::optional<Line> line(const Eigen::Vector2d& left) const;
   std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;
   struct CoarseViews;
-  CoarseViews coarse_views(const PinholeView& left, const PinholeView& right, ImageTurn turn) const;
+  CoarseViews coarse_views(const PinholeView& left, const PinholeView& right) const;
   std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& corner_at,
                                     Eigen::Vector2d at) const;
 

@@ -51,8 +51,6 @@ constexpr double kMeanSquare = 1.0 / 12;  ///< of a coordinate from -1/2 to 1/2
 constexpr int kSearchPeriod = 50;  ///< frames
 /// Decrease of the ratio of matched edges, and increase of the residual [px], since the last search.
 constexpr double kMatchedDecrease = 0.7, kResidualIncrease = 0.2;
-/// Fraction of the corners found in a transformed right image, from which that transformation is reported.
-constexpr double kTransformedFoundRatio = 0.4;
 
 // Findings (rig_monitor.cpp).
 
