@@ -81,17 +81,21 @@ class PairAdjustment {
   struct Terms;
   struct Step;
 
-  void start(const Eigen::VectorXd& values);
-  void settle_points(const Eigen::VectorXd& values, int rounds);
-  void cull(const Eigen::VectorXd& values, double limit);
-  void optimise(Eigen::VectorXd& values, bool learns, const std::vector<std::pair<int, double>>& culls);
-  std::vector<Pair> stepped(const Eigen::VectorXd& values, bool learns, double damping, Eigen::VectorXd& change,
-                            Evidence& evidence) const;
+  /// Calls a function with every pair, point and its views, and with terms of the thread.
+  template <class Function>
+  void for_all_points(const Function& function);
+  void start();
+  void settle_points(int rounds);
+  void cull(double limit);
+  /// \param culls steps before which points that lie farther from a view than a limit [px] cease to take part
+  void optimise(bool learns, const std::vector<std::pair<int, double>>& culls);
+  void adjust(bool learns, const std::vector<std::pair<int, double>>& culls);
+  std::vector<Pair> stepped(bool learns, double damping, Eigen::VectorXd& change, Evidence& evidence) const;
   double cost(const std::vector<Pair>& pairs, const Eigen::VectorXd& values) const;
 
   const RigUnknowns& unknowns_;
   std::vector<Pair> pairs_;
-  Eigen::VectorXd values_;
+  Eigen::VectorXd values_;  ///< of the unknowns
   Evidence evidence_;
   double scale_;  ///< distance from which views count less [px]
 };
