@@ -42,8 +42,7 @@ struct PairAdjustment::Cameras {
         calibration(of.at(values)),
         mapping{LensMapping(calibration.left), LensMapping(calibration.right)},
         rotation(calibration.right_from_left.linear()),
-        baseline(calibration.right_from_left.translation()),
-        baseline_slope(of.baseline_slope(values)) {
+        baseline(calibration.right_from_left.translation()) {
     if (!is_varied) return;
     for (const Side side : kSides) {
       for (const int parameter : of.lens_parameters(side)) {
@@ -92,7 +91,6 @@ struct PairAdjustment::Cameras {
   std::vector<LensMapping> varied[2];
   Eigen::Matrix3d rotation;
   Eigen::Vector3d baseline;
-  Eigen::Matrix<double, 3, 2> baseline_slope;
 };
 
 /// The views of one point: distances from where they are seen, weighted, and derivatives.
@@ -164,7 +162,7 @@ struct PairAdjustment::Terms {
       const int first = cameras.unknowns.first_rotation();
       const Eigen::Vector3d turned = at - point.inverse_depth * cameras.baseline;
       by_rig.middleCols<3>(first) -= by_place * pose::cross_matrix(turned) * cameras.unknowns.rotation_axes();
-      by_rig.middleCols<2>(first + 3) += by_place * cameras.baseline_slope * point.inverse_depth;
+      by_rig.middleCols<2>(first + 3) += by_place * cameras.unknowns.baseline_slope() * point.inverse_depth;
     }
   }
 };

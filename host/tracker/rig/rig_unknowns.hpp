@@ -42,15 +42,16 @@ class RigUnknowns {
   int first_rotation() const { return first_rotation_; }  ///< of three unknowns, then two of the baseline's direction
   /// Axes of the right camera that the three rotations turn it about, in columns.
   const Eigen::Matrix3d& rotation_axes() const { return rotation_axes_; }
-  /// Derivative of the baseline's vector by its two directions, at given values.
-  Eigen::Matrix<double, 3, 2> baseline_slope(const Eigen::VectorXd& values) const;
+  /// Derivative of the baseline's vector by its two directions, at the given calibration.
+  Eigen::Matrix<double, 3, 2> baseline_slope() const {
+    return given_.right_from_left.translation().norm() * baseline_axes_;
+  }
 
  private:
   int add(std::string name, std::string unit, double prior);
   void add_cameras();
   void add_lens(Side side);
   void add_pose();
-  Eigen::Vector3d moved_baseline(const Eigen::VectorXd& values) const;
 
   StereoCalibration given_;
   bool has_k3_;
