@@ -138,14 +138,16 @@ void DriveCalibrator::Implementation::learn(DriveCalibration& result) const {
   for (const rig::FramePair& pair : pairs_) all.push_back(&pair);
   rig::PairAdjustment adjustment(unknowns_, all);
   const Eigen::VectorXd values = adjustment.learn();
-  Eigen::MatrixXd information = adjustment.evidence().information;
+  Eigen::MatrixXd information = adjustment.information();
   result.points = adjustment.points();
   result.contradiction = values.dot(information * values);
   information.diagonal() += unknowns_.priors().cwiseAbs2().cwiseInverse();
   result.covariance = information.inverse();
-  for (int i = 0; i < unknowns_.count(); ++i)
-    result.numbers.push_back(
-        {unknowns_[i].name, unknowns_[i].unit, values[i], std::sqrt(result.covariance(i, i)), unknowns_[i].prior});
+  for (int i = 0; i < unknowns_.count(); ++i) {
+    result.numbers.push_back(unknowns_[i]);
+    result.numbers.back().change = values[i];
+    result.numbers.back().sigma = std::sqrt(result.covariance(i, i));
+  }
   result.learned = unknowns_.at(values);
   result.learned.right_from_left = rounded_transform(result.learned.right_from_left);
   result.change = rig::change_of(given_, result.learned);

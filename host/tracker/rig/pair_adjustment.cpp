@@ -290,8 +290,7 @@ double PairAdjustment::cost(const std::vector<Pair>& pairs, const Eigen::VectorX
 }
 
 /// One step of Levenberg and Marquardt: the pairs after it, and the change of the unknowns.
-std::vector<PairAdjustment::Pair> PairAdjustment::stepped(bool learns, double damping, Eigen::VectorXd& change,
-                                                          Evidence& evidence) const {
+std::vector<PairAdjustment::Pair> PairAdjustment::stepped(bool learns, double damping, Eigen::VectorXd& change) {
   const Cameras cameras(unknowns_, values_, learns);
   const Eigen::Index unknowns = learns ? unknowns_.count() : 0;
   const double length = cameras.baseline.norm(),
@@ -313,19 +312,19 @@ std::vector<PairAdjustment::Pair> PairAdjustment::stepped(bool learns, double da
     }
     step.eliminate_motion(damping);
   });
-  evidence.information.setZero(unknowns, unknowns);
-  evidence.slope.setZero(unknowns);
-  for (const Step& step : steps) {
-    evidence.information += step.reduced;
-    evidence.slope += step.reduced_slope;
-  }
+  information_.setZero(unknowns, unknowns);
   change.setZero(unknowns);
   if (learns) {
     const Eigen::VectorXd weight = unknowns_.priors().cwiseAbs2().cwiseInverse();
-    Eigen::MatrixXd whole = evidence.information;
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(unknowns);  // half the derivative of the cost
+    for (const Step& step : steps) {
+      information_ += step.reduced;
+      slope += step.reduced_slope;
+    }
+    Eigen::MatrixXd whole = information_;
     whole.diagonal() += weight;
     whole.diagonal() *= 1 + damping;
-    change = -whole.ldlt().solve(evidence.slope + weight.cwiseProduct(values_));
+    change = -whole.ldlt().solve(slope + weight.cwiseProduct(values_));
   }
   std::vector<Pair> after = pairs_;
   tbb::parallel_for(std::size_t{0}, after.size(), [&](std::size_t p) {
@@ -361,8 +360,7 @@ void PairAdjustment::optimise(bool learns, const std::vector<std::pair<int, doub
     }
     const double before = cost(pairs_, values_) + prior_cost(values_);
     Eigen::VectorXd change;
-    Evidence evidence;
-    std::vector<Pair> after = stepped(learns, damping, change, evidence);
+    std::vector<Pair> after = stepped(learns, damping, change);
     const Eigen::VectorXd changed = learns ? Eigen::VectorXd(values_ + change) : values_;
     const double now = cost(after, changed) + prior_cost(changed);
     if (!(now < before)) {
@@ -389,7 +387,7 @@ Eigen::VectorXd PairAdjustment::learn() {
   values_.setZero(unknowns_.count());
   adjust(true, {{2, 8}, {4, 4}, {7, 2}});
   Eigen::VectorXd ignored;
-  stepped(true, 0, ignored, evidence_);
+  stepped(true, 0, ignored);
   return values_;
 }
 

@@ -72,7 +72,7 @@ RigUnknowns::RigUnknowns(StereoCalibration given, bool has_k3) : given_(std::mov
 }
 
 int RigUnknowns::add(std::string name, std::string unit, double prior) {
-  unknowns_.push_back({std::move(name), std::move(unit), prior});
+  unknowns_.push_back({std::move(name), std::move(unit), 0, prior, prior});
   return count() - 1;
 }
 
