@@ -1,13 +1,11 @@
 /// \file corner_matching.cpp  Coarse search in views of infinity, there and back; subpixel alignment at equal contrast.
 #include "rig/corner_matching.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
-#include "common/robust_fit.hpp"
 #include "rig/patch_search.hpp"
 #include "rig/rig_constants.hpp"
 
@@ -199,7 +197,6 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
   CoarseViews views = coarse_views(left, right);
   const double scale = views.scale;
   CornerSearch result;
-  result.max_disparity = max_disparity;
   const Light light_left = light_of(views.left), light_right = light_of(views.right);
   result.brightness = light_right.mean / std::max(1.0, light_left.mean);
   result.more_saturated = std::abs(light_right.saturated - light_left.saturated);
@@ -274,24 +271,6 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
   }
   result.left_view = std::move(views.left);
   return result;
-}
-
-EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height) {
-  EpipolarFit fit;
-  if (static_cast<int>(matches.size()) < kMinMatches) return fit;
-  fit.samples = static_cast<int>(matches.size());
-  std::vector<RobustFit<3>::Row> rows;
-  for (const auto& match : matches)
-    rows.push_back({match.across, {1, match.left.x() / width - 0.5, match.left.y() / height - 0.5}});
-  RobustFit<3> robust;
-  robust.measure(rows);
-  fit.residual = robust.scatter;
-  robust.fit(rows, kMinScale);
-  fit.scatter = robust.scatter;
-  fit.offset = robust.terms[0];
-  fit.slope_x = robust.terms[1];
-  fit.slope_y = robust.terms[2];
-  return fit;
 }
 
 }  // namespace quadedge::rig

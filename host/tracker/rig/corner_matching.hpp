@@ -41,7 +41,6 @@ struct CornerSearch {
   double brightness = 1;           ///< mean grey level of the right view over that of the left one
   double more_saturated = 0;       ///< difference between the fractions of saturated pixels of the views
   int negative = 0;                ///< matches whose right patch is the negative of the left one
-  double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
   GreyPlane left_view;             ///< what the search read of the left image
 };
 
@@ -87,18 +86,5 @@ class CornerMatcher {
   Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: maps left pixels to the right pixels of points at infinity
   Eigen::Vector3d t_;  ///< K_R T0
 };
-
-/// Linear model of the distances from the epipolar lines over the image.
-struct EpipolarFit {
-  /// In the middle of the left image, and its change over the image's width and height [px].
-  double offset = 0, slope_x = 0, slope_y = 0;
-  double residual = 0;  ///< median distance from the lines, before the fit [px]
-  double scatter = 0;   ///< median distance from the fit [px]
-  int samples = 0;
-  bool is_coarse = false;  ///< whether the corners were found at the coarse resolution only
-};
-
-/// Robust fit (iteratively reweighted least squares with Cauchy weights); all zero for fewer than 12 corners.
-EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height);
 
 }  // namespace quadedge::rig

@@ -54,7 +54,8 @@ constexpr double kMatchedDecrease = 0.7, kResidualIncrease = 0.2;
 
 // Findings (rig_monitor.cpp).
 
-constexpr int kMinCorners = 20, kMinMatches = 12;
+constexpr int kMinCorners = 20;
+constexpr std::size_t kMinMatches = 12;
 /// The search that only confirms that a rig still is right takes every so many-th corner.
 constexpr std::size_t kSparseCorners = 3;
 /// Fraction of the corners that are found.
@@ -67,7 +68,7 @@ constexpr double kWarningRatio = 0.1;
 /// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
 /// [px]
 constexpr double kLostResidual = 3;
-/// Distance from the line that the cascade searches. [px]
+/// Distance from the line that the cascade searches; a fit that leaves more explains nothing. [px]
 constexpr double kDoubtfulResidual = 0.5;
 /// If more of the edges than this have a match on their epipolar lines, the corners off their lines are mostly on thin
 /// structures.
@@ -192,7 +193,5 @@ constexpr double kWrongPartner = 0.5;
 constexpr double kMaxTimeOffset = 8;
 /// Frames in a row that are searched for the time between the images, if they may show different moments.
 constexpr int kTimeSearches = 5;
-/// Median distance from the fit from which it explains nothing [px].
-constexpr double kHeldScatter = 0.5;
 
 }  // namespace quadedge::rig

@@ -120,7 +120,7 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   report.matches = &corner_matches_;
   std::vector<double> distances;
   for (const CornerMatch& match : corner_matches_) distances.push_back(std::abs(match.across));
-  if (static_cast<int>(distances.size()) >= kMinMatches) evidence.epipolar_residual = upper_median(distances);
+  if (distances.size() >= kMinMatches) evidence.epipolar_residual = upper_median(distances);
   ++frames_since_search_;
   const auto repeated = find_repeated_images(frame);
   const bool is_frozen = repeated && repeated->is_mismatch;
@@ -166,8 +166,7 @@ void RigMonitor::search(const StereoFrame& frame, double max_disparity, const Ri
   CornerAnswer answer;
   // If the rig was right before, a third of the corners suffices to see that it still is.
   if (searched_ && fits_) answer = search_and_judge(question, report, kSparseCorners);
-  if (answer.search.found.size() < static_cast<std::size_t>(kMinMatches) || !report.findings.empty() ||
-      doubts_time(report.evidence))
+  if (answer.search.found.size() < kMinMatches || !report.findings.empty() || doubts_time(report.evidence))
     answer = search_and_judge(question, report);
   last_view_ = std::move(answer.search.left_view);
   frames_since_search_ = 0;
@@ -175,7 +174,7 @@ void RigMonitor::search(const StereoFrame& frame, double max_disparity, const Ri
   judge_time(answer.search.found, report);
   fits_ = report.mismatch() == nullptr;
   confirm_negative_disparities(report);
-  const bool may_be_late = question.last_view == nullptr && answer.fit.scatter > kHeldScatter && fits_;
+  const bool may_be_late = question.last_view == nullptr && answer.fit.scatter > kDoubtfulResidual && fits_;
   if (may_be_late && drop(WarningKind::doubtful_calibration, report)) searched_.reset();  // the next frame is searched
 }
 
