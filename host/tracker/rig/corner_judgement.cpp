@@ -171,10 +171,6 @@ std::vector<RigFinding> judge(const CornerAnswer& answer, const CornerQuestion& 
              printed(" of the corners exceed the maximum disparity, %.1f px: is stereo.max_disparity too small, or "
                      "stereo.min_depth too large?",
                      question.max_disparity));
-  if (evidence.negative_ratio > kWarningRatio)
-    warn(WarningKind::negative_disparities,
-         percent(evidence.negative_ratio) +
-             " of the disparities are negative: is the right camera's yaw or principal point wrong?");
   return findings;
 }
 

@@ -63,7 +63,7 @@ constexpr double kLostFoundRatio = 0.2;
 /// Fraction of the left edges that have a match.
 constexpr double kLostMatchedRatio = 0.1;
 constexpr double kMajority = 0.5;
-/// Fraction of the corners found that have a negative disparity or exceed the range.
+/// Fraction of the corners found that exceed the range.
 constexpr double kWarningRatio = 0.1;
 /// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
 /// [px]
@@ -79,8 +79,6 @@ constexpr double kOnLine = 1, kOffLine = 2, kContradictingRatio = 0.1, kCertainM
 /// Fraction of aligned corners on their lines from which images fit the calibration and are of one moment, however few
 /// are found; sound recordings reach 0.77, neighbours in time 0.5 where the image moves.
 constexpr double kSoundOnLine = 0.7;
-/// Searches over which the ratio of negative disparities is averaged, at least.
-constexpr int kNegativeSearches = 3;
 /// Learned disparity offset. [px]
 constexpr double kMaxOffset = 1.5;
 
