@@ -121,12 +121,12 @@ TEST_CASE("drive calibration: every lens model learns what is wrong with it", "[
   const double before = largest_displacement(truth, given), after = largest_displacement(truth, unknowns.at(values));
   CHECK(before > 0.8);
   CHECK(after < 0.25 * before);
-  CHECK(values.dot(adjustment.evidence().information * values) > 15);
+  CHECK(values.dot(adjustment.information() * values) > 15);
   // What is right already stays.
   const rig::RigUnknowns right(truth);
   rig::PairAdjustment nothing(right, pointers_to(pairs));
   const Eigen::VectorXd none = nothing.learn();
-  CHECK(none.dot(nothing.evidence().information * none) < 1);
+  CHECK(none.dot(nothing.information() * none) < 1);
 }
 
 TEST_CASE("drive calibration: the motion of a pair is found from far away", "[rig]") {

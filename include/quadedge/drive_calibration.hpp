@@ -98,7 +98,7 @@ class DriveCalibrator {
   ~DriveCalibrator();
   DriveCalibrator(DriveCalibrator&&) noexcept;
 
-  /// The next frame of the recording. \throws DataError if the images have another size than the calibration
+  /// The next frame of the recording. \throws DataError if images or masks do not fit the rig
   void see(const StereoFrame& frame);
   /// The next frame does not follow the last one.
   void restart();

@@ -55,7 +55,6 @@ enum class WarningKind {
   implausible_calibration,  ///< an unusual baseline, focal length, pixel shape or principal point
   doubtful_calibration,     ///< corners lie beside their epipolar lines
   small_disparity_range,    ///< corners have disparities beyond the range searched
-  negative_disparities,     ///< corners have negative disparities
   unsynchronised_cameras,   ///< the cameras, or the rows of an image, seem to record at different times
   unknown_motion,           ///< the motion between two tracked frames is unknown; a new segment starts
   repeated_images,          ///< both images are those of the previous frame, byte for byte

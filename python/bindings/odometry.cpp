@@ -154,8 +154,8 @@ void bind_warning(nb::module_& module) {
       .def_prop_ro(
           "kind", [](const Self& self) { return to_string(self.kind); },
           "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
-          "negative_disparities, unsynchronised_cameras, unknown_motion, repeated_images,\n"
-          "large_disparity_offset, static_region, displaced_images, changed_rig, poor_images or doubtful_lenses.")
+          "unsynchronised_cameras, unknown_motion, repeated_images, large_disparity_offset,\n"
+          "static_region, displaced_images, changed_rig, poor_images or doubtful_lenses.")
       .def_ro("text", &Self::text, "The warning in one sentence.")
       .def("__str__", [](const Self& self) { return self.text; })
       .def("__repr__", [](const Self& self) {

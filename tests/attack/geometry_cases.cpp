@@ -120,8 +120,7 @@ void nothing(Sequence&) {}
 
 /// Whether a warning says that the calibration is wrong.
 bool blames_calibration(const Warning& warning) {
-  return warning.kind == WarningKind::doubtful_calibration || warning.kind == WarningKind::negative_disparities ||
-         warning.kind == WarningKind::large_disparity_offset;
+  return warning.kind == WarningKind::doubtful_calibration || warning.kind == WarningKind::large_disparity_offset;
 }
 
 /// Bad images of a good rig, rendered and recorded.

@@ -27,7 +27,6 @@ const char* to_string(WarningKind kind) {
     case WarningKind::implausible_calibration: return "implausible_calibration";
     case WarningKind::doubtful_calibration: return "doubtful_calibration";
     case WarningKind::small_disparity_range: return "small_disparity_range";
-    case WarningKind::negative_disparities: return "negative_disparities";
     case WarningKind::unsynchronised_cameras: return "unsynchronised_cameras";
     case WarningKind::unknown_motion: return "unknown_motion";
     case WarningKind::repeated_images: return "repeated_images";

@@ -17,7 +17,7 @@ constexpr int kHalf = 8, kSide = 2 * kHalf + 1;  // patches of 17 x 17 px
 constexpr std::size_t kLevels = 6;
 constexpr int kSmallestLevel = 3 * kSide;  // px
 constexpr int kSteps = 30;
-constexpr double kSettledMove = 0.01, kMaxReturn = 0.35;  // px
+constexpr double kMaxReturn = 0.35;  // px
 constexpr double kMinFlowCorrelation = 0.7;
 
 /// Half the size, by weights 1 3 3 1 in both directions; pixel x is at 2 x + 1/2.
@@ -132,7 +132,7 @@ bool align(const Template& patch, const GreyPlane& to, Eigen::Vector2d& at) {
     const Eigen::Vector2d move =
         patch.inverse * Eigen::Vector2d(product(patch.slope_x, difference), product(patch.slope_y, difference));
     position += move;
-    if (move.squaredNorm() < kSettledMove * kSettledMove) break;
+    if (move.norm() < kSettledShift) break;
   }
   if (!holds(to, position, kHalf + 1)) return false;
   at = position;

@@ -4,23 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "common/printed.hpp"
 #include "rig/rig_constants.hpp"
 
 namespace quadedge::rig {
 namespace {
-
-/// The transformation of the right image with which a search finds most corners; none if there is no such.
-ImageTurn find_turn(const CornerMatcher& matcher, const StereoFrame& frame, double max_disparity,
-                    const HiddenPixels& hidden) {
-  for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
-    const CornerSearch search = matcher.search(frame, max_disparity, turn, 1, hidden);
-    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
-  }
-  return ImageTurn::none;
-}
 
 /// By how much farther along its line a match lies than rows and disparity offset predict of a point at infinity [px].
 double disparity_of(const CornerMatch& match, const StereoRig& rig, const RigEstimate& known) {
@@ -30,27 +19,26 @@ double disparity_of(const CornerMatch& match, const StereoRig& rig, const RigEst
 
 /// Adds the results of a search to the evidence. Where texture repeats, a corner's match may lie anywhere, so that only
 /// unique ones have a say.
-void add_search_results(CornerAnswer& answer, const StereoRig& rig, const RigEstimate& known, RigEvidence& evidence) {
+void add_search_results(CornerAnswer& answer, const CornerQuestion& question, RigEvidence& evidence) {
   const CornerSearch& search = answer.search;
-  const EpipolarFit& fit = answer.fit;
   if (search.searched == 0) return;
   evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
-  evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
+  if (search.found.size() >= kMinMatches) evidence.searched_residual = answer.fit.residual;
   int unique = 0, all_negative = 0, negative = 0, beyond = 0;
   for (const CornerMatch& match : search.found) {
-    const int is_negative = disparity_of(match, rig, known) < -1 - 2 * match.sigma ? 1 : 0;
+    const int is_negative = disparity_of(match, question.rig, question.known) < -1 - 2 * match.sigma ? 1 : 0;
     all_negative += is_negative;
     if (!match.is_unique) continue;
     ++unique;
     negative += is_negative;
-    beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
+    beyond += match.along > question.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
   }
   if (search.aligned > 0) evidence.on_line_ratio = static_cast<double>(search.on_line) / search.aligned;
   if (!search.found.empty()) {
     answer.unique_ratio = static_cast<double>(unique) / static_cast<double>(search.found.size());
     answer.negative_ratio = static_cast<double>(all_negative) / static_cast<double>(search.found.size());
   }
-  if (unique < kMinMatches) return;
+  if (unique < static_cast<int>(kMinMatches)) return;
   evidence.negative_ratio = static_cast<double>(negative) / unique;
   evidence.beyond_ratio = static_cast<double>(beyond) / unique;
 }
@@ -77,28 +65,21 @@ bool finds_few_corners(const CornerSearch& search, const RigEvidence& evidence) 
          !(evidence.matched_ratio > kLostMatchedRatio);
 }
 
+/// Those of an EpipolarFit.
+Eigen::Vector3d terms_of(const CornerMatch& match, const PinholeCamera& left) {
+  return {1, match.left.x() / left.width - 0.5, match.left.y() / left.height - 0.5};
+}
+
 /// Fraction of the aligned corners that lie on their lines, although the fit to all puts these corners off them. Where
 /// curves cross one another, corners are no points of the scene and agree on a distance that is none of the rig's.
 double contradicting_ratio(const CornerSearch& search, const EpipolarFit& fit, const PinholeCamera& left) {
   int contradicting = 0;
   for (const CornerMatch& match : search.found) {
     if (!match.is_aligned) continue;
-    const double fitted = fit.offset + fit.slope_x * (match.left.x() / left.width - 0.5) +
-                          fit.slope_y * (match.left.y() / left.height - 0.5);
+    const double fitted = fit.terms.dot(terms_of(match, left));
     contradicting += std::abs(match.across) < kOnLine && std::abs(fitted) > kOffLine ? 1 : 0;
   }
   return static_cast<double>(contradicting) / std::max(1, search.aligned);
-}
-
-std::string text_of(ImageTurn turn) {
-  switch (turn) {
-    case ImageTurn::none: return "unchanged";
-    case ImageTurn::mirrored: return "mirrored";
-    case ImageTurn::half: return "rotated by 180 degrees";
-    case ImageTurn::quarter: return "rotated by 90 degrees";
-    case ImageTurn::three_quarters: return "rotated by -90 degrees";
-  }
-  return {};
 }
 
 std::string seen_across(const EpipolarFit& fit) {
@@ -106,12 +87,12 @@ std::string seen_across(const EpipolarFit& fit) {
       "corners are found %.1f px off their epipolar lines (%.1f px in the middle of the image, changing by %.1f px "
       "over "
       "its width and %.1f px over its height)",
-      fit.residual, fit.offset, fit.slope_x, fit.slope_y);
+      fit.residual, fit.terms[0], fit.terms[1], fit.terms[2]);
 }
 
 /// Likely cause of the distances from the lines.
 std::string cause_across(const EpipolarFit& fit) {
-  const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
+  const double middle = std::abs(fit.terms[0]), x = std::abs(fit.terms[1]) / 2, y = std::abs(fit.terms[2]) / 2;
   if (fit.scatter > 0.5 * fit.residual) {
     return "is the direction of the baseline or the right camera's yaw wrong, are distorted images used with a pinhole "
            "calibration, or do the images show different moments (`quadedge check` looks for a delay)?";
@@ -123,22 +104,18 @@ std::string cause_across(const EpipolarFit& fit) {
 }
 
 /// What is wrong where few corners are found.
-std::string cause_of_few(const CornerSearch& search, ImageTurn turn, const RigEvidence& evidence) {
+std::string cause_of_few(const CornerSearch& search, const RigEvidence& evidence) {
   const std::string found = percent(evidence.found_ratio) + " of " + std::to_string(search.searched) +
                             " corners of the left image are found in the right one";
   if (search.negative > kMajority * search.searched)
     return found + ", and " + percent(static_cast<double>(search.negative) / search.searched) +
            " as their negative; is one image a negative?";
-  if (turn != ImageTurn::none)
-    return found + ", but most are found if it is " + text_of(turn) + "; is the right image " + text_of(turn) + "?";
   return found + "; do both cameras see the same scene at the same time? is one image mirrored or rotated?";
 }
 
 /// Judges the rig by the results of a search.
-/// \param turn transformation of the right image with which most corners are found, or none
 // LONG: a sentence per finding.
-std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evidence, ImageTurn turn,
-                              const PinholeCamera& left) {
+std::vector<RigFinding> judge(const CornerAnswer& answer, const CornerQuestion& question, const RigEvidence& evidence) {
   const CornerSearch& search = answer.search;
   const EpipolarFit& fit = answer.fit;
   const std::string matched =
@@ -149,22 +126,20 @@ std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evi
   };
   if (finds_few_corners(search, evidence)) {
     if (const std::string poor = is_uneven(search) && search.more_saturated > kUnevenSaturation &&
-                                         turn == ImageTurn::none && !(search.negative > kMajority * search.searched)
+                                         !(search.negative > kMajority * search.searched)
                                      ? poor_images(search, "; few corners are found in both images")
                                      : "";
         !poor.empty())
       return {{{WarningKind::poor_images, poor}}};
     // Few corners have a partner where something comes near the lenses, but chance puts none on their lines.
-    if (!(evidence.matched_ratio >= 0) && turn == ImageTurn::none && !fit.is_coarse &&
-        evidence.on_line_ratio > kSoundOnLine)
-      return {};
-    return mismatch(cause_of_few(search, turn, evidence));
+    if (!(evidence.matched_ratio >= 0) && !fit.is_coarse && evidence.on_line_ratio > kSoundOnLine) return {};
+    return mismatch(cause_of_few(search, evidence));
   }
-  if (search.found.size() < static_cast<std::size_t>(kMinMatches)) return {};
+  if (search.found.size() < kMinMatches) return {};
   const bool is_uncorrected = evidence.epipolar_correction == 0,
              finds_edges_on_lines = evidence.matched_ratio > kReliableMatchedRatio && is_uncorrected,
              is_contradicted = evidence.matched_ratio > kCertainMatchedRatio && is_uncorrected &&
-                               contradicting_ratio(search, fit, left) >= kContradictingRatio;
+                               contradicting_ratio(search, fit, question.rig.left) >= kContradictingRatio;
   if (evidence.negative_ratio > kMajority)
     return mismatch(percent(evidence.negative_ratio) +
                     " of the disparities are negative; are left and right exchanged, are the images mirrored, is the "
@@ -195,40 +170,37 @@ std::vector<RigFinding> judge(const CornerAnswer& answer, const RigEvidence& evi
          percent(evidence.beyond_ratio) +
              printed(" of the corners exceed the maximum disparity, %.1f px: is stereo.max_disparity too small, or "
                      "stereo.min_depth too large?",
-                     search.max_disparity));
-  if (evidence.negative_ratio > kWarningRatio)
-    warn(WarningKind::negative_disparities,
-         percent(evidence.negative_ratio) +
-             " of the disparities are negative: is the right camera's yaw or principal point wrong?");
+                     question.max_disparity));
   return findings;
 }
 
 /// The fit to unique corners that were aligned; with too few of them to all that were, and then to all corners: on thin
 /// curves, coarse positions do not determine the distance from the line.
 EpipolarFit fit_of(const CornerSearch& search, const PinholeCamera& left) {
-  std::vector<CornerMatch> aligned, unique;
-  std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
-               [](const CornerMatch& match) { return match.is_aligned; });
-  std::copy_if(aligned.begin(), aligned.end(), std::back_inserter(unique),
-               [](const CornerMatch& match) { return match.is_unique; });
-  for (const auto* matches : {&unique, &aligned})
-    if (const EpipolarFit fit = fit_across(*matches, left.width, left.height); fit.samples > 0) return fit;
-  EpipolarFit fit = fit_across(search.found, left.width, left.height);
-  fit.is_coarse = true;
+  EpipolarFit fit;
+  std::vector<EpipolarFit::Row> unique, aligned, all;
+  for (const CornerMatch& match : search.found) {
+    all.push_back({match.across, terms_of(match, left)});
+    if (match.is_aligned) aligned.push_back(all.back());
+    if (match.is_aligned && match.is_unique) unique.push_back(all.back());
+  }
+  fit.is_coarse = aligned.size() < kMinMatches;
+  const auto& rows = fit.is_coarse ? all : unique.size() < kMinMatches ? aligned : unique;
+  if (rows.size() < kMinMatches) return fit;
+  fit.measure(rows);
+  fit.residual = fit.scatter;
+  fit.fit(rows, kMinScale);
   return fit;
 }
 
 }  // namespace
 
 CornerAnswer search_and_judge(const CornerQuestion& question, RigReport& report, std::size_t every) {
-  const auto& [matcher, rig, frame, max_disparity, known, hidden, last_view] = question;
-  CornerAnswer answer{matcher.search(frame, max_disparity, ImageTurn::none, every, hidden, last_view), {}};
-  answer.fit = fit_of(answer.search, rig.left);
-  add_search_results(answer, rig, known, report.evidence);
-  const ImageTurn turn = finds_few_corners(answer.search, report.evidence)
-                             ? find_turn(matcher, frame, max_disparity, hidden)
-                             : ImageTurn::none;
-  report.findings = judge(answer, report.evidence, turn, rig.left);
+  CornerAnswer answer{
+      question.matcher.search(question.frame, question.max_disparity, every, question.hidden, question.last_view), {}};
+  answer.fit = fit_of(answer.search, question.rig.left);
+  add_search_results(answer, question, report.evidence);
+  report.findings = judge(answer, question, report.evidence);
   return answer;
 }
 

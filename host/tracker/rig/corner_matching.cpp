@@ -1,13 +1,11 @@
 /// \file corner_matching.cpp  Coarse search in views of infinity, there and back; subpixel alignment at equal contrast.
 #include "rig/corner_matching.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
-#include "common/robust_fit.hpp"
 #include "rig/patch_search.hpp"
 #include "rig/rig_constants.hpp"
 
@@ -89,19 +87,6 @@ struct SearchedCorner {
   bool has_line = false, is_negative = false, is_saturated = false;
   std::optional<CornerMatch> found;
 };
-
-/// Pixel of the actual right image that corresponds to pixel `at` of the calibrated one.
-Eigen::Vector2d turned(const Eigen::Vector2d& at, ImageTurn turn, const PinholeCamera& camera) {
-  const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1)), from = at - middle;
-  switch (turn) {
-    case ImageTurn::none: return at;
-    case ImageTurn::mirrored: return middle + Eigen::Vector2d(-from.x(), from.y());
-    case ImageTurn::half: return middle - from;
-    case ImageTurn::quarter: return middle + Eigen::Vector2d(-from.y(), from.x());
-    case ImageTurn::three_quarters: return middle + Eigen::Vector2d(from.y(), -from.x());
-  }
-  return at;
-}
 
 }  // namespace
 
@@ -196,27 +181,22 @@ struct CornerMatcher::CoarseViews {
   Eigen::Vector2d in_left(const Eigen::Vector2d& at) const { return in_left(at, scale); }
 };
 
-CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, const PinholeView& right,
-                                                       ImageTurn turn) const {
+CornerMatcher::CoarseViews CornerMatcher::coarse_views(const PinholeView& left, const PinholeView& right) const {
   const double scale = std::max(1.0, std::round(rig_.left.width / kCoarseWidth));
   const int width = static_cast<int>(rig_.left.width / scale), height = static_cast<int>(rig_.left.height / scale);
   const auto in_left = [&](const Eigen::Vector2d& at) { return std::optional(CoarseViews::in_left(at, scale)); };
   return {scale, sample_plane(left, width, height, in_left),
-          sample_plane(right, width, height, [&](const Eigen::Vector2d& at) {
-            const auto position = at_infinity(*in_left(at));
-            return position ? std::optional(turned(*position, turn, rig_.right)) : std::nullopt;
-          })};
+          sample_plane(right, width, height, [&](const Eigen::Vector2d& at) { return at_infinity(*in_left(at)); })};
 }
 
 // LONG: seek() says what is done with a corner, and uses all that is prepared before it.
-CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, ImageTurn turn, std::size_t every,
+CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparity, std::size_t every,
                                    const HiddenPixels& hidden, const GreyPlane* last) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
-  CoarseViews views = coarse_views(left, right, turn);
+  CoarseViews views = coarse_views(left, right);
   const double scale = views.scale;
   CornerSearch result;
-  result.max_disparity = max_disparity;
   const Light light_left = light_of(views.left), light_right = light_of(views.right);
   result.brightness = light_right.mean / std::max(1.0, light_left.mean);
   result.more_saturated = std::abs(light_right.saturated - light_left.saturated);
@@ -248,7 +228,7 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
     if (outcome.is_negative || !position) return outcome;
     outcome.is_saturated = saturates(right, *position);
     if (outcome.is_saturated) return outcome;
-    outcome.found = turn == ImageTurn::none ? refine(left, right, corner_at, *position) : std::nullopt;
+    outcome.found = refine(left, right, corner_at, *position);
     const Eigen::Vector2d from_infinity = *position - epipolar->infinity;
     if (!outcome.found)
       outcome.found = CornerMatch{corner_at,
@@ -291,24 +271,6 @@ CornerSearch CornerMatcher::search(const StereoFrame& frame, double max_disparit
   }
   result.left_view = std::move(views.left);
   return result;
-}
-
-EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height) {
-  EpipolarFit fit;
-  if (static_cast<int>(matches.size()) < kMinMatches) return fit;
-  fit.samples = static_cast<int>(matches.size());
-  std::vector<RobustFit<3>::Row> rows;
-  for (const auto& match : matches)
-    rows.push_back({match.across, {1, match.left.x() / width - 0.5, match.left.y() / height - 0.5}});
-  RobustFit<3> robust;
-  robust.measure(rows);
-  fit.residual = robust.scatter;
-  robust.fit(rows, kMinScale);
-  fit.scatter = robust.scatter;
-  fit.offset = robust.terms[0];
-  fit.slope_x = robust.terms[1];
-  fit.slope_y = robust.terms[2];
-  return fit;
 }
 
 }  // namespace quadedge::rig

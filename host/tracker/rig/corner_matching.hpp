@@ -32,9 +32,6 @@ struct CornerMatch {
       std::nullopt;  ///< displacement in the left image since the last frame, if searched [px]
 };
 
-/// Transformations of the right image relative to the calibration that a search can assume.
-enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
-
 /// Result of a search.
 struct CornerSearch {
   int searched = 0;                ///< corners searched for
@@ -44,7 +41,6 @@ struct CornerSearch {
   double brightness = 1;           ///< mean grey level of the right view over that of the left one
   double more_saturated = 0;       ///< difference between the fractions of saturated pixels of the views
   int negative = 0;                ///< matches whose right patch is the negative of the left one
-  double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
   GreyPlane left_view;             ///< what the search read of the left image
 };
 
@@ -65,8 +61,8 @@ class CornerMatcher {
   /// \param every searches for every `every`-th corner, in `every`-th of the time
   /// \param hidden neither corners there are searched for, nor counts what is found there; what the rig masks likewise
   /// \param last the last frame's left view, in which the corners found are searched for, too; null: none
-  CornerSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none,
-                      std::size_t every = 1, const HiddenPixels& hidden = {}, const GreyPlane* last = nullptr) const;
+  CornerSearch search(const StereoFrame& frame, double max_disparity, std::size_t every = 1,
+                      const HiddenPixels& hidden = {}, const GreyPlane* last = nullptr) const;
 
  private:
   /// An epipolar line in the right image.
@@ -82,7 +78,7 @@ class CornerMatcher {
   std::optional<Line> line(const Eigen::Vector2d& left) const;
   std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;
   struct CoarseViews;
-  CoarseViews coarse_views(const PinholeView& left, const PinholeView& right, ImageTurn turn) const;
+  CoarseViews coarse_views(const PinholeView& left, const PinholeView& right) const;
   std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& corner_at,
                                     Eigen::Vector2d at) const;
 
@@ -90,18 +86,5 @@ class CornerMatcher {
   Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: maps left pixels to the right pixels of points at infinity
   Eigen::Vector3d t_;  ///< K_R T0
 };
-
-/// Linear model of the distances from the epipolar lines over the image.
-struct EpipolarFit {
-  /// In the middle of the left image, and its change over the image's width and height [px].
-  double offset = 0, slope_x = 0, slope_y = 0;
-  double residual = 0;  ///< median distance from the lines, before the fit [px]
-  double scatter = 0;   ///< median distance from the fit [px]
-  int samples = 0;
-  bool is_coarse = false;  ///< whether the corners were found at the coarse resolution only
-};
-
-/// Robust fit (iteratively reweighted least squares with Cauchy weights); all zero for fewer than 12 corners.
-EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height);
 
 }  // namespace quadedge::rig

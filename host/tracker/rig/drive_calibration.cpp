@@ -7,13 +7,13 @@
 #include <optional>
 #include <utility>
 
+#include "common/images.hpp"
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
 #include "geometry/calibration.hpp"
 #include "geometry/disparity_range.hpp"
 #include "geometry/frame_mask.hpp"
 #include "geometry/lens_mapping.hpp"
-#include "quadedge/error.hpp"
 #include "rig/pair_adjustment.hpp"
 #include "rig/pair_collection.hpp"
 #include "rig/rig_change.hpp"
@@ -77,6 +77,7 @@ class DriveCalibrator::Implementation {
         lenses_{LensMapping(given.left), LensMapping(given.right)},
         cameras_{rig.left, rig.right},
         masks_{rig.left_mask, rig.right_mask},
+        images_(rig),
         most_pairs_(static_cast<std::size_t>(most_pairs)),
         collector_(unknowns_, std::min(rig.disparity_range(), disparity_limit(rig)),
                    [this](Side side, const Eigen::Vector2d& at) {
@@ -85,8 +86,7 @@ class DriveCalibrator::Implementation {
                    }) {}
 
   void see(const StereoFrame& frame) {
-    check(frame.left, given_.left.camera, "left");
-    check(frame.right, given_.right.camera, "right");
+    images_.check(frame);
     frame_masks_[0] = frame.left_mask;
     frame_masks_[1] = frame.right_mask;
     auto pair = collector_.see(frame, frames_++);
@@ -104,17 +104,13 @@ class DriveCalibrator::Implementation {
  private:
   rig::UnseenViews judge_unseen() const;
   void learn(DriveCalibration& result) const;
-  static void check(const ImageView& image, const PinholeCamera& camera, const char* side) {
-    if (image.width == camera.width && image.height == camera.height) return;
-    throw DataError("found a " + std::string(side) + " image of " + std::to_string(image.width) + " x " +
-                    std::to_string(image.height) + " pixels, expected " + std::to_string(camera.width) + " x " +
-                    std::to_string(camera.height) + " as the calibration says");
-  }
+
   StereoCalibration given_;
   rig::RigUnknowns unknowns_;
   LensMapping lenses_[2];
   PinholeCamera cameras_[2];
   PixelMask masks_[2];
+  RecordedImages images_;
   ImageView frame_masks_[2];  ///< of the frame that see() sees
   std::size_t most_pairs_;
   rig::PairCollector collector_;
@@ -138,14 +134,16 @@ void DriveCalibrator::Implementation::learn(DriveCalibration& result) const {
   for (const rig::FramePair& pair : pairs_) all.push_back(&pair);
   rig::PairAdjustment adjustment(unknowns_, all);
   const Eigen::VectorXd values = adjustment.learn();
-  Eigen::MatrixXd information = adjustment.evidence().information;
+  Eigen::MatrixXd information = adjustment.information();
   result.points = adjustment.points();
   result.contradiction = values.dot(information * values);
   information.diagonal() += unknowns_.priors().cwiseAbs2().cwiseInverse();
   result.covariance = information.inverse();
-  for (int i = 0; i < unknowns_.count(); ++i)
-    result.numbers.push_back(
-        {unknowns_[i].name, unknowns_[i].unit, values[i], std::sqrt(result.covariance(i, i)), unknowns_[i].prior});
+  for (int i = 0; i < unknowns_.count(); ++i) {
+    result.numbers.push_back(unknowns_[i]);
+    result.numbers.back().change = values[i];
+    result.numbers.back().sigma = std::sqrt(result.covariance(i, i));
+  }
   result.learned = unknowns_.at(values);
   result.learned.right_from_left = rounded_transform(result.learned.right_from_left);
   result.change = rig::change_of(given_, result.learned);

@@ -12,7 +12,7 @@ namespace {
 
 /// Whether images are of one moment, as far as their corners say.
 bool fits(const CornerSearch& search, double least) {
-  return search.aligned >= kMinMatches && search.on_line > least * search.aligned &&
+  return search.aligned >= static_cast<int>(kMinMatches) && search.on_line > least * search.aligned &&
          search.on_line > kFittingFound * search.searched;
 }
 

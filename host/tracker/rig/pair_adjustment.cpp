@@ -38,18 +38,15 @@ Side side_of(int view) { return view % 2 == 0 ? Side::left : Side::right; }
 /// A calibration, ready to project, and what its numbers change.
 struct PairAdjustment::Cameras {
   Cameras(const RigUnknowns& of, const Eigen::VectorXd& values, bool is_varied)
-      : Cameras(of, values, of.at(values), is_varied) {}
-  Cameras(const RigUnknowns& of, const Eigen::VectorXd& values, const StereoCalibration& calibration, bool is_varied)
       : unknowns(of),
-        lens{calibration.left, calibration.right},
+        calibration(of.at(values)),
         mapping{LensMapping(calibration.left), LensMapping(calibration.right)},
         rotation(calibration.right_from_left.linear()),
-        baseline(calibration.right_from_left.translation()),
-        baseline_slope(of.baseline_slope(values)) {
+        baseline(calibration.right_from_left.translation()) {
     if (!is_varied) return;
     for (const Side side : kSides) {
       for (const int parameter : of.lens_parameters(side)) {
-        Lens changed = lens[index_of(side)];
+        Lens changed = lens(side);
         changed.parameters[static_cast<std::size_t>(parameter)] += kLensStep;
         varied[index_of(side)].emplace_back(changed);
       }
@@ -58,6 +55,7 @@ struct PairAdjustment::Cameras {
 
   static constexpr double kLensStep = 1e-6;
 
+  const Lens& lens(Side side) const { return side == Side::left ? calibration.left : calibration.right; }
   std::optional<Eigen::Vector2d> project(Side side, const Eigen::Vector3d& point) const {
     return mapping[index_of(side)].project(point);
   }
@@ -73,12 +71,13 @@ struct PairAdjustment::Cameras {
     return true;
   }
   /// Derivative of a pixel by the unknowns of its camera.
-  RigUnknowns::PixelByUnknowns by_camera(Side side, const Eigen::Vector3d& point, const Eigen::Vector2d& pixel) const {
+  RigUnknowns::PixelByUnknowns by_camera(Side side, const Eigen::Vector3d& point) const {
     const auto s = index_of(side);
+    const Eigen::Vector2d pixel = project(side, point).value_or(Eigen::Vector2d::Zero());
     Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 16> own =
         Eigen::MatrixXd::Zero(2, RigUnknowns::kFirstLensParameter + static_cast<Eigen::Index>(varied[s].size()));
-    own(0, RigUnknowns::kFocalX) = pixel.x() - lens[s].camera.cx;
-    own(1, RigUnknowns::kFocalY) = pixel.y() - lens[s].camera.cy;
+    own(0, RigUnknowns::kFocalX) = pixel.x() - lens(side).camera.cx;
+    own(1, RigUnknowns::kFocalY) = pixel.y() - lens(side).camera.cy;
     own(0, RigUnknowns::kCentreX) = own(1, RigUnknowns::kCentreY) = 1;
     for (std::size_t k = 0; k < varied[s].size(); ++k)
       if (const auto moved = varied[s][k].project(point))
@@ -87,12 +86,11 @@ struct PairAdjustment::Cameras {
   }
 
   const RigUnknowns& unknowns;
-  Lens lens[2];
+  StereoCalibration calibration;
   LensMapping mapping[2];
   std::vector<LensMapping> varied[2];
   Eigen::Matrix3d rotation;
   Eigen::Vector3d baseline;
-  Eigen::Matrix<double, 3, 2> baseline_slope;
 };
 
 /// The views of one point: distances from where they are seen, weighted, and derivatives.
@@ -159,18 +157,13 @@ struct PairAdjustment::Terms {
       by_rest.block<2, kMotion>(2 * view, 0) = by_place * by_motion;
       if (!learns) continue;
       auto by_rig = by_rest.block(2 * view, kMotion, 2, unknowns);
-      by_rig = cameras.by_camera(side, at, seen_pixel(cameras, side, at));
+      by_rig = cameras.by_camera(side, at);
       if (side == Side::left) continue;
       const int first = cameras.unknowns.first_rotation();
       const Eigen::Vector3d turned = at - point.inverse_depth * cameras.baseline;
       by_rig.middleCols<3>(first) -= by_place * pose::cross_matrix(turned) * cameras.unknowns.rotation_axes();
-      by_rig.middleCols<2>(first + 3) += by_place * cameras.baseline_slope * point.inverse_depth;
+      by_rig.middleCols<2>(first + 3) += by_place * cameras.unknowns.baseline_slope() * point.inverse_depth;
     }
-  }
-
- private:
-  static Eigen::Vector2d seen_pixel(const Cameras& cameras, Side side, const Eigen::Vector3d& at) {
-    return cameras.project(side, at).value_or(Eigen::Vector2d::Zero());
   }
 };
 
@@ -226,63 +219,57 @@ PairAdjustment::PairAdjustment(const RigUnknowns& unknowns, const std::vector<co
     pairs_.push_back({pair, pair->second_from_first, std::vector<Point>(pair->points.size())});
 }
 
-void PairAdjustment::start(const Eigen::VectorXd& values) {
-  const Cameras cameras(unknowns_, values, false);
+template <class Function>
+void PairAdjustment::for_all_points(const Function& function) {
   tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t p) {
     Pair& pair = pairs_[p];
-    for (std::size_t i = 0; i < pair.points.size(); ++i) {
-      Point& point = pair.points[i];
-      const SeenPoint& seen = pair.seen->points[i];
-      const auto ray = cameras.mapping[0].ray(seen.at[kLeftFirst]);
-      const auto right_ray = seen.is_seen[kRightFirst] ? cameras.mapping[1].ray(seen.at[kRightFirst]) : std::nullopt;
-      point.is_alive = point.is_valid = ray.has_value();
-      if (!ray) continue;
-      point.ray = *ray;
-      const Eigen::Vector3d side = std::abs(ray->x()) < 0.7 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-      point.beside.col(0) = side.cross(*ray).normalized();
-      point.beside.col(1) = ray->cross(point.beside.col(0));
-      point.inverse_depth = 0.02 / cameras.baseline.norm();
-      if (!right_ray) continue;
-      const Eigen::Vector3d by_depth = cameras.baseline.cross(*right_ray);
-      point.inverse_depth = -(cameras.rotation * *ray).cross(*right_ray).dot(by_depth) / by_depth.squaredNorm();
-    }
+    Terms terms;
+    for (std::size_t i = 0; i < pair.points.size(); ++i) function(pair, pair.points[i], pair.seen->points[i], terms);
   });
 }
 
-void PairAdjustment::settle_points(const Eigen::VectorXd& values, int rounds) {
-  const Cameras cameras(unknowns_, values, false);
+void PairAdjustment::start() {
+  const Cameras cameras(unknowns_, values_, false);
+  for_all_points([&](const Pair&, Point& point, const SeenPoint& seen, const Terms&) {
+    const auto ray = cameras.mapping[0].ray(seen.at[kLeftFirst]);
+    const auto right_ray = seen.is_seen[kRightFirst] ? cameras.mapping[1].ray(seen.at[kRightFirst]) : std::nullopt;
+    point.is_alive = point.is_valid = ray.has_value();
+    if (!ray) return;
+    point.ray = *ray;
+    const Eigen::Vector3d side = std::abs(ray->x()) < 0.7 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+    point.beside.col(0) = side.cross(*ray).normalized();
+    point.beside.col(1) = ray->cross(point.beside.col(0));
+    point.inverse_depth = 0.02 / cameras.baseline.norm();
+    if (!right_ray) return;
+    const Eigen::Vector3d by_depth = cameras.baseline.cross(*right_ray);
+    point.inverse_depth = -(cameras.rotation * *ray).cross(*right_ray).dot(by_depth) / by_depth.squaredNorm();
+  });
+}
+
+void PairAdjustment::settle_points(int rounds) {
+  const Cameras cameras(unknowns_, values_, false);
   const double length = cameras.baseline.norm();
-  tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t p) {
-    Pair& pair = pairs_[p];
-    Terms terms;
-    for (std::size_t i = 0; i < pair.points.size(); ++i) {
-      Point& point = pair.points[i];
-      if (!point.is_alive) continue;
-      for (int round = 0; round < rounds; ++round) {
-        terms.measure(cameras, pair.motion, point, pair.seen->points[i], kViewScale);
-        terms.differentiate(cameras, pair.motion, point, false);
-        Eigen::Matrix3d own = terms.by_point.transpose() * terms.weight.asDiagonal() * terms.by_point;
-        own.diagonal() += 1e-4 * own.diagonal() + Eigen::Vector3d(1, 1, length * length);
-        const Eigen::Vector3d move =
-            -own.ldlt().solve(terms.by_point.transpose() * terms.weight.cwiseProduct(terms.error));
-        const Eigen::Vector2d turn = move.head<2>().cwiseMax(-kLargestTurn).cwiseMin(kLargestTurn);
-        point.ray = (point.ray + point.beside * turn).normalized();
-        point.inverse_depth = std::clamp(point.inverse_depth + move[2], -0.003 / length, kNearestPoint / length);
-      }
+  for_all_points([&](const Pair& pair, Point& point, const SeenPoint& seen, Terms& terms) {
+    for (int round = 0; point.is_alive && round < rounds; ++round) {
+      terms.measure(cameras, pair.motion, point, seen, kViewScale);
+      terms.differentiate(cameras, pair.motion, point, false);
+      Eigen::Matrix3d own = terms.by_point.transpose() * terms.weight.asDiagonal() * terms.by_point;
+      own.diagonal() += 1e-4 * own.diagonal() + Eigen::Vector3d(1, 1, length * length);
+      const Eigen::Vector3d move =
+          -own.ldlt().solve(terms.by_point.transpose() * terms.weight.cwiseProduct(terms.error));
+      const Eigen::Vector2d turn = move.head<2>().cwiseMax(-kLargestTurn).cwiseMin(kLargestTurn);
+      point.ray = (point.ray + point.beside * turn).normalized();
+      point.inverse_depth = std::clamp(point.inverse_depth + move[2], -0.003 / length, kNearestPoint / length);
     }
   });
 }
 
-void PairAdjustment::cull(const Eigen::VectorXd& values, double limit) {
-  const Cameras cameras(unknowns_, values, false);
-  tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t p) {
-    Pair& pair = pairs_[p];
-    Terms terms;
-    for (std::size_t i = 0; i < pair.points.size(); ++i) {
-      terms.measure(cameras, pair.motion, pair.points[i], pair.seen->points[i], kViewScale);
-      for (int view = 0; view < kViews; ++view)
-        if (terms.error.segment<2>(2 * view).norm() > limit) pair.points[i].is_alive = false;
-    }
+void PairAdjustment::cull(double limit) {
+  const Cameras cameras(unknowns_, values_, false);
+  for_all_points([&](const Pair& pair, Point& point, const SeenPoint& seen, Terms& terms) {
+    terms.measure(cameras, pair.motion, point, seen, kViewScale);
+    for (int view = 0; view < kViews; ++view)
+      if (terms.error.segment<2>(2 * view).norm() > limit) point.is_alive = false;
   });
 }
 
@@ -303,12 +290,11 @@ double PairAdjustment::cost(const std::vector<Pair>& pairs, const Eigen::VectorX
 }
 
 /// One step of Levenberg and Marquardt: the pairs after it, and the change of the unknowns.
-std::vector<PairAdjustment::Pair> PairAdjustment::stepped(const Eigen::VectorXd& values, bool learns, double damping,
-                                                          Eigen::VectorXd& change, Evidence& evidence) const {
-  const Cameras cameras(unknowns_, values, learns);
+std::vector<PairAdjustment::Pair> PairAdjustment::stepped(bool learns, double damping, Eigen::VectorXd& change) {
+  const Cameras cameras(unknowns_, values_, learns);
   const Eigen::Index unknowns = learns ? unknowns_.count() : 0;
   const double length = cameras.baseline.norm(),
-               pixels = std::pow(cameras.lens[0].camera.fx / kViewSigma, 2) * kPointFloor;
+               pixels = std::pow(cameras.calibration.left.camera.fx / kViewSigma, 2) * kPointFloor;
   const Eigen::Vector3d floor(pixels, pixels, pixels * length * length);
   std::vector<Step> steps(pairs_.size());
   tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t p) {
@@ -326,19 +312,19 @@ std::vector<PairAdjustment::Pair> PairAdjustment::stepped(const Eigen::VectorXd&
     }
     step.eliminate_motion(damping);
   });
-  evidence.information.setZero(unknowns, unknowns);
-  evidence.slope.setZero(unknowns);
-  for (const Step& step : steps) {
-    evidence.information += step.reduced;
-    evidence.slope += step.reduced_slope;
-  }
+  information_.setZero(unknowns, unknowns);
   change.setZero(unknowns);
   if (learns) {
     const Eigen::VectorXd weight = unknowns_.priors().cwiseAbs2().cwiseInverse();
-    Eigen::MatrixXd whole = evidence.information;
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(unknowns);  // half the derivative of the cost
+    for (const Step& step : steps) {
+      information_ += step.reduced;
+      slope += step.reduced_slope;
+    }
+    Eigen::MatrixXd whole = information_;
     whole.diagonal() += weight;
     whole.diagonal() *= 1 + damping;
-    change = -whole.ldlt().solve(evidence.slope + weight.cwiseProduct(values));
+    change = -whole.ldlt().solve(slope + weight.cwiseProduct(values_));
   }
   std::vector<Pair> after = pairs_;
   tbb::parallel_for(std::size_t{0}, after.size(), [&](std::size_t p) {
@@ -358,7 +344,7 @@ std::vector<PairAdjustment::Pair> PairAdjustment::stepped(const Eigen::VectorXd&
   return after;
 }
 
-void PairAdjustment::optimise(Eigen::VectorXd& values, bool learns, const std::vector<std::pair<int, double>>& culls) {
+void PairAdjustment::optimise(bool learns, const std::vector<std::pair<int, double>>& culls) {
   const auto prior_cost = [&](const Eigen::VectorXd& of) {
     return learns ? of.cwiseQuotient(unknowns_.priors()).squaredNorm() : 0.0;
   };
@@ -369,14 +355,13 @@ void PairAdjustment::optimise(Eigen::VectorXd& values, bool learns, const std::v
       if (when != step) continue;
       for (Pair& pair : pairs_)
         for (Point& point : pair.points) point.is_alive = point.is_valid;
-      settle_points(values, 4);
-      cull(values, limit);
+      settle_points(4);
+      cull(limit);
     }
-    const double before = cost(pairs_, values) + prior_cost(values);
+    const double before = cost(pairs_, values_) + prior_cost(values_);
     Eigen::VectorXd change;
-    Evidence evidence;
-    std::vector<Pair> after = stepped(values, learns, damping, change, evidence);
-    const Eigen::VectorXd changed = learns ? Eigen::VectorXd(values + change) : values;
+    std::vector<Pair> after = stepped(learns, damping, change);
+    const Eigen::VectorXd changed = learns ? Eigen::VectorXd(values_ + change) : values_;
     const double now = cost(after, changed) + prior_cost(changed);
     if (!(now < before)) {
       damping *= 10;
@@ -384,30 +369,31 @@ void PairAdjustment::optimise(Eigen::VectorXd& values, bool learns, const std::v
       continue;
     }
     pairs_ = std::move(after);
-    values = changed;
+    values_ = changed;
     damping = std::max(damping / 3, kLeast);
     const bool is_culled = culls.empty() || step > culls.back().first;
     if (is_culled && before - now < kSettled * before) break;
   }
 }
 
+void PairAdjustment::adjust(bool learns, const std::vector<std::pair<int, double>>& culls) {
+  start();
+  settle_points(12);
+  cull(20);
+  optimise(learns, culls);
+}
+
 Eigen::VectorXd PairAdjustment::learn() {
   values_.setZero(unknowns_.count());
-  start(values_);
-  settle_points(values_, 12);
-  cull(values_, 20);
-  optimise(values_, true, {{2, 8}, {4, 4}, {7, 2}});
+  adjust(true, {{2, 8}, {4, 4}, {7, 2}});
   Eigen::VectorXd ignored;
-  stepped(values_, true, 0, ignored, evidence_);
+  stepped(true, 0, ignored);
   return values_;
 }
 
 void PairAdjustment::fit(const Eigen::VectorXd& fixed) {
   values_ = fixed;
-  start(values_);
-  settle_points(values_, 12);
-  cull(values_, 20);
-  optimise(values_, false, {{2, 8}, {4, kFitLimit}});
+  adjust(false, {{2, 8}, {4, kFitLimit}});
 }
 
 std::vector<PairAdjustment::Residual> PairAdjustment::residuals() const {
@@ -440,13 +426,13 @@ int PairAdjustment::points() const {
 
 double PairAdjustment::find_motion(const RigUnknowns& unknowns, FramePair& pair) {
   PairAdjustment adjustment(unknowns, {&pair});
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(unknowns.count());
-  adjustment.start(values);
+  adjustment.values_.setZero(unknowns.count());
+  adjustment.start();
   for (const double scale : {20.0, 5.0, 1.5}) {
     adjustment.scale_ = scale;
-    adjustment.optimise(values, false, {});
+    adjustment.optimise(false, {});
   }
-  adjustment.cull(values, kAgreeing);
+  adjustment.cull(kAgreeing);
   pair.second_from_first = adjustment.pairs_.front().motion;
   return pair.points.empty() ? 0 : static_cast<double>(adjustment.points()) / static_cast<double>(pair.points.size());
 }

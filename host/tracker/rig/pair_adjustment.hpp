@@ -31,12 +31,6 @@ struct FramePair {
 /// Points of a pair and their motion, in terms of one calibration.
 class PairAdjustment {
  public:
-  /// The sum of what all pairs tell of the calibration.
-  struct Evidence {
-    Eigen::MatrixXd information;  ///< of the unknowns, motions and points eliminated; no priors
-    Eigen::VectorXd slope;        ///< half the derivative of the cost
-  };
-
   /// Distance of a point from a view up to which fit() keeps it [px].
   static constexpr double kFitLimit = 4;
 
@@ -50,8 +44,8 @@ class PairAdjustment {
   /// far off. \returns the part of the points that agree with it
   static double find_motion(const RigUnknowns& unknowns, FramePair& pair);
 
-  /// Of the last learn(): what the pairs alone tell, at the values.
-  const Evidence& evidence() const { return evidence_; }
+  /// Of the unknowns, as the pairs alone tell it, at the values that learn() has found; motions and points eliminated.
+  const Eigen::MatrixXd& information() const { return information_; }
   /// How far a point lies from where a view shows it.
   struct Residual {
     View view;
@@ -81,18 +75,22 @@ class PairAdjustment {
   struct Terms;
   struct Step;
 
-  void start(const Eigen::VectorXd& values);
-  void settle_points(const Eigen::VectorXd& values, int rounds);
-  void cull(const Eigen::VectorXd& values, double limit);
-  void optimise(Eigen::VectorXd& values, bool learns, const std::vector<std::pair<int, double>>& culls);
-  std::vector<Pair> stepped(const Eigen::VectorXd& values, bool learns, double damping, Eigen::VectorXd& change,
-                            Evidence& evidence) const;
+  /// Calls a function with every pair, point and its views, and with terms of the thread.
+  template <class Function>
+  void for_all_points(const Function& function);
+  void start();
+  void settle_points(int rounds);
+  void cull(double limit);
+  /// \param culls steps before which points that lie farther from a view than a limit [px] cease to take part
+  void optimise(bool learns, const std::vector<std::pair<int, double>>& culls);
+  void adjust(bool learns, const std::vector<std::pair<int, double>>& culls);
+  std::vector<Pair> stepped(bool learns, double damping, Eigen::VectorXd& change);
   double cost(const std::vector<Pair>& pairs, const Eigen::VectorXd& values) const;
 
   const RigUnknowns& unknowns_;
   std::vector<Pair> pairs_;
-  Eigen::VectorXd values_;
-  Evidence evidence_;
+  Eigen::VectorXd values_;  ///< of the unknowns
+  Eigen::MatrixXd information_;
   double scale_;  ///< distance from which views count less [px]
 };
 

@@ -51,12 +51,11 @@ constexpr double kMeanSquare = 1.0 / 12;  ///< of a coordinate from -1/2 to 1/2
 constexpr int kSearchPeriod = 50;  ///< frames
 /// Decrease of the ratio of matched edges, and increase of the residual [px], since the last search.
 constexpr double kMatchedDecrease = 0.7, kResidualIncrease = 0.2;
-/// Fraction of the corners found in a transformed right image, from which that transformation is reported.
-constexpr double kTransformedFoundRatio = 0.4;
 
 // Findings (rig_monitor.cpp).
 
-constexpr int kMinCorners = 20, kMinMatches = 12;
+constexpr int kMinCorners = 20;
+constexpr std::size_t kMinMatches = 12;
 /// The search that only confirms that a rig still is right takes every so many-th corner.
 constexpr std::size_t kSparseCorners = 3;
 /// Fraction of the corners that are found.
@@ -64,12 +63,12 @@ constexpr double kLostFoundRatio = 0.2;
 /// Fraction of the left edges that have a match.
 constexpr double kLostMatchedRatio = 0.1;
 constexpr double kMajority = 0.5;
-/// Fraction of the corners found that have a negative disparity or exceed the range.
+/// Fraction of the corners found that exceed the range.
 constexpr double kWarningRatio = 0.1;
 /// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
 /// [px]
 constexpr double kLostResidual = 3;
-/// Distance from the line that the cascade searches. [px]
+/// Distance from the line that the cascade searches; a fit that leaves more explains nothing. [px]
 constexpr double kDoubtfulResidual = 0.5;
 /// If more of the edges than this have a match on their epipolar lines, the corners off their lines are mostly on thin
 /// structures.
@@ -80,8 +79,6 @@ constexpr double kOnLine = 1, kOffLine = 2, kContradictingRatio = 0.1, kCertainM
 /// Fraction of aligned corners on their lines from which images fit the calibration and are of one moment, however few
 /// are found; sound recordings reach 0.77, neighbours in time 0.5 where the image moves.
 constexpr double kSoundOnLine = 0.7;
-/// Searches over which the ratio of negative disparities is averaged, at least.
-constexpr int kNegativeSearches = 3;
 /// Learned disparity offset. [px]
 constexpr double kMaxOffset = 1.5;
 
@@ -194,7 +191,5 @@ constexpr double kWrongPartner = 0.5;
 constexpr double kMaxTimeOffset = 8;
 /// Frames in a row that are searched for the time between the images, if they may show different moments.
 constexpr int kTimeSearches = 5;
-/// Median distance from the fit from which it explains nothing [px].
-constexpr double kHeldScatter = 0.5;
 
 }  // namespace quadedge::rig

@@ -50,8 +50,7 @@ void blame_masks(const StereoRig& rig, const HiddenPixels& hidden, RigReport& re
   const std::string text = "the masks hide " + percent(std::max(left, right)) + " of the " +
                            name(left < right ? Side::right : Side::left) +
                            " image, where they are black: are black and white exchanged?";
-  for (const WarningKind kind :
-       {WarningKind::doubtful_calibration, WarningKind::negative_disparities, WarningKind::small_disparity_range})
+  for (const WarningKind kind : {WarningKind::doubtful_calibration, WarningKind::small_disparity_range})
     drop(kind, report);
   if (report.mismatch() != nullptr)
     report.findings.front().warning.text += "; " + text;
@@ -92,22 +91,13 @@ std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& fr
 }
 
 bool RigMonitor::needs_search(const RigEvidence& evidence) const {
-  const bool is_suspicious = searches_ < kNegativeSearches && negative_ratios_ > kWarningRatio * searches_;
-  return !searched_ || !fits_ || is_suspicious || frames_since_search_ >= kSearchPeriod || has_worsened(evidence);
+  return !searched_ || !fits_ || frames_since_search_ >= kSearchPeriod || has_worsened(evidence);
 }
 
 bool RigMonitor::has_worsened(const RigEvidence& evidence) const {
   return searched_ && fits_ &&
          (evidence.matched_ratio < kMatchedDecrease * searched_->matched_ratio ||
           evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease);
-}
-
-void RigMonitor::confirm_negative_disparities(RigReport& report) {
-  if (!(report.evidence.negative_ratio >= 0)) return;
-  ++searches_;
-  negative_ratios_ += report.evidence.negative_ratio;
-  if (searches_ >= kNegativeSearches && negative_ratios_ > kWarningRatio * searches_) return;
-  drop(WarningKind::negative_disparities, report);
 }
 
 RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity,
@@ -120,7 +110,7 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   report.matches = &corner_matches_;
   std::vector<double> distances;
   for (const CornerMatch& match : corner_matches_) distances.push_back(std::abs(match.across));
-  if (static_cast<int>(distances.size()) >= kMinMatches) evidence.epipolar_residual = upper_median(distances);
+  if (distances.size() >= kMinMatches) evidence.epipolar_residual = upper_median(distances);
   ++frames_since_search_;
   const auto repeated = find_repeated_images(frame);
   const bool is_frozen = repeated && repeated->is_mismatch;
@@ -166,16 +156,14 @@ void RigMonitor::search(const StereoFrame& frame, double max_disparity, const Ri
   CornerAnswer answer;
   // If the rig was right before, a third of the corners suffices to see that it still is.
   if (searched_ && fits_) answer = search_and_judge(question, report, kSparseCorners);
-  if (answer.search.found.size() < static_cast<std::size_t>(kMinMatches) || !report.findings.empty() ||
-      doubts_time(report.evidence))
+  if (answer.search.found.size() < kMinMatches || !report.findings.empty() || doubts_time(report.evidence))
     answer = search_and_judge(question, report);
   last_view_ = std::move(answer.search.left_view);
   frames_since_search_ = 0;
   searched_ = report.evidence;
   judge_time(answer.search.found, report);
   fits_ = report.mismatch() == nullptr;
-  confirm_negative_disparities(report);
-  const bool may_be_late = question.last_view == nullptr && answer.fit.scatter > kHeldScatter && fits_;
+  const bool may_be_late = question.last_view == nullptr && answer.fit.scatter > kDoubtfulResidual && fits_;
   if (may_be_late && drop(WarningKind::doubtful_calibration, report)) searched_.reset();  // the next frame is searched
 }
 

@@ -47,8 +47,6 @@ class RigMonitor {
   bool needs_search(const RigEvidence& evidence) const;
   /// Whether the images fit clearly worse than when they were searched last.
   bool has_worsened(const RigEvidence& evidence) const;
-  /// Drops negative disparities from the findings of a search unless they are more in the mean of several.
-  void confirm_negative_disparities(RigReport& report);
   bool doubts_time(const RigEvidence& evidence) const;
   void search(const StereoFrame& frame, double max_disparity, const RigEstimate& rig, const HiddenPixels& hidden,
               RigReport& report);
@@ -63,8 +61,6 @@ class RigMonitor {
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration
   int frames_since_search_ = 0;
-  int searches_ = 0;                                     ///< that found something
-  double negative_ratios_ = 0;                           ///< sum over these
   GreyPlane last_view_;                                  ///< the left image of the last search
   int time_searches_ = 0;                                ///< in a row, for the time between the images
   std::optional<std::uint64_t> last_left_, last_right_;  ///< fingerprints of the previous images

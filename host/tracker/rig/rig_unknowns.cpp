@@ -72,7 +72,7 @@ RigUnknowns::RigUnknowns(StereoCalibration given, bool has_k3) : given_(std::mov
 }
 
 int RigUnknowns::add(std::string name, std::string unit, double prior) {
-  unknowns_.push_back({std::move(name), std::move(unit), prior});
+  unknowns_.push_back({std::move(name), std::move(unit), 0, prior, prior});
   return count() - 1;
 }
 
@@ -133,17 +133,6 @@ Eigen::VectorXd RigUnknowns::priors() const {
   return result;
 }
 
-Eigen::Vector3d RigUnknowns::moved_baseline(const Eigen::VectorXd& values) const {
-  const Eigen::Vector3d given = given_.right_from_left.translation();
-  return given + given.norm() * baseline_axes_ * values.segment<2>(first_rotation_ + 3);
-}
-
-Eigen::Matrix<double, 3, 2> RigUnknowns::baseline_slope(const Eigen::VectorXd& values) const {
-  const double length = given_.right_from_left.translation().norm();
-  const Eigen::Vector3d moved = moved_baseline(values), direction = moved.normalized();
-  return length * length / moved.norm() * (baseline_axes_ - direction * (direction.transpose() * baseline_axes_));
-}
-
 StereoCalibration RigUnknowns::at(const Eigen::VectorXd& values) const {
   StereoCalibration result = given_;
   for (const Side side : kSides) {
@@ -159,8 +148,9 @@ StereoCalibration RigUnknowns::at(const Eigen::VectorXd& values) const {
   }
   result.right_from_left.linear() =
       rotation_by(rotation_axes_ * values.segment<3>(first_rotation_)) * given_.right_from_left.linear();
-  result.right_from_left.translation() =
-      given_.right_from_left.translation().norm() * moved_baseline(values).normalized();
+  const Eigen::Vector3d given = given_.right_from_left.translation(),
+                        moved = given + baseline_slope() * values.segment<2>(first_rotation_ + 3);
+  result.right_from_left.translation() = given.norm() * moved.normalized();
   return result;
 }
 

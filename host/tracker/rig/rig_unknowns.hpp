@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "quadedge/calibration.hpp"
+#include "quadedge/drive_calibration.hpp"
 
 namespace quadedge::rig {
 
@@ -13,12 +14,6 @@ namespace quadedge::rig {
 /// rotation of the right camera and the direction of the baseline. The length of the baseline stays as given.
 class RigUnknowns {
  public:
-  /// One number; 0 is the given calibration.
-  struct Unknown {
-    std::string name;  ///< for users and files
-    std::string unit;
-    double prior = 0;  ///< standard deviation of what calibrations leave
-  };
   /// Derivative of a pixel by all unknowns.
   using PixelByUnknowns = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 32>;
 
@@ -28,7 +23,8 @@ class RigUnknowns {
   static constexpr const char* kCommonFocal = "focal length, both";  ///< the name of this unknown
 
   int count() const { return static_cast<int>(unknowns_.size()); }
-  const Unknown& operator[](int i) const { return unknowns_[static_cast<std::size_t>(i)]; }
+  /// As long as nothing is learned.
+  const LearnedNumber& operator[](int i) const { return unknowns_[static_cast<std::size_t>(i)]; }
   const StereoCalibration& given() const { return given_; }
   Eigen::VectorXd priors() const;
   StereoCalibration at(const Eigen::VectorXd& values) const;
@@ -42,19 +38,20 @@ class RigUnknowns {
   int first_rotation() const { return first_rotation_; }  ///< of three unknowns, then two of the baseline's direction
   /// Axes of the right camera that the three rotations turn it about, in columns.
   const Eigen::Matrix3d& rotation_axes() const { return rotation_axes_; }
-  /// Derivative of the baseline's vector by its two directions, at given values.
-  Eigen::Matrix<double, 3, 2> baseline_slope(const Eigen::VectorXd& values) const;
+  /// Derivative of the baseline's vector by its two directions, at the given calibration.
+  Eigen::Matrix<double, 3, 2> baseline_slope() const {
+    return given_.right_from_left.translation().norm() * baseline_axes_;
+  }
 
  private:
   int add(std::string name, std::string unit, double prior);
   void add_cameras();
   void add_lens(Side side);
   void add_pose();
-  Eigen::Vector3d moved_baseline(const Eigen::VectorXd& values) const;
 
   StereoCalibration given_;
   bool has_k3_;
-  std::vector<Unknown> unknowns_;
+  std::vector<LearnedNumber> unknowns_;
   Eigen::MatrixXd by_unknowns_[2];
   std::vector<int> lens_parameters_[2];
   Eigen::Matrix3d rotation_axes_;

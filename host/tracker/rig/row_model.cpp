@@ -27,7 +27,7 @@ double RowModel::scatter(const std::vector<CornerMatch>& matches) {
 }
 
 void RowModel::add(const std::vector<CornerMatch>& matches) {
-  if (static_cast<int>(matches.size()) < kMinMatches) return;
+  if (matches.size() < kMinMatches) return;
   read(matches);
   sums_.normal = kept_ * sums_.normal + 1e-3 * Normal::Identity();
   sums_.right_side *= kept_;

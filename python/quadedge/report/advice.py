@@ -11,7 +11,6 @@ OF_KIND = {
     "doubtful_calibration": "Run quadedge check on the recording: it lists the residuals and can write a corrected "
                             "calibration (--write-calibration). If the images are rectified, pass --rectified.",
     "small_disparity_range": "Nearby objects are not matched: raise --stereo.max_disparity.",
-    "negative_disparities": "Left and right images are probably exchanged, or the calibration belongs to another rig.",
     "unsynchronised_cameras": "Trigger both cameras in hardware, or pair the images by better timestamps (--times, "
                               "--tolerance). Positions are off while the camera turns.",
     "unknown_motion": "Evaluate every segment by itself (trajectory_segment_N.txt). Loop closure (--loops) can join "
