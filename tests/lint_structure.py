@@ -43,7 +43,7 @@ MOST_LINES = {
     "python": 9353,
     "ros2": 90,
     "scripts": 2181,
-    "tests": 31334,
+    "tests": 31314,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.
