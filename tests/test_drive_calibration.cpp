@@ -1,16 +1,16 @@
 /// \file test_drive_calibration.cpp  A rig learned from a drive: from made-up points with every lens model, from
 /// rendered frames, and by the commands.
 
+#include "calibration/corner_flow.hpp"
+#include "calibration/pair_adjustment.hpp"
+#include "calibration/pair_collection.hpp"
+#include "calibration/unseen_views.hpp"
 #include "dataset_files.hpp"
 #include "geometry/calibration.hpp"
 #include "geometry/lens_mapping.hpp"
 #include "matching.hpp"
 #include "output/calibration_report.hpp"
 #include "program.hpp"
-#include "rig/corner_flow.hpp"
-#include "rig/pair_adjustment.hpp"
-#include "rig/pair_collection.hpp"
-#include "rig/unseen_views.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;

@@ -1,6 +1,6 @@
+#include "calibration/image_delay.hpp"
 #include "dataset_files.hpp"
 #include "frontends.hpp"
-#include "rig/image_delay.hpp"
 #include "rig/rig_monitor.hpp"
 
 using namespace quadedge;

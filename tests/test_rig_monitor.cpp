@@ -1,6 +1,6 @@
+#include "calibration/interlacing.hpp"
 #include "edge_images.hpp"
 #include "frontends.hpp"
-#include "rig/interlacing.hpp"
 #include "rig/rig_constants.hpp"
 #include "rig/rig_monitor.hpp"
 

@@ -102,16 +102,6 @@ constexpr double kJumpScatter = 0.5;
 constexpr std::size_t kMinJumpMatches = 60;
 constexpr double kLeastJumpScale = 0.05;  ///< of a disparity in the robust fit [px]
 
-// Right images of another moment (image_delay.cpp).
-
-/// Of the corners searched, on their lines, for images of one moment: sound recordings reach 0.4, neighbours in time
-/// 0.2.
-constexpr double kFittingFound = 0.3;
-/// kSoundOnLine of partners that are looked for, whose rows may be off by as much as a rectification leaves.
-constexpr double kPartnerOnLine = 0.6;
-/// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
-constexpr double kLeftLines = 0.6;
-
 // Images that are bad (corner_judgement.cpp).
 
 /// Corners beside saturated pixels over all, from which images are called saturated.
@@ -164,18 +154,6 @@ constexpr int kCertainAfter = 12;
 constexpr double kMinSurroundedRatio = 0.3, kMinSurroundingRatio = 0.05, kSurroundingVariance = 0.8;
 constexpr double kSurroundedNearness = 1.0 / 3;
 
-// Odd and even rows of different times (interlacing.cpp).
-
-constexpr int kCombCell = 32;        ///< size of the cells that are judged [px]
-constexpr double kCombTexture = 4;   ///< mean squared horizontal gradient of a textured cell [(grey levels per px)^2]
-constexpr double kCombShift = 0.25;  ///< shift of odd rows against even ones [px]
-constexpr double kCombCorrelation = 0.1;
-/// Part of a cell's squared gradient along x that its gradient along y does not explain.
-constexpr double kCombOwnGradient = 0.1;
-/// Textured cells of a recording that show a shift: sound ones have 0.03, JPEGs of any quality up to 0.1, and
-/// recordings from whose frames interlaced ones were made 0.2 to 0.9.
-constexpr double kInterlacedRatio = 0.15;
-
 // The time between the two images (rig_monitor.cpp, row_model.cpp).
 
 constexpr double kTimeMemory = 20;  ///< frames
@@ -189,6 +167,8 @@ constexpr double kMinTimeOffset = 0.3;  ///< frame intervals
 constexpr double kWrongPartner = 0.5;
 /// A camera that is later than this shows another motion, to which distances are not proportional [frame intervals].
 constexpr double kMaxTimeOffset = 8;
+/// Corners on their lines as the images are paired, over those with a delay, up to which the delay is believed.
+constexpr double kLeftLines = 0.6;
 /// Frames in a row that are searched for the time between the images, if they may show different moments.
 constexpr int kTimeSearches = 5;
 

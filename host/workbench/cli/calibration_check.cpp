@@ -5,7 +5,6 @@
 
 #include "common/printed.hpp"
 #include "geometry/disparity_range.hpp"
-#include "rig/rig_constants.hpp"
 #include "rig/rig_monitor.hpp"
 
 namespace quadedge::cli {

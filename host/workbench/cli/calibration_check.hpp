@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "calibration/image_delay.hpp"
+#include "calibration/interlacing.hpp"
 #include "quadedge/dataset.hpp"
-#include "rig/image_delay.hpp"
-#include "rig/interlacing.hpp"
 
 namespace quadedge::cli {
 

@@ -1,5 +1,5 @@
 /// \file rig_unknowns.cpp  Priors by lens model, and linear maps from unknowns to the numbers of each camera.
-#include "rig/rig_unknowns.hpp"
+#include "calibration/rig_unknowns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 /// \file pair_collection.cpp  Tracks corners until they have moved far enough; searches right images at several depths.
-#include "rig/pair_collection.hpp"
+#include "calibration/pair_collection.hpp"
 
 #include <algorithm>
 #include <cmath>

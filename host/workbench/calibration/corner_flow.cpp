@@ -1,5 +1,5 @@
 /// \file corner_flow.cpp  Pyramids; Gauss-Newton with the template's slopes on every level.
-#include "rig/corner_flow.hpp"
+#include "calibration/corner_flow.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

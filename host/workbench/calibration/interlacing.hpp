@@ -5,6 +5,10 @@
 
 namespace quadedge::rig {
 
+/// Textured cells of a recording that show a shift: sound ones have 0.03, JPEGs of any quality up to 0.1, and
+/// recordings from whose frames interlaced ones were made 0.2 to 0.9.
+constexpr double kInterlacedRatio = 0.15;
+
 /// Cells of images with texture, and those of them whose odd rows are shifted along x against their even rows.
 class Combing {
  public:

@@ -1,5 +1,5 @@
 /// \file rig_change.cpp  Measures, with the given calibration, points that the other one projects, on a grid of pixels.
-#include "rig/rig_change.hpp"
+#include "calibration/rig_change.hpp"
 
 #include <cmath>
 #include <vector>

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "calibration/pair_adjustment.hpp"
 #include "quadedge/drive_calibration.hpp"
-#include "rig/pair_adjustment.hpp"
 
 namespace quadedge::rig {
 

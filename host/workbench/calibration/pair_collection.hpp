@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/corner_flow.hpp"
+#include "calibration/pair_adjustment.hpp"
 #include "quadedge/image.hpp"
-#include "rig/corner_flow.hpp"
-#include "rig/pair_adjustment.hpp"
 
 namespace quadedge::rig {
 

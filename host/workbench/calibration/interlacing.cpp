@@ -1,14 +1,19 @@
 /// \file interlacing.cpp  Correlates row differences of alternating sign with the horizontal gradient, per cell.
-#include "rig/interlacing.hpp"
+#include "calibration/interlacing.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "rig/rig_constants.hpp"
-
 namespace quadedge::rig {
 namespace {
+
+constexpr int kCombCell = 32;        ///< size of the cells that are judged [px]
+constexpr double kCombTexture = 4;   ///< mean squared horizontal gradient of a textured cell [(grey levels per px)^2]
+constexpr double kCombShift = 0.25;  ///< shift of odd rows against even ones [px]
+constexpr double kCombCorrelation = 0.1;
+/// Part of a cell's squared gradient along x that its gradient along y does not explain.
+constexpr double kCombOwnGradient = 0.1;
 
 /// Sums of products over the pixels of a cell, of the gradients along x and y and the difference of a row from the mean
 /// of its neighbours, with alternating sign. Rows that are shifted by s differ by s times the gradient along x. Those

@@ -1,5 +1,5 @@
 /// \file image_delay.cpp  Pairs images with those of earlier frames and counts corners on their lines; pairs vote.
-#include "rig/image_delay.hpp"
+#include "calibration/image_delay.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,12 @@
 
 namespace quadedge::rig {
 namespace {
+
+/// Of the corners searched, on their lines, for images of one moment: sound recordings reach 0.4, neighbours in time
+/// 0.2.
+constexpr double kFittingFound = 0.3;
+/// kSoundOnLine of partners that are looked for, whose rows may be off by as much as a rectification leaves.
+constexpr double kPartnerOnLine = 0.6;
 
 /// Whether images are of one moment, as far as their corners say.
 bool fits(const CornerSearch& search, double least) {

@@ -1,5 +1,5 @@
 /// \file unseen_views.cpp  Fits motions and points with either calibration, then compares view by view.
-#include "rig/unseen_views.hpp"
+#include "calibration/unseen_views.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace quadedge::rig {
 namespace {
 
-constexpr int kColumns = UnseenDistances::kColumns, kRows = UnseenDistances::kRows;
+constexpr int kPlaceColumns = UnseenDistances::kColumns, kPlaceRows = UnseenDistances::kRows;
 
 /// Distances with one calibration fall against those with another below this part if it is better. What is learned has
 /// errors of its own: falls to 0.78 and 0.86 (MH_01, Karlsruhe) made poses worse, to 0.4 (KITTI's raw drives) and 0.75
@@ -31,9 +31,10 @@ int rising(const Values& given, const Values& learned) {
 }
 
 std::size_t place_of(const PairAdjustment::Residual& residual, const PinholeCamera& camera) {
-  const int column = static_cast<int>(residual.at.x() * kColumns / camera.width),
-            row = static_cast<int>(residual.at.y() * kRows / camera.height);
-  return static_cast<std::size_t>(std::clamp(row, 0, kRows - 1) * kColumns + std::clamp(column, 0, kColumns - 1));
+  const int column = static_cast<int>(residual.at.x() * kPlaceColumns / camera.width),
+            row = static_cast<int>(residual.at.y() * kPlaceRows / camera.height);
+  return static_cast<std::size_t>(std::clamp(row, 0, kPlaceRows - 1) * kPlaceColumns +
+                                  std::clamp(column, 0, kPlaceColumns - 1));
 }
 
 std::size_t range_of(const PairAdjustment::Residual& residual) {
@@ -70,7 +71,7 @@ std::array<double, 2> UnseenViews::distances(Calibration of) const {
 }
 
 UnseenDistances UnseenViews::parts(Calibration of) const {
-  std::array<std::array<std::vector<double>, kRows * kColumns>, 2> places;
+  std::array<std::array<std::vector<double>, kPlaceRows * kPlaceColumns>, 2> places;
   std::array<std::vector<double>, UnseenDistances::kFarthest.size()> ranges;
   for (const View& view : views_) {
     places[view.side][view.place].push_back(view.distance[of]);

@@ -1,5 +1,5 @@
 /// \file pair_adjustment.cpp  Levenberg-Marquardt, Cauchy weights; eliminates points, then motions (Schur complement).
-#include "rig/pair_adjustment.hpp"
+#include "calibration/pair_adjustment.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "rig/rig_unknowns.hpp"
+#include "calibration/rig_unknowns.hpp"
 
 namespace quadedge::rig {
 

@@ -7,6 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "calibration/pair_adjustment.hpp"
+#include "calibration/pair_collection.hpp"
+#include "calibration/rig_change.hpp"
+#include "calibration/rig_unknowns.hpp"
+#include "calibration/unseen_views.hpp"
 #include "common/images.hpp"
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
@@ -14,11 +19,6 @@
 #include "geometry/disparity_range.hpp"
 #include "geometry/frame_mask.hpp"
 #include "geometry/lens_mapping.hpp"
-#include "rig/pair_adjustment.hpp"
-#include "rig/pair_collection.hpp"
-#include "rig/rig_change.hpp"
-#include "rig/rig_unknowns.hpp"
-#include "rig/unseen_views.hpp"
 
 namespace quadedge {
 namespace {
