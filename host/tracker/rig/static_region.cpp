@@ -21,9 +21,10 @@ void reduce_levels(const PinholeView& view, int columns, int rows, std::vector<f
   float block[kReducedCell * kReducedCell];
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const Eigen::Vector2d corner(column * kStaticCell, row * kStaticCell);
-      view.reduced(corner.array() + 0.5 * (kStaticCell - 1),
-                   static_cast<double>(kReduction) * Eigen::Matrix2d::Identity(), block);
+      // Between four pixels, whose mean it is.
+      const Eigen::Vector2d middle = kStaticCell * (Eigen::Vector2d(column, row).array() + 0.5) + 0.5;
+      view.patch(middle, static_cast<double>(kReduction) * Eigen::Matrix2d::Identity())
+          .sample(-kReducedCell / 2, kReducedCell / 2 - 1, block);
       for (int y = 0; y < kReducedCell; ++y)
         std::copy_n(block + y * kReducedCell, kReducedCell,
                     &levels[static_cast<std::size_t>((row * kReducedCell + y) * width + column * kReducedCell)]);
