@@ -4,7 +4,7 @@ build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl
   libeigen3-dev libtbb-dev libopencv-features2d-dev libpng-dev libjpeg-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev"
 python_packages="python3-dev python3-venv"  # for `pip install .`, besides those above
-test_packages="catch2 libbenchmark-dev libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file
+test_packages="catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file
   oclgrind clang debootstrap clang-format p7zip-full munge slurmctld slurmd slurm-client
   libfastrtps-dev fastddsgen default-jre-headless ros-sensor-msgs ros-nav-msgs ros-tf2-msgs ros-diagnostic-msgs"
 

@@ -21,7 +21,7 @@ SOURCES = (".cpp", ".hpp", ".cl", ".inc", ".py", ".sh")
 SIZED = {"host", "include", "kernels", "python", "bench", "ros2", "scripts", "tests"}
 # Most lines of source per folder. Whoever raises a limit says why in the commit.
 MOST_LINES = {
-    "bench": 547,
+    "bench": 283,
     "host/tracker/common": 1052,
     "host/tracker/device": 4571,
     "host/tracker/edges": 2892,
