@@ -121,9 +121,11 @@ def test_no_display_and_no_viewer_are_one_sentence(results, tmp_path):
 
 def test_results_without_their_recording(results, tmp_path):
     viewer = quadedge.view.Viewer("room", save=tmp_path / "room.rrd")
-    assert quadedge.view.show_results(results, viewer, images=False) == 6
+    run = quadedge.view.Run(results)
+    run.show(viewer)
+    assert len(run.frames) == 6
     with pytest.raises(quadedge.DataError):
-        quadedge.view.show_results(results, viewer, data=tmp_path / "elsewhere")
+        run.open_recording(tmp_path / "elsewhere")
     viewer.close()
     rerun_command("rrd", "verify", tmp_path / "room.rrd")
     assert "/world/path" in entities(tmp_path / "room.rrd")
@@ -161,7 +163,5 @@ def test_invalid_results_are_refused(tmp_path, results):
     damaged = shutil.copytree(results, tmp_path / "damaged")
     text = (damaged / "poses.csv").read_text()
     (damaged / "poses.csv").write_text(text[: text.rfind("tracked")] + "tracked,0,oops\n")
-    viewer = quadedge.view.Viewer("damaged", save=tmp_path / "damaged.rrd")
     with pytest.raises(quadedge.DataError, match=r"poses.csv:7: .* fields; expected"):
-        quadedge.view.show_results(damaged, viewer)
-    viewer.close()
+        quadedge.view.Run(damaged)

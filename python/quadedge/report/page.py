@@ -7,7 +7,6 @@ import html
 import io
 import json
 import os
-import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -179,10 +178,6 @@ def _plotly_code() -> Markup:
     return _packed((resources.files("plotly") / "package_data" / "plotly.min.js").read_bytes())
 
 
-def _slug(text: str) -> str:
-    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") or "section"
-
-
 def _emphasised(text: str) -> Markup:
     """The escaped text, with line breaks allowed after the slashes of paths."""
     return Markup(html.escape(text, quote=False).replace("/", "/<wbr>"))
@@ -210,18 +205,10 @@ def to_html(page: Page) -> str:
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["breakable"] = _emphasised
     environment.filters["explanation"] = explanation_of
-    anchors: dict[str, int] = {}
-
-    def anchor(title: str) -> str:
-        name = _slug(title)
-        anchors[name] = anchors.get(name, 0) + 1
-        return name if anchors[name] == 1 else f"{name}-{anchors[name]}"
-
     figures = page.figures()
     files = resources.files("quadedge.report") / "templates"
     return environment.get_template("page.html.j2").render(
-        page=page, anchors=[anchor(section.title) for section in page.sections],
-        numbers={id(figure): number for number, figure in enumerate(figures)}, id=id,
+        page=page, numbers={id(figure): number for number, figure in enumerate(figures)}, id=id,
         style=Markup((files / "page.css").read_text(encoding="utf-8")),
         script=Markup((files / "page.js").read_text(encoding="utf-8")),
         figures=_packed(json.dumps([figure.plotly() for figure in figures], separators=(",", ":"),

@@ -8,7 +8,7 @@
 ``python -m quadedge.view RESULTS`` shows the results of ``quadedge run``.
 """
 
-from .results import show_results
+from .results import Run
 from .viewer import Viewer
 
-__all__ = ["Viewer", "show_results"]
+__all__ = ["Run", "Viewer"]

@@ -15,7 +15,7 @@ _NOT_STORED = {"pipe": "the images came from a pipe", "synthetic": "the images w
 
 
 class Run:
-    """The results folder of ``quadedge run``.
+    """The results folder of ``quadedge run``: run.show(viewer, run.open_recording()) shows it.
 
     Raises DataError for a folder without results, and for damaged ones.
     """
@@ -87,18 +87,3 @@ class Run:
             viewer.start_frame(row.stamp_ns, number)
             viewer.log_images(odometry.rig, frame.left, frame.right)
             viewer.log_edges(odometry.details(), row.pose_or_prediction, row.new_key_rig)
-
-
-def show_results(folder: str | PathLike, viewer: Viewer, *, images: bool = True, data: str | PathLike | None = None,
-                 device: str = "auto") -> int:
-    """Shows a results folder of ``quadedge run`` and returns the number of frames.
-
-    Path, keyframes, counts and times come from the files in the folder. With ``images`` the recording is tracked again
-    to show its edges and quads, unless it came from a pipe or a camera
-    or was rendered. data: the recording, if it has moved since the run. device: as in Odometry.
-
-    Raises DataError for a folder without results and for a recording that cannot be read.
-    """
-    run = Run(folder)
-    run.show(viewer, run.open_recording(data) if images else None, device)
-    return len(run.frames)
