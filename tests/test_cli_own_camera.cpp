@@ -92,18 +92,6 @@ TEST_CASE("run: nanosecond names stay the stamps with --fps, which only has to a
   CHECK_THAT(read_text(folder / "contradicting/report.json"), Contains("--fps 30 contradicts"));
 }
 
-TEST_CASE("match: a pair from a pipe is matched like the same pair from folders", "[cli][device]") {
-  const TemporaryFolder folder;
-  run_well({"match", "--left", small_sequence() + "/rgb", "--right", small_sequence() + "/rgb2", "--fps", "20",
-            "--frame", "1", "--calibration", camera().calibration, "--csv", folder / "folders.csv"});
-  run_well({"match", "-", "--frame", "1", "--fps", "20", "--calibration", camera().calibration, "--csv",
-            folder / "pipe.csv"},
-           through_a_pipe(camera().stream));
-  CHECK(read_text(folder / "pipe.csv") == read_text(folder / "folders.csv"));
-  CHECK(read_lines(folder / "pipe.csv").size() > 100);
-  check_error({"match", "-", "right.png"}, 2);
-}
-
 TEST_CASE("run: a pipe is read whole; with --live, pairs that come too fast are dropped and counted", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string all = own_camera::pgm_stream_of_small();
@@ -207,7 +195,7 @@ TEST_CASE("run: images of a pipe take the timestamps of --times; the report has 
               through_a_pipe(camera().stream));
 }
 
-TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
+TEST_CASE("check and bench read own cameras", "[cli][device]") {
   const auto with_source = [&](const Words& arguments) {
     return arguments + Words{"--video", camera().video, "--split", "left-right", "--calibration", camera().calibration};
   };
@@ -217,11 +205,8 @@ TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
   const TemporaryFolder folder;
   run_well(with_source({"bench", "--frames", "1", "--warm-up", "1", "--json", folder / "bench.json", "--quiet"}));
   CHECK_THAT(read_text(folder / "bench.json"), Contains(camera().video));
-  run_well(with_source({"edges", "--frame", "2", "--csv", folder / "a.csv"}));
-  run_well({"edges", own_camera::small_dataset().frames[2].left, "--csv", folder / "b.csv"});
-  CHECK(read_text(folder / "a.csv") == read_text(folder / "b.csv"));
-  check_error(with_source({"edges", "--frame", "7"}), 2);
   check_error(with_source({"run", small_sequence()}), 2);
   check_error({"run", small_sequence(), "--fps", "3"}, 2);
-  check_error({"edges", own_camera::small_dataset().frames[2].left, "--fov", "90"}, 2);
+  const FrameFiles frame = own_camera::small_dataset().frames[2];
+  check_error({"match", frame.left, frame.right, "--fov", "90"}, 2, {"need --calibration"});
 }

@@ -60,9 +60,7 @@ TEST_CASE("process: an unwritable output file is refused at the start", "[cli]")
   fs::create_directory(folder / "results");
   const std::string image = (*fs::directory_iterator(small_sequence() + "/rgb")).path().string();
   const std::vector<Words> commands = {
-      {"run", small_sequence(), "--device", "reference", "-o", folder / "out", "--force", "--trace"},
-      {"demo", "--frames", "2", "--size", "160x100", "--device", "reference", "-o", folder / "demo", "--force",
-       "--trace"},
+      {"run", small_sequence(), "--device", "reference", "-o", folder / "out", "--force", "--points"},
       {"bench", "--frames", "1", "--size", "160x100", "--json"},
       {"compare", "--size", "160x100", "--json"},
       {"edges", image, "--csv"}};

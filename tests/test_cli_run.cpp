@@ -13,7 +13,7 @@ namespace {
 struct SharedRun {
   TemporaryFolder folder;
   ProgramResult result =
-      run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2", "--trace", folder / "trace.json"});
+      run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2"});
   std::string out(const std::string& name) const { return folder / ("out/" + name); }
 };
 const SharedRun& shared_run() {
@@ -148,29 +148,6 @@ TEST_CASE("run: frames.csv has a row per frame whose stage times add up to the l
     CHECK(stages > 0.5 * latency);
     CHECK(stages < 1.02 * latency + 0.1);
   }
-}
-
-TEST_CASE("run: the trace holds each frame with its stages nested inside", "[cli][device]") {
-  const auto& run = shared_run();
-  const auto trace = nlohmann::json::parse(read_text(run.folder / "trace.json"));
-  double begin = -1, end = -1;
-  int frames = 0, stages = 0;
-  for (const auto& event : trace["traceEvents"]) {
-    CHECK(event["ph"] == "X");
-    const double start = event["ts"], duration = event["dur"];
-    if (event["cat"] == "frame") {
-      CHECK(start >= end);  // frames follow one another
-      begin = start;
-      end = start + duration;
-      ++frames;
-    } else {
-      CHECK(start >= begin);
-      CHECK(start + duration <= end * 1.02 + 100);
-      ++stages;
-    }
-  }
-  CHECK(frames == 4);
-  CHECK(stages > 2 * frames);
 }
 
 TEST_CASE("run: results are not replaced without --force", "[cli][device]") {

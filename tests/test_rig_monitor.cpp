@@ -1,4 +1,3 @@
-#include "calibration/interlacing.hpp"
 #include "edge_images.hpp"
 #include "frontends.hpp"
 #include "rig/rig_constants.hpp"
@@ -213,23 +212,6 @@ TEST_CASE("rig monitor: crossings of cables off their lines are no error of the 
             (rows == 0 ? FrameStatus::first : FrameStatus::lost_rig_mismatch));
     }
   }
-}
-
-TEST_CASE("rig monitor: odd rows that are shifted against even ones are combing; rows that repeat are none", "[rig]") {
-  const auto combed_ratio = [](const Image& image) {
-    rig::Combing combing;
-    combing.add(image.view());
-    return combing.ratio();
-  };
-  const Image& left = evidence_room().left[0];
-  const auto shifted = [](int x, int y) { return std::pair(y % 2 == 1 ? std::max(x - 2, 0) : x, y); };
-  CHECK(combed_ratio(left) < rig::kInterlacedRatio / 2);
-  CHECK(combed_ratio(rearranged(left, shifted)) > 0.5);
-  // As in a JPEG of half the size that is shown enlarged.
-  const auto enlarged = [](int x, int y) { return std::pair(x / 2, y / 2); };
-  CHECK(combed_ratio(rearranged(left, enlarged)) < rig::kInterlacedRatio / 2);
-  // Vertical stripes are the same in all rows.
-  CHECK(combed_ratio(filled_image(128, 192, [](int x, int) { return x % 16 < 8 ? 40 : 200; })) == 0);
 }
 
 TEST_CASE("rig monitor: texture that repeats along the lines does not blame an exact rig", "[rig]") {

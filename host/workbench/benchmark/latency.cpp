@@ -92,16 +92,13 @@ void measure_start(const StereoRig& rig, const std::function<Device()>& open_dev
 void measure_latency(const Subject& subject, BenchRecord& record) {
   Device device = subject.open_device(false);
   StereoOdometry odometry(subject.rig, device, subject.config);
-  const auto start = Clock::now();
   opencl::Context::Traffic before;
   const int total = static_cast<int>(subject.frames.size());
   for (std::size_t i = 0; i < subject.frames.size(); ++i) {
     if (i == 1 + static_cast<std::size_t>(record.warm_up) && device.context() != nullptr)
       before = device.context()->traffic();
-    report::FrameRecord frame;
-    frame.start_ms = milliseconds_since(start);
     const double processor = processor_ms();
-    frame.result = odometry.track(subject.frames[i].view());
+    FrameResult frame = odometry.track(subject.frames[i].view());
     if (i > 0 && !is_warm_up(i, record)) record.processor_ms.push_back(processor_ms() - processor);
     if (!is_warm_up(i, record)) record.run.frames.push_back(std::move(frame));
     subject.progress("latency", static_cast<int>(i) + 1, total);

@@ -1,4 +1,4 @@
-/// \file calibration_check.cpp  Corner searches in the first, middle and last frame; delay and combing in some.
+/// \file calibration_check.cpp  Corner searches in the first, middle and last frame; delay in some.
 #include "cli/calibration_check.hpp"
 
 #include <cmath>
@@ -64,7 +64,6 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   constexpr int kFrames = 12;
   const bool is_due = frames == 0 ? (pair.number & (pair.number - 1)) == 0  // ever fewer
                                   : pair.number * kFrames % frames < kFrames;
-  if (is_due) combing_.add(pair.left.view());
   delays_.add(dataset.rig, pair.left, pair.right, disparity_limit(dataset.rig), is_due);
   if (pair.number == 0 || pair.number == frames / 2) {
     check_rig_evidence(dataset, pair, found_);
@@ -76,11 +75,6 @@ void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
 void RigEvidenceCollector::finish(DatasetCheck& check) {
   if (last_) check_rig_evidence(*dataset_, *last_, found_);
   if (const std::string delay = delays_.text(); !delay.empty()) found_.warnings.push_back(delay);
-  if (combing_.ratio() > rig::kInterlacedRatio)
-    found_.warnings.push_back(printed(
-        "odd and even rows are shifted against one another in %.0f %% of the left images' texture: is the video "
-        "interlaced? ffmpeg -vf bwdif deinterlaces it",
-        100 * combing_.ratio()));
   check.facts.insert(check.facts.end(), found_.facts.begin(), found_.facts.end());
   check.warnings.insert(check.warnings.end(), found_.warnings.begin(), found_.warnings.end());
 }

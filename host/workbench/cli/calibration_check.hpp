@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "calibration/image_delay.hpp"
-#include "calibration/interlacing.hpp"
 #include "quadedge/dataset.hpp"
 
 namespace quadedge::cli {
@@ -13,8 +12,8 @@ namespace quadedge::cli {
 /// otherwise empty.
 std::string rectified_proposal(const Dataset& dataset, const StereoPair& pair);
 
-/// Tests the values of a calibration, its first, middle and last frame, and delay and combing of some frames, of
-/// pairs that arrive one by one. Without a known number of pairs there is no middle one.
+/// Tests the values of a calibration, its first, middle and last frame, and the delay of some frames, of pairs
+/// that arrive one by one. Without a known number of pairs there is no middle one.
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
@@ -29,7 +28,6 @@ class RigEvidenceCollector {
   std::optional<Dataset> dataset_;
   std::optional<StereoPair> last_;
   rig::ImageDelaySearch delays_;
-  rig::Combing combing_;
 };
 
 }  // namespace quadedge::cli

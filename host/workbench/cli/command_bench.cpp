@@ -67,7 +67,7 @@ void print_benchmark(const bench::BenchRecord& record) {
   std::printf("measured frames: %d, after the first and %d for warm-up; tracked: %d of %zu\n",
               static_cast<int>(run.frames.size()) - 1, record.warm_up, run.tracked(), run.frames.size());
   std::printf("edge threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
-              run.frames.back().result.diagnostics.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
+              run.frames.back().diagnostics.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
               count(run, "edges_left"), count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
   const auto latency = report::latency_summary(run.frames);
   std::printf("\nframe             median %.2f ms, p90 %.2f, p99 %.2f, max %.2f; first %.2f\n", latency.median,
@@ -138,7 +138,6 @@ class BenchCommand : public Command {
         "--baseline", baseline_,
         "also time two OpenCV yardsticks: SIFT on both images, nine filters of 17 coefficients (--preset paper: 33)");
     options.output("--json", json_, "write all figures");
-    options.output("--trace", trace_, "write the stages of every frame in Chrome's trace format");
     options.text("--compare", compare_, "print the differences from an older result; exit code 6 for a regression",
                  "OLD.json");
     options.number("--noise", noise_, "noise band: increases of up to this count as equal [percent]");
@@ -154,12 +153,10 @@ class BenchCommand : public Command {
     const bool compare_files = !compare_.empty() && std::filesystem::is_regular_file(path_);
     if (compare_files) return compare(path_);
     report::check_output_file(json_, force_);
-    report::check_output_file(trace_, force_);
     const bench::BenchRecord record = measure();
     print_benchmark(record);
     const std::string text = bench::bench_json(record);
     if (!json_.empty()) data::write_atomically(json_, text);
-    if (!trace_.empty()) data::write_atomically(trace_, report::trace_json(record.run));
     if (compare_.empty()) return static_cast<int>(ExitCode::done);
     std::printf("\n");
     return compare(json_);
@@ -249,7 +246,7 @@ class BenchCommand : public Command {
 
   SyntheticOptions scene_;
   SourceOptions source_;
-  std::string path_, size_, json_, trace_, compare_;
+  std::string path_, size_, json_, compare_;
   int edges_ = 0, frames_ = 30, warm_up_ = 3;
   double noise_ = 10;
   bool baseline_ = false, force_ = false, quiet_ = false;

@@ -34,27 +34,22 @@ class SingleCommand : public Command {
   void declare_rest(Options& options) {
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide the summary");
-    source_.declare(options);
     method_.declare(options);
   }
 
   std::string csv_, draw_;
-  int frame_ = 0;
   bool force_ = false, quiet_ = false;
-  SourceOptions source_;
   MethodOptions method_;
 };
 
 class EdgesCommand : public SingleCommand {
  public:
   EdgesCommand()
-      : SingleCommand("edges", "detect the third-order edges of one image, or of a left image of your own cameras",
+      : SingleCommand("edges", "detect the third-order edges of one image",
                       "  quadedge edges image.png --csv edges.csv --draw edges.png\n"
                       "  quadedge edges image.png --edges.threshold 4 --csv strong.csv") {}
   void declare(Options& options) override {
-    source_.declare_path(options, "image file; colour is converted to grey", "IMAGE");
-    options.number("--frame", frame_,
-                   "with --left and --right, --video or -: number of the pair, from 0; its left pinhole image is used");
+    options.positional("IMAGE", image_, "image file; colour is converted to grey");
     options.output("--csv", csv_, "write x, y, direction_rad and strength of every edge");
     options.output("--draw", draw_, "draw the edges to a PNG file");
     declare_rest(options);
@@ -63,17 +58,14 @@ class EdgesCommand : public SingleCommand {
     const Config config = method_.config();
     report::check_output_file(csv_, force_);
     report::check_output_file(draw_, force_);
-    if (!source_.is_given()) throw UsageError("nothing to read: expected IMAGE, or --left, --right and --calibration");
-    if (!source_.is_own_camera()) source_.refuse_all();
-    const Image image = source_.is_own_camera() ? left_image() : read_grey_image(source_.path());
+    const Image image = read_grey_image(image_);
     Device device = method_.open_device();
     const EdgeSet edges = detect(image, device, config);
     if (!csv_.empty()) data::write_atomically(csv_, report::edges_csv(edges));
     if (!draw_.empty()) report::draw_edges(draw_, image.view(), edges);
     if (!quiet_) {
       const std::vector<double> strengths(edges.strength.begin(), edges.strength.end());
-      std::printf("image      %s, %d x %d\ndevice     %s\nedges      %zu",
-                  source_.is_own_camera() ? "left pinhole image" : source_.path().c_str(), image.width, image.height,
+      std::printf("image      %s, %d x %d\ndevice     %s\nedges      %zu", image_.c_str(), image.width, image.height,
                   device.info().name.c_str(), edges.size());
       if (!strengths.empty()) std::printf(", median strength %.2f grey levels per pixel", report::median(strengths));
       std::printf("\n");
@@ -87,17 +79,11 @@ class EdgesCommand : public SingleCommand {
     try {
       return detect_edges(image.view(), device, config);
     } catch (const Error& error) {
-      throw Error(error.exit_code(),
-                  (source_.is_own_camera() ? "the left image" : source_.path()) + ": " + error.what());
+      throw Error(error.exit_code(), image_ + ": " + error.what());
     }
   }
 
-  /// The left image of a pair as the pinhole camera would have seen it.
-  Image left_image() const {
-    PairOfSource pair = source_.pair(frame_);
-    const auto& table = pair.dataset.rig.left_undistortion;
-    return table.empty() ? std::move(pair.pair.left) : undistort(pair.pair.left.view(), table);
-  }
+  std::string image_;
 };
 
 class MatchCommand : public SingleCommand {
@@ -108,23 +94,17 @@ class MatchCommand : public SingleCommand {
             "  quadedge match left.png right.png --stereo.max_disparity 96 --csv matches.csv --draw matches.png\n"
             "  quadedge match left.png right.png --calibration camchain.yaml --ply points.ply") {}
   void declare(Options& options) override {
-    options.positional("LEFT", left_,
-                       "left image file; without --calibration both images must be rectified; -: images from a pipe",
-                       false);
-    options.positional("RIGHT", right_, "right image file", false);
-    options.number("--frame", frame_, "with --left and --right, --video or -: number of the pair, from 0");
+    options.positional("LEFT", left_, "left image file; without --calibration both images must be rectified");
+    options.positional("RIGHT", right_, "right image file");
     options.output("--csv", csv_,
                    "write positions and directions in both images, NCC and 3D point of every stereo edge");
     options.output("--ply", ply_, "write the 3D points as a binary PLY file; needs --calibration");
     options.output("--draw", draw_, "draw the stereo edges to a PNG file");
+    options.group("Cameras (doc/your-own-data.md)");
+    source_.declare_cameras(options);
     declare_rest(options);
   }
   int run() override {
-    if (left_ == "-") {
-      if (!right_.empty()) throw UsageError("-: the pipe has both views; RIGHT is not allowed");
-      left_.clear();
-      source_.read_pipe();
-    }
     const Config config = method_.config();
     for (const auto& file : {csv_, ply_, draw_}) report::check_output_file(file, force_);
     const Pair pair = read_pair();
@@ -142,17 +122,11 @@ class MatchCommand : public SingleCommand {
  private:
   Pair read_pair() const {
     Pair pair;
-    if (source_.is_given()) {
-      if (!left_.empty()) throw UsageError("LEFT and RIGHT exclude --left and --right");
-      PairOfSource read = source_.pair(frame_);
-      return {std::move(read.pair.left), std::move(read.pair.right), std::move(read.dataset.rig), true};
-    }
-    if (left_.empty() || right_.empty()) throw UsageError("nothing to match: expected LEFT and RIGHT");
     if (source_.has_calibration()) {
       Dataset dataset = source_.still_pair(left_, right_);
       return {read_grey_image(left_), read_grey_image(right_), std::move(dataset.rig), true};
     }
-    source_.refuse_all();
+    if (source_.has_camera_options()) throw UsageError("--fov and --mask need --calibration");
     pair.left = read_grey_image(left_);
     pair.right = read_grey_image(right_);
     if (pair.left.max_value != pair.right.max_value || pair.left.height != pair.right.height)
@@ -187,6 +161,7 @@ class MatchCommand : public SingleCommand {
   }
 
   std::string left_, right_, ply_;
+  SourceOptions source_;
 };
 
 }  // namespace

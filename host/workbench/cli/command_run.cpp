@@ -19,7 +19,6 @@ class TrackingCommand : public Command {
   using Command::Command;
 
   void declare_results(Options& options) {
-    options.output("--trace", run_.trace, "write the stages of every frame in Chrome's trace format");
     options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame; 0: of the middle frame");
     options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
     options.flag("--force", run_.force, "replace results in OUT");

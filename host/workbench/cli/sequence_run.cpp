@@ -1,4 +1,4 @@
-/// \file sequence_run.cpp  Tracks and writes frame by frame; then errors, report and trace.
+/// \file sequence_run.cpp  Tracks and writes frame by frame; then errors and report.
 #include "cli/sequence_run.hpp"
 
 #include <algorithm>
@@ -88,9 +88,9 @@ void end_if_interrupted(const Interruption& interruption, const FrameSource& sou
 void report_warnings(const FrameResult& result, const report::RunRecord& run) {
   const std::string warning = "warning: frame " + std::to_string(run.frames.size()) + ": ";
   for (const Warning& found : result.warnings) note(warning + found.text);
-  const bool is_new = run.frames.empty() || run.frames.back().result.status != result.status;
+  const bool is_new = run.frames.empty() || run.frames.back().status != result.status;
   if (!is_tracked(result.status) && is_new) note(warning + "lost: " + result.message);
-  const bool starts_segment = !run.frames.empty() && run.frames.back().result.segment != result.segment;
+  const bool starts_segment = !run.frames.empty() && run.frames.back().segment != result.segment;
   if (starts_segment && result.warnings.empty()) note(warning + result.message);
 }
 
@@ -112,7 +112,7 @@ double device_peak_mb(const Device& device, const StereoOdometry& odometry) {
 }
 
 void show_progress(const report::RunRecord& run, int lost, Progress& progress) {
-  const std::string text = printed("%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
+  const std::string text = printed("%d lost, %.0f ms", lost, run.frames.back().timing.latency_ms);
   progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
 }
 
@@ -140,7 +140,6 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     report::draw_displacements(options.output + "/pictures/rig.png", *options.learned);
   }
   report::GrowingFiles files(options.output);
-  const auto start = Clock::now();
   Progress progress(options.quiet, "frames");
   int lost = 0;
   const auto write_loops = [&](bool after_error) {
@@ -150,19 +149,17 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   };
   try {
     while (const auto frame = source.next()) {
-      report::FrameRecord record;
-      record.start_ms = milliseconds_since(start);
-      if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().result.stamp_ns)
+      if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().stamp_ns)
         odometry.restart();
-      record.result = odometry.track(frame->view());
-      files.add(record.result);
-      report_warnings(record.result, run);
+      FrameResult result = odometry.track(frame->view());
+      files.add(result);
+      report_warnings(result, run);
       draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
-      points.add(*frame, record.result, odometry);
-      sample.add(odometry, record.result);
-      if (loops) loops->add(record.result);
-      lost += is_tracked(record.result.status) ? 0 : 1;
-      run.frames.push_back(std::move(record));
+      points.add(*frame, result, odometry);
+      sample.add(odometry, result);
+      if (loops) loops->add(result);
+      lost += is_tracked(result.status) ? 0 : 1;
+      run.frames.push_back(std::move(result));
       show_progress(run, lost, progress);
       if (interruption.signal() != 0) break;
     }
@@ -184,8 +181,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
 Trajectory tracked_poses(const report::RunRecord& run) {
   Trajectory trajectory;
   for (const auto& frame : run.frames) {
-    const FrameResult& result = frame.result;
-    if (result.world_from_left) trajectory.push_back({result.stamp_ns, *result.world_from_left, result.segment});
+    if (frame.world_from_left) trajectory.push_back({frame.stamp_ns, *frame.world_from_left, frame.segment});
   }
   return trajectory;
 }
@@ -195,8 +191,8 @@ Trajectory truth_of_the_run(const Trajectory& truth, const report::RunRecord& ru
   Trajectory kept;
   if (run.frames.empty()) return kept;
   for (const auto& pose : truth) {
-    if (pose.stamp_ns >= run.frames.front().result.stamp_ns - kStampToleranceNs &&
-        pose.stamp_ns <= run.frames.back().result.stamp_ns + kStampToleranceNs) {
+    if (pose.stamp_ns >= run.frames.front().stamp_ns - kStampToleranceNs &&
+        pose.stamp_ns <= run.frames.back().stamp_ns + kStampToleranceNs) {
       kept.push_back(pose);
     }
   }
@@ -210,8 +206,7 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   write_tum(options.output + "/groundtruth.txt", truth_of_the_run(source.dataset().truth, run));
   try {
     run.accuracy = evaluate_trajectory(tracked_poses(run), source.dataset().truth);
-    std::vector<FrameResult> results;
-    for (const auto& frame : run.frames) results.push_back(frame.result);
+    const std::vector<FrameResult> results(run.frames.begin(), run.frames.end());
     run.consistency = evaluation::judge_covariances(results, source.dataset().truth);
     run.step_consistency = evaluation::judge_steps(results, source.dataset().truth, run.config.pose);
     data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
@@ -233,14 +228,13 @@ void write_segments(const std::string& folder, const Trajectory& trajectory) {
     write_tum(folder + "/" + report::kSegmentFile + std::to_string(segment.front().segment) + ".txt", segment);
 }
 
-/// Writes what depends on all frames: accuracy, report.json and the trace.
+/// Writes what depends on all frames: accuracy and report.json.
 void write_results(const FrameSource& source, const SequenceRunOptions& options, const EdgeSample& sample,
                    report::RunRecord& run) {
   write_segments(options.output, tracked_poses(run));
   evaluate(source, options, run);
   data::write_atomically(options.output + "/edges.csv", sample.csv());
   data::write_atomically(options.output + "/report.json", report::report_json(run));
-  if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
 }
 
 /// Prints the summary of an interrupted run and ends the process by the signal.
@@ -261,11 +255,10 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
-  const std::vector<std::string> files = {options.trace, options.saved_map, options.points.ply};
+  const std::vector<std::string> files = {options.saved_map, options.points.ply};
   report::check_beside_results(files, options.output, run.input.path);
   options.points.check_beside(files);
   const report::FolderLock lock = report::prepare_output_folder(options.output, options.force);
-  report::check_output_file(options.trace, options.force);
   report::check_output_file(options.saved_map, options.force);
   options.points.check(options.force);
   PointsOutput points(options.points, run.config);

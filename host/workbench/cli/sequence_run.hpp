@@ -19,7 +19,6 @@ namespace quadedge::cli {
 /// How to run a sequence.
 struct SequenceRunOptions {
   std::string output;  ///< folder
-  std::string trace;   ///< file of the Chrome trace; empty: none
   bool quiet = false, force = false;
   bool restarts = false;  ///< a stamp that goes back starts a segment
   /// Drawings of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).

@@ -1,11 +1,9 @@
 /// \file source_options.cpp  Declares the options of all inputs; opens a recording, a single pair or a rendered scene.
 #include "cli/source_options.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
@@ -56,12 +54,7 @@ void SourceOptions::declare(Options& options) {
   options.text("--right", own_.right, "folder of right images, or right video", "B");
   options.text("--video", own_.video, "video with both views in each picture", "FILE");
   options.text("--split", own_.split, "arrangement of the two views in a picture: left-right or top-bottom", "WORD");
-  options.files("--calibration", own_.calibration,
-                "calibration of both cameras in any of the formats in doc/your-own-data.md, replaces that of a "
-                "recorded sequence; one file, or left and right",
-                "FILE[,FILE]");
-  options.flag("--rectified", own_.rectified,
-               "the images are rectified: the calibration's P describes them, not K and D");
+  declare_cameras(options);
   options.number("--fps", own_.fps,
                  "pairs per second, for sources without timestamps and in place of a video's own; images keep the "
                  "timestamps of their names, times.txt or data.csv, if these can be read; 0: the source's own");
@@ -73,6 +66,15 @@ void SourceOptions::declare(Options& options) {
   options.flag("--live", own_.live,
                "the pipe comes from a camera: drop the oldest pairs when tracking falls behind; without it every pair "
                "is read, and the writer waits");
+}
+
+void SourceOptions::declare_cameras(Options& options) {
+  options.files("--calibration", own_.calibration,
+                "calibration of both cameras in any of the formats in doc/your-own-data.md, replaces that of a "
+                "recorded sequence; one file, or left and right",
+                "FILE[,FILE]");
+  options.flag("--rectified", own_.rectified,
+               "the images are rectified: the calibration's P describes them, not K and D");
   options.number(
       "--fov", own_.fov,
       "horizontal field of view of the pinhole images [degrees]; 0: the scale of the lens at its centre, up to 120 "
@@ -146,11 +148,6 @@ void SourceOptions::replace_calibration(Dataset& dataset, const StereoCalibratio
   dataset.calibration = calibration;
 }
 
-void SourceOptions::refuse_all() const {
-  layout();
-  if (has_camera_options()) throw UsageError("--calibration, --fov and --mask are not used for single image files");
-}
-
 std::vector<std::string> SourceOptions::words() const { return data::source_words(own_); }
 
 Dataset SourceOptions::still_pair(const std::string& left, const std::string& right) const {
@@ -159,18 +156,6 @@ Dataset SourceOptions::still_pair(const std::string& left, const std::string& ri
   source.right = right;
   source.fps = 1;  // one pair needs no stamps
   return open_stereo_source(source);
-}
-
-PairOfSource SourceOptions::pair(int number) const {
-  if (number < 0) throw UsageError("--frame " + std::to_string(number) + ": expected 0 or more");
-  SourceOptions one = *this;
-  one.frames_ = std::to_string(number) + ":" + std::to_string(number + 1);
-  PairOfSource result{one.open(), {}};
-  FramePrefetcher pairs(result.dataset);
-  auto pair = pairs.next();
-  if (!pair) throw UsageError("--frame " + std::to_string(number) + ": " + result.dataset.path + " ends before it");
-  result.pair = std::move(*pair);
-  return result;
 }
 
 void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts) {
@@ -227,11 +212,6 @@ void declare_view(Options& options, SyntheticOptions& scene, std::string& size) 
       "camera path in a built-in scene; drive: to the end of the scene (61 frames, facade and yard: 103); loop: "
       "returns to the first pose");
   options.text("--size", size, "image size of built-in scenes [px]; default 942x489", "WxH");
-}
-
-bool is_scene(const std::string& path) {
-  const auto& scenes = synthetic_scenes();
-  return std::find(scenes.begin(), scenes.end(), path) != scenes.end() && !std::filesystem::exists(path);
 }
 
 }  // namespace quadedge::cli

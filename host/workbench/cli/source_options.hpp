@@ -12,12 +12,6 @@
 
 namespace quadedge::cli {
 
-/// One pair and the data set that it is of.
-struct PairOfSource {
-  Dataset dataset;
-  FramePrefetcher::Frame pair;
-};
-
 /// PATH, which is a recorded sequence or "-", and the options for the user's own cameras.
 class SourceOptions {
  public:
@@ -25,10 +19,10 @@ class SourceOptions {
   void declare_path(Options& options, const std::string& help, const std::string& name = "PATH");
   /// --format and --sequence, and --frames for commands that can read a part.
   void declare_layout(Options& options, bool has_frames = true);
-  /// Pictures from a pipe, for a command whose positional arguments are something else.
-  void read_pipe() { path_ = "-"; }
   /// --left, --right, --video, --split, --calibration ... as a group.
   void declare(Options& options);
+  /// Of these what describes the cameras of two image files: --calibration, --rectified, --fov and --mask.
+  void declare_cameras(Options& options);
 
   /// --restarts, for commands that can start a segment where stamps go back. After declare().
   void declare_restarts(Options& options);
@@ -46,8 +40,6 @@ class SourceOptions {
   bool has_calibration() const { return !own_.calibration.empty(); }
   /// The given options and their values in turn, except PATH and --live.
   std::vector<std::string> words() const;
-  /// \throws UsageError for any of these options, for inputs that they do not apply to.
-  void refuse_all() const;
   /// Whether calibration, field of view or mask are given.
   bool has_camera_options() const { return has_calibration() || own_.fov != 0 || !own_.mask.empty(); }
   /// Two image files with these camera options. \throws as open_stereo_source().
@@ -63,8 +55,6 @@ class SourceOptions {
   Dataset open() const;
   /// Takes another calibration for a dataset that was opened, with the same field of view and masks.
   void replace_calibration(Dataset& dataset, const StereoCalibration& calibration) const;
-  /// Opens what is given and reads one pair. \throws UsageError for a number that it does not have.
-  PairOfSource pair(int number) const;
 
  private:
   Dataset open_own_camera() const;
@@ -90,8 +80,5 @@ void set_texts(SyntheticOptions& scene, const SceneTexts& texts);
 
 /// Declares --path and --size (read into `size`, see set_size()).
 void declare_view(Options& options, SyntheticOptions& scene, std::string& size);
-
-/// Whether a command's PATH is the name of a built-in scene; a file or folder of that name goes first.
-bool is_scene(const std::string& path);
 
 }  // namespace quadedge::cli

@@ -1,4 +1,4 @@
-/// \file json.cpp  Assembles the documents key by key; the trace has the format of Chrome's trace viewer.
+/// \file json.cpp  Assembles the documents key by key.
 #include "output/json.hpp"
 
 #include <map>
@@ -58,9 +58,9 @@ std::map<LocalisationStatus, int> counts_of(const std::vector<Localisation>& fra
 std::string report_json(const RunRecord& run) {
   int key_rigs = 0, overflows = 0, ambiguous = 0;
   for (const auto& frame : run.frames) {
-    key_rigs += frame.result.new_key_rig ? 1 : 0;
-    overflows += frame.result.diagnostics.overflow ? 1 : 0;
-    ambiguous += frame.result.ambiguous_motion ? 1 : 0;
+    key_rigs += frame.new_key_rig ? 1 : 0;
+    overflows += frame.diagnostics.overflow ? 1 : 0;
+    ambiguous += frame.ambiguous_motion ? 1 : 0;
   }
   Json report;
   report["schema"] = kReportSchema;
@@ -81,14 +81,14 @@ std::string report_json(const RunRecord& run) {
   report["frames_overflowed"] = overflows;
   report["key_rigs"] = key_rigs;
   report["frames_ambiguous"] = ambiguous;
-  report["segments"] = run.frames.empty() ? 0 : run.frames.back().result.segment + 1;
+  report["segments"] = run.frames.empty() ? 0 : run.frames.back().segment + 1;
   if (const std::string text = segments_text(run.frames); !text.empty()) report["segments_text"] = text;
   report["path_length_m"] = path_length_m(run.frames);
-  if (!run.frames.empty()) report["disparity_error_px"] = run.frames.back().result.rig.disparity_error;
+  if (!run.frames.empty()) report["disparity_error_px"] = run.frames.back().rig.disparity_error;
   report["warnings"] = Json::array();
   for (const auto& warning : run.input.warnings) report["warnings"].push_back({{"frame", nullptr}, {"text", warning}});
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    for (const Warning& warning : run.frames[i].result.warnings)
+    for (const Warning& warning : run.frames[i].warnings)
       report["warnings"].push_back({{"frame", i}, {"kind", to_string(warning.kind)}, {"text", warning.text}});
   }
   report["latency_ms"] = latency_summary(run.frames);
@@ -140,38 +140,6 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
                                 {"rpe_translation_m", pose.rpe_translation_m}});
   }
   return json_text(json);
-}
-
-std::string trace_json(const RunRecord& run) {
-  constexpr double kMicroseconds = 1000;  // per millisecond
-  Json events = Json::array();
-  const auto add = [&](const std::string& name, const char* category, double start_ms, double duration_ms,
-                       int thread) -> Json& {
-    events.push_back({{"name", name},
-                      {"cat", category},
-                      {"ph", "X"},
-                      {"pid", 1},
-                      {"tid", thread},
-                      {"ts", start_ms * kMicroseconds},
-                      {"dur", duration_ms * kMicroseconds}});
-    return events.back();
-  };
-  for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const auto& frame = run.frames[i];
-    add("frame " + std::to_string(i), "frame", frame.start_ms, frame.result.timing.latency_ms, 1)["args"] = {
-        {"status", to_string(frame.result.status)}, {"inliers", frame.result.counts.inliers}};
-    double start = frame.start_ms;
-    for (const auto& stage : frame.result.timing.stages) {
-      add(stage.stage, "stage", start, stage.ms, 1);
-      start += stage.ms;
-    }
-  }
-  Json trace;
-  trace["displayTimeUnit"] = "ms";
-  trace["otherData"] = {{"device", run.device.name}, {"input", run.input.path}};
-  add_origin(trace["otherData"], run.command);
-  trace["traceEvents"] = std::move(events);
-  return json_text(trace);
 }
 
 std::string lost_reasons(const std::vector<Localisation>& frames) { return lost_reasons(counts_of(frames)); }

@@ -24,10 +24,6 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
                             const std::string& truth, const std::string& command,
                             const std::optional<evaluation::StepJudgement>& steps = std::nullopt);
 
-/// Chrome's trace format (chrome://tracing, ui.perfetto.dev): one event per frame, with its stages one after another
-/// inside it.
-std::string trace_json(const RunRecord& run);
-
 /// One localisation of a recording.
 struct LocalisationRecord {
   std::string command;      ///< its command line

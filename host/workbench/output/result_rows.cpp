@@ -301,7 +301,6 @@ struct ResultFiles::Open {
   report::FolderLock lock;
   report::RunRecord run;
   report::GrowingFiles rows{folder};
-  Clock::time_point start = Clock::now();
 };
 
 ResultFiles::ResultFiles(const std::string& folder, const StereoOdometry& odometry, const ResultOrigin& origin,
@@ -326,11 +325,8 @@ ResultFiles::~ResultFiles() = default;
 ResultFiles::ResultFiles(ResultFiles&&) noexcept = default;
 
 void ResultFiles::add(const FrameResult& result) {
-  report::FrameRecord record;
-  record.start_ms = milliseconds_since(open_->start) - result.timing.latency_ms;
-  record.result = result;
   open_->rows.add(result);
-  open_->run.frames.push_back(std::move(record));
+  open_->run.frames.push_back(result);
 }
 
 void ResultFiles::finish(const std::string& ended_early) {

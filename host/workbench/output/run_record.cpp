@@ -14,9 +14,9 @@ std::size_t first_counted(std::size_t frames) { return frames > 1 ? 1 : 0; }
 
 }  // namespace
 
-LatencySummary latency_summary(const std::deque<FrameRecord>& frames) {
+LatencySummary latency_summary(const std::deque<FrameResult>& frames) {
   std::vector<double> values;
-  for (const FrameRecord& frame : frames) values.push_back(frame.result.timing.latency_ms);
+  for (const FrameResult& frame : frames) values.push_back(frame.timing.latency_ms);
   return latency_summary(values);
 }
 
@@ -56,15 +56,15 @@ std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>
   return summary;
 }
 
-std::vector<std::vector<StageTime>> stage_times(const std::deque<FrameRecord>& frames) {
+std::vector<std::vector<StageTime>> stage_times(const std::deque<FrameResult>& frames) {
   std::vector<std::vector<StageTime>> times;
-  for (const auto& frame : frames) times.push_back(frame.result.timing.stages);
+  for (const auto& frame : frames) times.push_back(frame.timing.stages);
   return times;
 }
 
-std::string lost_reasons(const std::deque<FrameRecord>& frames) {
+std::string lost_reasons(const std::deque<FrameResult>& frames) {
   std::map<FrameStatus, int> counts;
-  for (const auto& frame : frames) ++counts[frame.result.status];
+  for (const auto& frame : frames) ++counts[frame.status];
   return lost_reasons(counts);
 }
 
@@ -74,13 +74,13 @@ std::string joined(const std::vector<Warning>& warnings) {
   return text;
 }
 
-std::string segments_text(const std::deque<FrameRecord>& frames) {
+std::string segments_text(const std::deque<FrameResult>& frames) {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> breaks;
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!is_tracked(frames[i].result.status)) continue;
-    if (last && frames[*last].result.segment != frames[i].result.segment)
+    if (!is_tracked(frames[i].status)) continue;
+    if (last && frames[*last].segment != frames[i].segment)
       breaks.push_back("between frames " + std::to_string(*last) + " and " + std::to_string(i));
     last = i;
   }
@@ -91,14 +91,14 @@ std::string segments_text(const std::deque<FrameRecord>& frames) {
   return text + (named < breaks.size() ? ", and at " + std::to_string(breaks.size() - named) + " more places" : "");
 }
 
-double path_length_m(const std::deque<FrameRecord>& frames) {
+double path_length_m(const std::deque<FrameResult>& frames) {
   double length = 0;
   const FrameResult* last = nullptr;
   for (const auto& frame : frames) {
-    if (!frame.result.world_from_left) continue;
-    if (last != nullptr && last->segment == frame.result.segment)
-      length += (frame.result.world_from_left->translation() - last->world_from_left->translation()).norm();
-    last = &frame.result;
+    if (!frame.world_from_left) continue;
+    if (last != nullptr && last->segment == frame.segment)
+      length += (frame.world_from_left->translation() - last->world_from_left->translation()).norm();
+    last = &frame;
   }
   return length;
 }
@@ -113,7 +113,7 @@ std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts)
           {"inliers", counts.inliers}};
 }
 
-std::vector<std::pair<std::string, double>> count_medians(const std::deque<FrameRecord>& frames) {
+std::vector<std::pair<std::string, double>> count_medians(const std::deque<FrameResult>& frames) {
   std::vector<std::pair<std::string, double>> medians;
   for (const auto& [name, unused] : named_counts({})) {
     (void)unused;
@@ -122,7 +122,7 @@ std::vector<std::pair<std::string, double>> count_medians(const std::deque<Frame
   for (std::size_t column = 0; column < medians.size(); ++column) {
     std::vector<double> values;
     for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i) {
-      values.push_back(named_counts(frames[i].result.counts)[column].second);
+      values.push_back(named_counts(frames[i].counts)[column].second);
     }
     medians[column].second = median(values);
   }

@@ -27,12 +27,6 @@ struct InputFacts {
   std::vector<std::string> options = {};   ///< names and values in turn, as `quadedge run` takes them
 };
 
-/// One processed frame.
-struct FrameRecord {
-  FrameResult result;
-  double start_ms = 0;  ///< when track() was called, since the start of the run (steady clock)
-};
-
 /// Result of the self-test of the device.
 struct DeviceTrust {
   std::string verdict;  ///< passed | failed: --trust was given | not needed: the reference
@@ -71,7 +65,7 @@ struct RunRecord {
   DeviceTrust self_test;
   Config config;                                ///< effective
   std::map<std::string, std::string> variants;  ///< stage -> chosen kernel variant
-  std::deque<FrameRecord> frames;  ///< a deque, since a vector takes up to three times their memory while it grows
+  std::deque<FrameResult> frames;  ///< a deque, since a vector takes up to three times their memory while it grows
   double start_ms = 0;             ///< opening the device and building the pipeline, before the first frame
   double kernel_build_ms = 0;      ///< the part of it that builds kernels
   double host_peak_mb = 0, device_peak_mb = 0;
@@ -86,12 +80,12 @@ struct RunRecord {
 
   int tracked() const {
     int count = 0;
-    for (const auto& frame : frames) count += is_tracked(frame.result.status) ? 1 : 0;
+    for (const auto& frame : frames) count += is_tracked(frame.status) ? 1 : 0;
     return count;
   }
 };
 
-LatencySummary latency_summary(const std::deque<FrameRecord>& frames);
+LatencySummary latency_summary(const std::deque<FrameResult>& frames);
 /// Of latencies in the order of the frames [ms].
 LatencySummary latency_summary(std::vector<double> values);
 
@@ -103,10 +97,10 @@ struct StageSummary {
 std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>>& frames);
 
 /// The host-side stage times of every frame.
-std::vector<std::vector<StageTime>> stage_times(const std::deque<FrameRecord>& frames);
+std::vector<std::vector<StageTime>> stage_times(const std::deque<FrameResult>& frames);
 
 /// Why frames were lost: "5 no consensus, 2 too few quads"; empty if there are none.
-std::string lost_reasons(const std::deque<FrameRecord>& frames);
+std::string lost_reasons(const std::deque<FrameResult>& frames);
 /// The same from the number of frames of each status.
 template <class Status>
 std::string lost_reasons(const std::map<Status, int>& counts) {
@@ -125,13 +119,13 @@ std::string joined(const std::vector<Warning>& warnings);
 
 /// The segments of a run, and the tracked frames with an unknown motion between them: "3 segments: an unknown motion
 /// lies between frames 33 and 35, ..."; empty for a single segment.
-std::string segments_text(const std::deque<FrameRecord>& frames);
+std::string segments_text(const std::deque<FrameResult>& frames);
 
 /// Length of the estimated path, from each tracked frame to the next of the same segment [m].
-double path_length_m(const std::deque<FrameRecord>& frames);
+double path_length_m(const std::deque<FrameResult>& frames);
 
 /// Medians of the counts over all frames but the first, in the order of FrameCounts.
-std::vector<std::pair<std::string, double>> count_medians(const std::deque<FrameRecord>& frames);
+std::vector<std::pair<std::string, double>> count_medians(const std::deque<FrameResult>& frames);
 
 /// Name and value of every count of a frame, in the order of FrameCounts.
 std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts);
