@@ -97,9 +97,6 @@ const std::vector<ProcessAttack> kProcessAttacks = {
      "|| "
      "exit 99; exit $code",
      2, "out.data: the results would be written among the files of the recording", false},
-    {"an output lies in the folder of the COLMAP model",
-     "$QUADEDGE run $DATA -o $OUT --points-colmap $OUT.model --points $OUT.model/sparse/0/points3D.txt", 2,
-     "the folder of --points-colmap", false},
     {"an output is a symbolic link to nothing, which stays",
      "ln -s $OUT.nothing $OUT.csv; $QUADEDGE edges $DATA/rgb/0.000000000.png --csv $OUT.csv --force; code=$?; test -L "
      "$OUT.csv || exit 99; exit $code",

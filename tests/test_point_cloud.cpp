@@ -29,11 +29,10 @@ const TrackedRoom& tracked_room() {
   return all;
 }
 
-PointCloudOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = false) {
+PointCloudOptions seen_by(int views, std::size_t most = 2'000'000) {
   PointCloudOptions options;
   options.min_views = views;
   options.most_points = most;
-  options.tracks = tracks;
   return options;
 }
 
@@ -63,7 +62,7 @@ std::vector<double> depth_errors(const std::vector<CloudPoint>& points) {
 
 TEST_CASE("points: points lie on the rendered surfaces, the closer the more rigs have seen them", "[device]") {
   PointCloud once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
-      often(tracked_room().config, seen_by(5, 2'000'000, true));
+      often(tracked_room().config, seen_by(5));
   tracked_room().track_into({&once, &twice, &often});
   CHECK(once.views().size() == 6);
   CHECK(once.views()[5].frame == 5);
@@ -87,23 +86,6 @@ TEST_CASE("points: points lie on the rendered surfaces, the closer the more rigs
   INFO(at(errors, 0.5) << " " << at(errors, 0.95) << " of all " << at(all, 0.5) << " " << at(all, 0.95));
   CHECK(at(errors, 0.5) < 0.005);
   CHECK(at(errors, 0.95) < at(all, 0.95));
-
-  const auto sightings = often.sightings();
-  REQUIRE(sightings.size() == c.size());
-  const PinholeCamera& camera = tracked_room().sequence.rig().left;
-  std::vector<double> misses;
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    CHECK(sightings[i].size() == static_cast<std::size_t>(c[i].views));
-    for (const auto& seen : sightings[i]) {
-      const auto& view = often.views()[static_cast<std::size_t>(seen.view)];
-      const Eigen::Vector2d pixel = camera.project(view.world_from_left.inverse() * c[i].position);
-      misses.push_back(std::hypot(pixel.x() - static_cast<double>(seen.x), pixel.y() - static_cast<double>(seen.y)));
-    }
-  }
-  std::sort(misses.begin(), misses.end());
-  INFO(at(misses, 0.5) << " " << at(misses, 0.95));
-  CHECK(at(misses, 0.5) < 0.5);
-  CHECK(at(misses, 0.95) < 2);
 }
 
 TEST_CASE("points: the same frames give the same bytes, and memory is bounded", "[device]") {

@@ -27,8 +27,7 @@ struct CloudPoint {
 /// Limits of a point cloud.
 struct PointCloudOptions {
   int min_views = 3;                    ///< points() omits points observed by fewer keyframes
-  std::size_t most_points = 2'000'000;  ///< maximum number in memory, at 80 bytes each; 230 bytes with tracks
-  bool tracks = false;                  ///< store the observations of each point, for write_colmap()
+  std::size_t most_points = 2'000'000;  ///< maximum number in memory, at 80 bytes each
 };
 
 /// A keyframe that points were made from.
@@ -36,13 +35,6 @@ struct CloudView {
   int frame = 0;  ///< number of the frame
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-};
-
-/// An observation of a point in the left image of a view. It is the position on the tangent of the observed edge that
-/// is nearest to the projected point, because the position along an edge is arbitrary.
-struct CloudSighting {
-  std::int32_t view = 0;
-  float x = 0, y = 0;  ///< [px]
 };
 
 /// Stereo edges of keyframes. Edges of a later rig are merged with the existing point whose projection lies on an
@@ -65,8 +57,6 @@ class PointCloud {
 
   /// Points observed by enough keyframes, in the world frame (the first left camera), oldest first.
   std::vector<CloudPoint> points() const;
-  /// Observations of these points, at most eight per point; empty without PointCloudOptions::tracks.
-  std::vector<std::vector<CloudSighting>> sightings() const;
   const std::vector<CloudView>& views() const;
   /// Number of points with enough observations that were discarded because memory was full.
   std::size_t dropped() const;
@@ -80,10 +70,5 @@ class PointCloud {
 /// views, and red, green, blue, which repeat the grey value for viewers. The file is written completely or not at all.
 /// \throws DataError if it cannot be written.
 void write_ply(const std::string& file, const std::vector<CloudPoint>& points);
-
-/// Writes cameras.txt, images.txt and points3D.txt in COLMAP's text format. Camera 1 is the left pinhole camera, camera
-/// 2 the right one. Every view has two images, left_FRAME.png and right_FRAME.png with six digits; points are observed
-/// in the left one. Creates the folder. \throws DataError if something cannot be written.
-void write_colmap(const std::string& folder, const StereoRig& rig, const PointCloud& cloud);
 
 }  // namespace quadedge

@@ -62,10 +62,7 @@ constexpr double kTurn = 15 * kPi / 180;  ///< maximum angle between a projected
 constexpr double kDeviations = 3;         ///< maximum deviation of the disparity, in standard deviations
 constexpr double kPoseNoise = 0.5;        ///< effect of pose errors between two keyframes on disparities [px]
 constexpr int kMaxUnseenViews = 20;       ///< keyframes for which a point with few views may remain unobserved
-constexpr std::size_t kMostSightings = 8;
 constexpr std::int32_t kNone = -1;
-
-using Sightings = std::array<CloudSighting, kMostSightings>;
 
 /// 76 bytes per point; the information matrix is symmetric.
 struct Point {
@@ -94,7 +91,6 @@ struct Point {
 struct Offer {
   std::int32_t point = kNone;
   double distance = std::numeric_limits<double>::infinity();  ///< [px]
-  float x = 0, y = 0;  ///< position on the edge's tangent nearest to the projected point [px]
 };
 
 double disparity_sigma(const Point& point, const Eigen::Vector3d& ray_in_world, double z, double per_pixel) {
@@ -117,10 +113,8 @@ class PointCloud::Implementation {
       if (points_[i].views >= options_.min_views) visit(i);
   }
   const std::vector<Point>& all() const { return points_; }
-  const std::vector<Sightings>& all_sightings() const { return sightings_; }
   const std::vector<CloudView>& views() const { return views_; }
   std::size_t dropped() const { return dropped_; }
-  bool tracks() const { return options_.tracks; }
 
  private:
   using Measured = std::vector<std::optional<points::MeasuredPoint>>;
@@ -130,7 +124,6 @@ class PointCloud::Implementation {
                 const Measured& measured);
   void merge(const points::MeasuredPoint& measured, std::int32_t index);
   void append(const points::MeasuredPoint& measured);
-  void note_sighting(std::size_t index, float x, float y);
   template <class Keep>
   void keep_only(const Keep& keep);
   void make_room();
@@ -139,7 +132,6 @@ class PointCloud::Implementation {
   Config config_;
   PointCloudOptions options_;
   std::vector<Point> points_;
-  std::vector<Sightings> sightings_;  ///< the first observations of each point; empty without tracks
   std::vector<CloudView> views_;
   std::vector<Offer> offers_;  ///< one per edge of the current keyframe
   EdgeGrid grid_;
@@ -160,18 +152,11 @@ bool PointCloud::Implementation::add(const StereoFrame& frame, const FrameResult
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (!measured[i]) continue;
     const points::MeasuredPoint& point = *measured[i];
-    std::size_t index = points_.size();
-    if (offers_[i].point != kNone) {
-      index = static_cast<std::size_t>(offers_[i].point);
+    const double depth_error = point.inverse_depth_per_pixel * point.disparity_sigma / point.inverse_depth;
+    if (offers_[i].point != kNone)
       merge(point, offers_[i].point);
-    } else {
-      const double depth_error = point.inverse_depth_per_pixel * point.disparity_sigma / point.inverse_depth;
-      if (depth_error > kMaxDepthError) continue;
+    else if (!(depth_error > kMaxDepthError))
       append(point);
-    }
-    if (!options_.tracks) continue;
-    const bool is_new = offers_[i].point == kNone;
-    note_sighting(index, is_new ? edges.left_x[i] : offers_[i].x, is_new ? edges.left_y[i] : offers_[i].y);
   }
   const std::int32_t oldest = number() - kMaxUnseenViews;
   keep_only([&](const Point& point) { return point.views >= options_.min_views || point.last_view >= oldest; });
@@ -217,9 +202,7 @@ void PointCloud::Implementation::consider(std::int32_t index, const pose::ImageE
     if (apart > kDeviations * std::sqrt(sigma * sigma + own * own + kPoseNoise * kPoseNoise)) return;
     const double distance = std::hypot(across, along);
     if (distance < found.distance) {
-      const double slide = -(c * dx + s * dy);
-      found = {index, distance, static_cast<float>(edges.left_x[i] + slide * c),
-               static_cast<float>(edges.left_y[i] + slide * s)};
+      found = {index, distance};
       best = i;
     }
   });
@@ -276,23 +259,15 @@ void PointCloud::Implementation::correct(const std::function<std::optional<Eigen
   }
 }
 
-void PointCloud::Implementation::note_sighting(std::size_t index, float x, float y) {
-  if (sightings_.size() < points_.size()) sightings_.resize(points_.size());
-  const auto count = static_cast<std::size_t>(points_[index].views) - 1;
-  if (count < kMostSightings) sightings_[index][count] = {number(), x, y};
-}
-
 template <class Keep>
 void PointCloud::Implementation::keep_only(const Keep& keep) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!keep(points_[i])) continue;
     points_[kept] = points_[i];
-    if (options_.tracks) sightings_[kept] = sightings_[i];
     ++kept;
   }
   points_.resize(kept);
-  if (options_.tracks) sightings_.resize(kept);
 }
 
 /// If there are too many points, discards those with the fewest views until a tenth of the capacity is free; of points
@@ -332,17 +307,6 @@ std::vector<CloudPoint> PointCloud::points() const {
     const Point& point = implementation_->all()[i];
     result.push_back(
         {point.position, point.tangent, point.grey, points::largest_sigma(point.information_matrix()), point.views});
-  });
-  return result;
-}
-
-std::vector<std::vector<CloudSighting>> PointCloud::sightings() const {
-  std::vector<std::vector<CloudSighting>> result;
-  if (!implementation_->tracks()) return result;
-  implementation_->for_each_seen([&](std::size_t i) {
-    const Sightings& all = implementation_->all_sightings()[i];
-    const auto count = std::min<std::ptrdiff_t>(implementation_->all()[i].views, kMostSightings);
-    result.emplace_back(all.begin(), all.begin() + count);
   });
   return result;
 }

@@ -9,67 +9,33 @@
 #include "common/timing.hpp"
 #include "data/atomic_file.hpp"
 #include "geometry/corrected_rig.hpp"
-#include "geometry/undistortion.hpp"
 #include "motion/latest_frame.hpp"
 #include "motion/quads.hpp"
-#include "output/drawing.hpp"
 #include "output/output_folder.hpp"
 #include "output/result_rows.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
-namespace {
-
-/// SIDE_FRAME.png, as write_colmap() calls it: the recorded image as the pinhole camera would have seen it.
-void write_image(const std::string& folder, const char* side, int frame, const Image& recorded,
-                 const UndistortionTable& table) {
-  const std::string name = printed("/%s_%06d.png", side, frame);
-  const Image image = table.empty() ? recorded : undistort(recorded.view(), table);
-  report::write_image(folder + name, image.view());
-}
-
-}  // namespace
-
 void PointFiles::declare(Options& options) {
   options.group("Points in space");
   options.output("--points", ply, "write the 3D edges of all keyframes as a binary PLY file");
-  options.text("--points-colmap", colmap, "write cameras, images and points as a COLMAP model", "DIR");
   options.number("--points-min-views", min_views, "minimum number of keyframes that see a point");
 }
 
 void PointFiles::check(bool force) const {
   if (min_views < 1) throw UsageError("--points-min-views " + std::to_string(min_views) + ": expected 1 or more");
   report::check_output_file(ply, force);
-  report::refuse_full_folder(colmap, force);
-  if (colmap.empty()) return;
-  for (const char* folder : {"/images", "/sparse/0"}) data::make_folder(colmap + folder);
-  report::check_output_file(colmap + "/sparse/0/points3D.txt", force);
-}
-
-void PointFiles::check_beside(const std::vector<std::string>& outputs) const {
-  for (const auto& output : outputs)
-    if (!colmap.empty() && report::is_below(colmap, output))
-      throw UsageError(output + ": the folder of --points-colmap is for the model alone, expected another one");
 }
 
 PointsOutput::PointsOutput(const PointFiles& files, const Config& config) : files_(files) {
-  if (!files.is_wanted()) return;
+  if (files.ply.empty()) return;
   PointCloudOptions options;
   options.min_views = files.min_views;
-  options.tracks = !files.colmap.empty();
   cloud_ = std::make_unique<PointCloud>(config, options);
 }
 
 void PointsOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
-  if (!cloud_ || !cloud_->add(frame.view(), result, odometry)) return;
-  const StereoRig& rig = odometry.rig();
-  RigEstimate known = result.rig;  // a displacement is that of one image
-  known.displacement = known.displacement_sigma = 0;
-  rig_ = corrected_rig(rig, known);
-  if (files_.colmap.empty()) return;
-  const int number = cloud_->views().back().frame;
-  write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);
-  write_image(files_.colmap + "/images", "right", number, frame.right, rig.right_undistortion);
+  if (cloud_) cloud_->add(frame.view(), result, odometry);
 }
 
 void PointsOutput::correct(const Map& map) {
@@ -79,8 +45,7 @@ void PointsOutput::correct(const Map& map) {
 void PointsOutput::write() {
   if (!cloud_ || cloud_->views().empty()) return;
   const auto points = cloud_->points();
-  if (!files_.ply.empty()) write_ply(files_.ply, points);
-  if (!files_.colmap.empty()) write_colmap(files_.colmap + "/sparse/0", rig_, *cloud_);
+  write_ply(files_.ply, points);
   facts_ = report::PointFacts{points.size(), cloud_->views().size(), cloud_->dropped()};
 }
 

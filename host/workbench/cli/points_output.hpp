@@ -18,27 +18,23 @@
 
 namespace quadedge::cli {
 
-/// Which files of points to write, if any.
+/// Which file of points to write, if any.
 struct PointFiles {
-  std::string ply;     ///< file; empty: none
-  std::string colmap;  ///< folder; empty: none
+  std::string ply;  ///< empty: none
   int min_views = PointCloudOptions().min_views;
 
-  /// --points, --points-colmap, --points-min-views.
+  /// --points, --points-min-views.
   void declare(Options& options);
-  bool is_wanted() const { return !ply.empty() || !colmap.empty(); }
-  /// Checks the files before long work. \throws UsageError, DataError for files that cannot be written, or that exist
+  /// Checks the file before long work. \throws UsageError, DataError for one that cannot be written, or that exists
   /// without `force`.
   void check(bool force) const;
-  /// Refuses other outputs in the folder of the COLMAP model. \throws UsageError.
-  void check_beside(const std::vector<std::string>& outputs) const;
 };
 
 /// Collects the edges of a run in space and writes them at the end; does nothing if none are requested.
 class PointsOutput {
  public:
   PointsOutput(const PointFiles& files, const Config& config);
-  /// Takes in the frame that was tracked last. For COLMAP, writes the pinhole images of a keyframe.
+  /// Takes in the frame that was tracked last.
   void add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry);
   /// Moves everything to the corrected poses of the frames.
   void correct(const Map& map);
@@ -50,7 +46,6 @@ class PointsOutput {
  private:
   PointFiles files_;
   std::unique_ptr<PointCloud> cloud_;  ///< null if none is requested
-  StereoRig rig_;
   std::optional<report::PointFacts> facts_;
 };
 

@@ -257,7 +257,6 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.config = method.config();
   const std::vector<std::string> files = {options.saved_map, options.points.ply};
   report::check_beside_results(files, options.output, run.input.path);
-  options.points.check_beside(files);
   const report::FolderLock lock = report::prepare_output_folder(options.output, options.force);
   report::check_output_file(options.saved_map, options.force);
   options.points.check(options.force);

@@ -258,11 +258,6 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   write_png(path, picture);
 }
 
-void write_image(const std::string& path, const ImageView& image) {
-  const Image grey = to_8_bits(image);
-  write_png(path, data::matrix_of(grey));
-}
-
 namespace {
 
 constexpr int kPanel = 720, kGap = 12;  // px of the pictures

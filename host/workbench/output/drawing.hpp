@@ -11,9 +11,6 @@
 
 namespace quadedge::report {
 
-/// The image itself, in 8 bits.
-void write_image(const std::string& path, const ImageView& image);
-
 /// Third-order edges as short strokes along their direction, coloured by direction, over the darkened image.
 void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& edges);
 

@@ -73,10 +73,6 @@ fs::path part_below(const std::string& folder, const std::string& path) {
 
 }  // namespace
 
-bool is_below(const std::string& folder, const std::string& path) {
-  return !path.empty() && !part_below(folder, path).empty();
-}
-
 void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
     for (auto other = outputs.begin(); other != output; ++other)
@@ -99,7 +95,7 @@ void check_beside_results(const std::vector<std::string>& outputs, const std::st
     const fs::path part = part_below(folder, output);
     if (is_result(part) || part == ".lock" || (!part.empty() && *part.begin() == "pictures"))
       throw UsageError(output + ": the run writes its own results to this file, expected another name");
-    if (part.empty() && !input.empty() && is_below(input, output) && fs::exists(output, error))
+    if (part.empty() && !input.empty() && !part_below(input, output).empty() && fs::exists(output, error))
       throw UsageError(output + ": this file belongs to the recording, expected another name");
   }
 }
@@ -162,13 +158,6 @@ void check_output_file(const std::string& path, bool force) {
     throw UsageError(path + ": the file exists; choose another name, or overwrite it with --force");
   }
   data::check_writable(path);
-}
-
-void refuse_full_folder(const std::string& path, bool force) {
-  std::error_code error;
-  if (force || path.empty() || !std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error))
-    return;
-  throw UsageError(path + ": the folder is not empty; choose another one, or overwrite files in it with --force");
 }
 
 std::string default_output_folder(const std::string& sequence) { return "quadedge_" + data::plain_name(sequence); }

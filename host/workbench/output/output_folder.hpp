@@ -43,9 +43,6 @@ void refuse_results(const std::string& path, bool force);
 /// aside. \throws UsageError.
 void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-/// Whether a path, which need not exist, lies in a folder or in one below it.
-bool is_below(const std::string& folder, const std::string& path);
-
 /// Refuses output files that a run's own results in `folder` would replace, and those that would replace a file of the
 /// recording in `input`; an empty name counts as none. \throws UsageError.
 void check_beside_results(const std::vector<std::string>& outputs, const std::string& folder, const std::string& input);
@@ -53,9 +50,6 @@ void check_beside_results(const std::vector<std::string>& outputs, const std::st
 /// Before long work: refuses a file that exists, unless `force`, and one that could not be written. Nothing for an
 /// empty path. \throws UsageError, DataError.
 void check_output_file(const std::string& path, bool force);
-
-/// Refuses a folder that holds anything, unless `force`. \throws UsageError.
-void refuse_full_folder(const std::string& path, bool force);
 
 /// Name of the default output folder for a sequence: quadedge_NAME in the current directory.
 std::string default_output_folder(const std::string& sequence);
