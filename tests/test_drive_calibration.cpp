@@ -209,22 +209,6 @@ TEST_CASE("drive calibration: wrong rigs of the rendered room are mended, a soun
   CHECK(mended.unseen_learned[0] < 0.7 * mended.unseen_given[0]);
   CHECK(mended.unseen_learned[1] < 0.7 * mended.unseen_given[1]);
   CHECK(rounded_rotation(mended.calibration.right_from_left).cwiseAbs().maxCoeff() < 0.06 * kDegree + 0.5 / 230);
-  // Nearly everywhere in the images, and at every distance, points fit the learned calibration better.
-  int compared = 0, fallen = 0;
-  const auto compare = [&](const auto& given, const auto& learned) {
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      if (!std::isfinite(given[i]) || !std::isfinite(learned[i])) continue;
-      ++compared;
-      fallen += learned[i] < given[i] ? 1 : 0;
-    }
-  };
-  const UnseenDistances &before = mended.unseen_parts_given, &after = mended.unseen_parts_learned;
-  compare(before.by_distance, after.by_distance);
-  CHECK(compared >= 1);
-  CHECK(fallen == compared);
-  for (std::size_t side = 0; side < 2; ++side) compare(before.by_place[side], after.by_place[side]);
-  CHECK(compared > 20);
-  CHECK(10 * fallen > 9 * compared);
   REQUIRE(mended.change.depths.size() == 5);
   CHECK(mended.change.depths[4].error > 0.1);  // 0.2 degrees of yaw are 0.8 px: half the disparity at 50 m and more
   CHECK_THAT(mended.text(), Contains("the calibration is off"));
@@ -273,7 +257,7 @@ TEST_CASE("drive calibration: points that one calibration loses count against it
   REQUIRE_FALSE(LensMapping(unknowns.at(learned).left).ray({5, 5}));
   views = judged(learned);
   CHECK(views.rise_in_parts());
-  const double corner = views.parts(rig::UnseenViews::kLearned).by_place[0][0];
+  const double corner = views.parts(rig::UnseenViews::kLearned)[0][0];
   CHECK((std::isnan(corner) || corner == rig::PairAdjustment::kFitLimit));
 }
 

@@ -44,17 +44,6 @@ struct CalibrationChange {
   std::array<double, 2> largest_displacement{};  ///< over the left and the right image [px]
 };
 
-/// Where frames that were not learned from contradict a calibration: median distances of points from where they are
-/// seen [px], NaN below 20 of them. The same points count with every calibration, up to 4 px.
-struct UnseenDistances {
-  static constexpr int kColumns = 12, kRows = 8;
-  static constexpr std::array<double, 6> kFarthest = {2, 5, 10, 20, 50, 1e9};  ///< [m]
-  /// In each cell of the left and of the right image, kRows x kColumns.
-  std::array<std::array<double, kRows * kColumns>, 2> by_place{};
-  /// In both images, of points nearer than kFarthest and not nearer than the one before it.
-  std::array<double, kFarthest.size()> by_distance{};
-};
-
 /// A learned calibration, and what speaks for it.
 struct DriveCalibration {
   CalibrationVerdict verdict = CalibrationVerdict::cannot_show;
@@ -69,9 +58,8 @@ struct DriveCalibration {
   /// alone tell.
   double contradiction = 0;
   /// Median distance of points from where the left and the right camera see them, in frames that were not learned from
-  /// [px].
+  /// [px]. The same points count with either calibration, up to 4 px; NaN below 20 of them.
   std::array<double, 2> unseen_given{}, unseen_learned{};
-  UnseenDistances unseen_parts_given, unseen_parts_learned;
   CalibrationChange change;
 
   /// The judgement for the user, in a few sentences.

@@ -158,8 +158,6 @@ DriveCalibration DriveCalibrator::Implementation::finish() const {
   const rig::UnseenViews unseen = judge_unseen();
   result.unseen_given = unseen.distances(rig::UnseenViews::kGiven);
   result.unseen_learned = unseen.distances(rig::UnseenViews::kLearned);
-  result.unseen_parts_given = unseen.parts(rig::UnseenViews::kGiven);
-  result.unseen_parts_learned = unseen.parts(rig::UnseenViews::kLearned);
   learn(result);
   if (unseen.points() < kFewestPoints) return result;
   if (!unseen.fall() || result.contradiction <= kMinContradiction) {

@@ -9,7 +9,8 @@
 namespace quadedge::rig {
 namespace {
 
-constexpr int kPlaceColumns = UnseenDistances::kColumns, kPlaceRows = UnseenDistances::kRows;
+constexpr int kPlaceColumns = 12, kPlaceRows = 8;
+constexpr std::array<double, 6> kFarthest = {2, 5, 10, 20, 50, 1e9};  // of each range [m]
 
 /// Distances with one calibration fall against those with another below this part if it is better. What is learned has
 /// errors of its own: falls to 0.78 and 0.86 (MH_01, Karlsruhe) made poses worse, to 0.4 (KITTI's raw drives) and 0.75
@@ -38,7 +39,6 @@ std::size_t place_of(const PairAdjustment::Residual& residual, const PinholeCame
 }
 
 std::size_t range_of(const PairAdjustment::Residual& residual) {
-  constexpr auto& kFarthest = UnseenDistances::kFarthest;
   std::size_t range = 0;
   while (range + 1 < kFarthest.size() && residual.inverse_depth * kFarthest[range] <= 1) ++range;
   return range;
@@ -70,27 +70,26 @@ std::array<double, 2> UnseenViews::distances(Calibration of) const {
   return {median_of_many(sides[0]), median_of_many(sides[1])};
 }
 
-UnseenDistances UnseenViews::parts(Calibration of) const {
-  std::array<std::array<std::vector<double>, kPlaceRows * kPlaceColumns>, 2> places;
-  std::array<std::vector<double>, UnseenDistances::kFarthest.size()> ranges;
+std::array<std::vector<double>, 3> UnseenViews::parts(Calibration of) const {
+  using Parts = std::vector<std::vector<double>>;
+  const Parts cells(kPlaceRows * kPlaceColumns);
+  std::array<Parts, 3> all = {cells, cells, Parts(kFarthest.size())};
   for (const View& view : views_) {
-    places[view.side][view.place].push_back(view.distance[of]);
-    ranges[view.range].push_back(view.distance[of]);
+    all[view.side][view.place].push_back(view.distance[of]);
+    all[2][view.range].push_back(view.distance[of]);
   }
-  UnseenDistances parts;
-  for (std::size_t side = 0; side < 2; ++side)
-    std::transform(places[side].begin(), places[side].end(), parts.by_place[side].begin(), median_of_many);
-  std::transform(ranges.begin(), ranges.end(), parts.by_distance.begin(), median_of_many);
-  return parts;
+  std::array<std::vector<double>, 3> medians;
+  for (std::size_t i = 0; i < medians.size(); ++i)
+    for (auto& part : all[i]) medians[i].push_back(median_of_many(part));
+  return medians;
 }
 
 bool UnseenViews::fall() const { return rising(distances(kLearned), distances(kGiven)) == 2; }
 
 bool UnseenViews::rise_in_parts() const {
-  const UnseenDistances given = parts(kGiven), learned = parts(kLearned);
-  return rising(given.by_distance, learned.by_distance) > 0 ||
-         rising(given.by_place[0], learned.by_place[0]) > kMaxRisingCells ||
-         rising(given.by_place[1], learned.by_place[1]) > kMaxRisingCells;
+  const auto given = parts(kGiven), learned = parts(kLearned);
+  return rising(given[2], learned[2]) > 0 || rising(given[0], learned[0]) > kMaxRisingCells ||
+         rising(given[1], learned[1]) > kMaxRisingCells;
 }
 
 }  // namespace quadedge::rig

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "calibration/pair_adjustment.hpp"
-#include "quadedge/drive_calibration.hpp"
 
 namespace quadedge::rig {
 
@@ -23,7 +22,9 @@ class UnseenViews {
   int points() const { return points_; }
   /// Medians over the left and the right camera [px].
   std::array<double, 2> distances(Calibration of) const;
-  UnseenDistances parts(Calibration of) const;
+  /// Medians over the cells of the left and of the right image, and by distance from near to far [px], NaN below 20
+  /// points.
+  std::array<std::vector<double>, 3> parts(Calibration of) const;
   /// Whether points fit the learned calibration better, in both cameras.
   bool fall() const;
   /// Whether they fit the given one as much better at some distance, or at several places of an image.
@@ -31,8 +32,7 @@ class UnseenViews {
 
  private:
   struct View {
-    std::size_t side, place;         ///< place: in UnseenDistances
-    std::size_t range;               ///< of distances, likewise
+    std::size_t side, place, range;  ///< cell of the image, range of distances
     std::array<double, 2> distance;  ///< with either calibration [px]
   };
   std::vector<View> views_;

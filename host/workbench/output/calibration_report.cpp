@@ -1,8 +1,6 @@
 /// \file calibration_report.cpp  The numbers as JSON and as a table.
 #include "output/calibration_report.hpp"
 
-#include <cmath>
-
 #include "common/numeric.hpp"
 #include "common/printed.hpp"
 
@@ -10,14 +8,6 @@ namespace quadedge::report {
 namespace {
 
 Json both_sides(const std::array<double, 2>& values) { return {{"left", values[0]}, {"right", values[1]}}; }
-
-Json parts_json(const UnseenDistances& parts) {
-  return {{"columns", UnseenDistances::kColumns},
-          {"rows", UnseenDistances::kRows},
-          {"left", parts.by_place[0]},
-          {"right", parts.by_place[1]},
-          {"by_distance", parts.by_distance}};
-}
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
@@ -36,9 +26,6 @@ std::string calibration_json(const DriveCalibration& result, const std::string& 
   json["points"] = result.points;
   json["contradiction"] = result.contradiction;
   json["unseen_px"] = {{"given", both_sides(result.unseen_given)}, {"learned", both_sides(result.unseen_learned)}};
-  json["unseen_parts_px"] = {{"farthest_m", UnseenDistances::kFarthest},
-                             {"given", parts_json(result.unseen_parts_given)},
-                             {"learned", parts_json(result.unseen_parts_learned)}};
   json["numbers"] = Json::array();
   for (const LearnedNumber& number : result.numbers) {
     json["numbers"].push_back({{"name", number.name},
@@ -77,14 +64,6 @@ std::string calibration_table(const DriveCalibration& result) {
   table += line("  right camera          turned by %.4f degrees", result.change.rotation / kDegree);
   table += line("  pixels                displaced by up to %.2f px (left), %.2f px (right)",
                 result.change.largest_displacement[0], result.change.largest_displacement[1]);
-  table += "\npoints in frames that were not learned from, by distance (given, learned):\n";
-  for (std::size_t i = 0; i < UnseenDistances::kFarthest.size(); ++i) {
-    const double given = result.unseen_parts_given.by_distance[i], learned = result.unseen_parts_learned.by_distance[i];
-    if (!std::isfinite(given) || !std::isfinite(learned)) continue;
-    const bool is_last = i + 1 == UnseenDistances::kFarthest.size();
-    table += line("  %-6s %4.0f m         %.3f px, %.3f px", is_last ? "beyond" : "up to",
-                  UnseenDistances::kFarthest[is_last ? i - 1 : i], given, learned);
-  }
   return table;
 }
 

@@ -67,10 +67,11 @@ class Canvas {
 };
 
 /// Writes text with its baseline at (x, y); returns the x after its end.
-int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size = 0.5) {
-  cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
+int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour) {
+  constexpr double kSize = 0.5;
+  cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, kSize, colour, 1, cv::LINE_AA);
   int baseline = 0;
-  return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
+  return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kSize, 1, &baseline).width;
 }
 
 /// The colour at a share of a turn of the colour wheel, of full saturation, in 180 steps [BGR].
@@ -258,41 +259,14 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   write_png(path, picture);
 }
 
-namespace {
-
-constexpr int kPanel = 720, kGap = 12;  // px of the pictures
-
-/// A row of panels: the cells of both images, grey by their median distance, white at `most` px.
-void draw_places(cv::Mat& picture, int top, int height, const UnseenDistances& parts, double most) {
-  for (const Side side : kSides) {
-    const int left = index_of(side) * (kPanel + kGap);
-    for (int i = 0; i < UnseenDistances::kRows * UnseenDistances::kColumns; ++i) {
-      const int column = i % UnseenDistances::kColumns, row = i / UnseenDistances::kColumns;
-      const int x = column * kPanel / UnseenDistances::kColumns, y = row * height / UnseenDistances::kRows;
-      const cv::Rect cell(left + x, top + y, (column + 1) * kPanel / UnseenDistances::kColumns - x,
-                          (row + 1) * height / UnseenDistances::kRows - y);
-      const double value = parts.by_place[static_cast<std::size_t>(index_of(side))][static_cast<std::size_t>(i)];
-      if (std::isfinite(value))
-        cv::rectangle(picture, cell, cv::Scalar::all(40 + 215 * std::min(1.0, value / most)), cv::FILLED);
-      cv::rectangle(picture, cell, {60, 60, 60});
-      if (std::isfinite(value))
-        put_text(picture, printed("%.2f", value), cell.x + 4, cell.y + cell.height - 5,
-                 value > most / 2 ? cv::Scalar(0, 0, 0) : cv::Scalar(230, 230, 230), 0.4);
-    }
-  }
-}
-
-}  // namespace
-
 void draw_displacements(const std::string& path, const DriveCalibration& result) {
-  constexpr int kStep = 36, kDepth = 4;  // px of the picture; fractional bits
+  constexpr int kPanel = 720, kGap = 12, kStep = 36, kDepth = 4;  // px of the picture; fractional bits
   const PinholeCamera cameras[] = {result.given.left.camera, result.given.right.camera};
   const double largest = std::max({result.change.largest_displacement[0], result.change.largest_displacement[1], 0.01});
   const double enlarged = std::max(1.0, std::floor(1.5 * kStep / largest));  // in units of the picture
   int height = 0;
   for (const PinholeCamera& camera : cameras) height = std::max(height, camera.height * kPanel / camera.width);
-  const int part = height + kLegendLine + 8;
-  cv::Mat picture = cv::Mat::zeros(3 * part, 2 * kPanel + kGap, CV_8UC3);
+  cv::Mat picture = cv::Mat::zeros(height + kLegendLine + 8, 2 * kPanel + kGap, CV_8UC3);
   for (const Side side : kSides) {
     const PinholeCamera& camera = cameras[index_of(side)];
     const double scale = static_cast<double>(kPanel) / camera.width;
@@ -318,20 +292,6 @@ void draw_displacements(const std::string& path, const DriveCalibration& result)
       "%.2f px (left), %.2f px (right)",
       enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);
   put_text(picture, legend, 6, height + kLegendLine - 4, {230, 230, 230});
-  double most = 0.01;
-  for (const auto& places : result.unseen_parts_given.by_place)
-    for (const double value : places)
-      if (value > most) most = value;
-  const auto unseen = [&](int row, const UnseenDistances& parts, const char* which) {
-    draw_places(picture, row * part, height, parts, most);
-    put_text(
-        picture,
-        std::string("points in frames that were not learned from, median distance from their predictions with the ") +
-            which + " calibration [px]",
-        6, row * part + height + kLegendLine - 4, {230, 230, 230});
-  };
-  unseen(1, result.unseen_parts_given, "given");
-  unseen(2, result.unseen_parts_learned, "learned");
   write_png(path, picture);
 }
 
