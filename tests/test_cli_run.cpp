@@ -119,9 +119,6 @@ TEST_CASE("run: the report has every documented key", "[cli][device]") {
       }
     }
   }
-  const auto& nees = report["accuracy"]["normalised_error_squared"];
-  CHECK(nees["poses"] == 3);
-  for (const char* part : {"pose", "rotation", "translation"}) CHECK(nees[part].get<double>() > 0);
   // The short run has fewer than five motions over one frame.
   CHECK_FALSE(report["accuracy"].contains("consistency"));
   CHECK(report["stages_ms"].size() > 2);

@@ -27,7 +27,6 @@ def accuracy(translation: float, open_rotation: str = "") -> dict:
               "se3_aligned": pose_errors(None if open_rotation else 0.3, translation / 2), "matched_poses": 12,
               "path_length_m": 20.0, "end_drift_percent": 1.25}
     part = {"pose": 1.2, "rotation": 1.0, "translation": 1.4}
-    result["normalised_error_squared"] = part | {"poses": 11}
     result["consistency"] = [{"frames": 5, "motions": 7, "error_m": 0.02, "promised_m": 0.01, "error_deg": 0.1,
                               "promised_deg": None, "normalised_error_squared_by_edges": part | {"pose": 4.5},
                               "normalised_error_squared": part}]

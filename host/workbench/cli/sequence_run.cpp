@@ -207,7 +207,6 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   try {
     run.accuracy = evaluate_trajectory(tracked_poses(run), source.dataset().truth);
     const std::vector<FrameResult> results(run.frames.begin(), run.frames.end());
-    run.consistency = evaluation::judge_covariances(results, source.dataset().truth);
     run.step_consistency = evaluation::judge_steps(results, source.dataset().truth, run.config.pose);
     data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
     const int missing = run.accuracy->estimate_poses - run.accuracy->matched;

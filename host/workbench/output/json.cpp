@@ -106,10 +106,6 @@ std::string report_json(const RunRecord& run) {
   if (run.accuracy) {
     report["accuracy"] = accuracy(*run.accuracy);
     report["accuracy"]["truth_file"] = run.truth_file;
-    if (run.consistency.poses > 0) {
-      report["accuracy"]["normalised_error_squared"] = normalised(run.consistency);
-      report["accuracy"]["normalised_error_squared"]["poses"] = run.consistency.poses;
-    }
     for (const auto& step : run.step_consistency) report["accuracy"]["consistency"].push_back(consistency(step));
   }
   add_configuration(report, run.config);

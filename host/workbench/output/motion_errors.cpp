@@ -14,15 +14,6 @@
 namespace quadedge::evaluation {
 namespace {
 
-/// The left perturbation (translation, rotation) that turns `truth` into `estimate`.
-Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
-  const Eigen::Matrix3d turn = estimate.linear() * truth.linear().transpose();
-  const Eigen::AngleAxisd rotation(turn);
-  Eigen::Matrix<double, 6, 1> error;
-  error << estimate.translation() - turn * truth.translation(), rotation.angle() * rotation.axis();
-  return error;
-}
-
 /// The chain of references of a frame: the frame itself, its keyframe, the keyframe of that frame ... up to the first.
 std::vector<int> references(const std::vector<FrameResult>& results, int frame) {
   std::vector<int> chain{frame};
@@ -109,22 +100,6 @@ StepConsistency judge_length(const std::vector<FrameResult>& results, const Traj
 }
 
 }  // namespace
-
-Consistency judge_covariances(const std::vector<FrameResult>& results, const Trajectory& truth) {
-  Consistency sums;
-  for (const auto& result : results) {
-    if (result.status != FrameStatus::tracked) continue;
-    if (!(result.relative_covariance->diagonal().minCoeff() > 0)) continue;
-    const auto& reference = results.at(static_cast<std::size_t>(result.reference_frame));
-    const auto* true_reference = data::pose_at(truth, reference.stamp_ns, kStampToleranceNs);
-    const auto* true_current = data::pose_at(truth, result.stamp_ns, kStampToleranceNs);
-    if (true_reference == nullptr || true_current == nullptr) continue;
-    const auto error = perturbation(*result.current_from_reference,
-                                    true_current->world_from_left.inverse() * true_reference->world_from_left);
-    add(error, *result.relative_covariance, sums);
-  }
-  return mean(sums);
-}
 
 std::vector<StepConsistency> judge_steps(const std::vector<FrameResult>& results, const Trajectory& truth,
                                          const PoseConfig& config) {

@@ -12,21 +12,17 @@
 
 namespace quadedge::evaluation {
 
-/// Normalised estimation error squared (NEES) e^T C^-1 e over the tracked frames, per degree of freedom. It is 1 if the
-/// covariances C of the poses relative to their keyframes describe the errors, and larger if they are too small.
+/// Normalised estimation error squared (NEES) e^T C^-1 e of motions, per degree of freedom. It is 1 if the covariances
+/// C describe the errors, and larger if they are too small.
 struct Consistency {
-  int poses = 0;           ///< frames compared
-  double pose = 0;         ///< mean over the frames, for all six degrees of freedom
+  int poses = 0;           ///< motions compared
+  double pose = 0;         ///< mean over the motions, for all six degrees of freedom
   double rotation = 0;     ///< for the rotation alone (marginal covariance)
   double translation = 0;  ///< for the translation alone
 };
 
-/// \param results of all frames, in order \param truth poses of the left camera, matched by nearest timestamp within 10
-/// ms. Frames without covariance, and frames without ground truth at both ends, are ignored.
-Consistency judge_covariances(const std::vector<FrameResult>& results, const Trajectory& truth);
-
-/// The same for motions over `frames` frames, composed over the keyframes: errors of the ground truth do not
-/// depend on the length of the motion, those of the estimator grow with it.
+/// Of motions over `frames` frames, composed over the keyframes: errors of the ground truth do not depend on the length
+/// of the motion, those of the estimator grow with it.
 struct StepConsistency {
   int frames = 0;        ///< length of the motions
   Consistency edges;     ///< with the covariance of the edges alone

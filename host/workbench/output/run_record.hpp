@@ -75,7 +75,6 @@ struct RunRecord {
   std::optional<LoopFacts> loops;                             ///< only with --loops
   std::string truth_file;                                     ///< empty without ground truth
   std::optional<TrajectoryEvaluation> accuracy;               ///< only with ground truth
-  evaluation::Consistency consistency;                        ///< no poses without ground truth
   std::vector<evaluation::StepConsistency> step_consistency;  ///< empty without ground truth
 
   int tracked() const {

@@ -75,7 +75,7 @@ def consistency_texts(accuracy: dict) -> list[str]:
 
 
 def consistency_tables(accuracy: dict) -> list[Table]:
-    """The errors beside what the covariances predict, of whole poses and of motions over several frames."""
+    """The errors of motions over several frames beside what the covariances predict."""
     tables = []
     steps = accuracy.get("consistency", [])
     if steps:
@@ -94,13 +94,6 @@ def consistency_tables(accuracy: dict) -> list[Table]:
         promises.notes.append("Edges alone: the covariance counts the noise of the edges; with calibration: also the "
                               "uncertainty of the rig (pose.rig_sigma_*).")
         tables.append(promises)
-    squared = accuracy.get("normalised_error_squared")
-    if squared:
-        consistency = Table("consistency", "NEES of whole poses, from the first frame on",
-                            ["compared", "pose", "rotation", "translation"], text_columns=0)
-        consistency.add(Cell(count(squared["poses"]), squared["poses"]),
-                        *[Cell.of(squared[key], 3) for key in ("pose", "rotation", "translation")])
-        tables.append(consistency)
     return tables
 
 
