@@ -182,7 +182,7 @@ TEST_CASE("dataset: still pairs and the quad are recognised by file names") {
   // Z = 3740 x 0.16 / (d + dmin) in full-size pixels: a disparity of 100 full-size pixels is 33.3 pixels here.
   const double depth = art.rig.left.fx * art.rig.baseline() / (100.0 / 3 + art.rig.right.cx - art.rig.left.cx);
   CHECK(depth == Approx(3740 * 0.16 / 300));
-  CHECK(open_dataset(folder / "Aloe").format == "middlebury-2006");
+  CHECK(open_dataset(folder / "Aloe").format == "middlebury-2005");
   for (const char* name : {"t/im2.png", "t/im6.png"}) write_image(folder / name, 450, 375);
   CHECK(open_dataset(folder / "t").format == "middlebury-2003");
   for (const char* name : {"q/I1p.png", "q/I2p.png", "q/I1c.png", "q/I2c.png"}) write_image(folder / name, 64, 40);

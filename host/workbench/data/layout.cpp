@@ -49,9 +49,9 @@ void Findings::attempt(const std::function<void()>& part) {
 }
 
 const std::vector<Layout>& layouts() {
-  static const std::vector<Layout> all = {
-      kKitti,       kKittiRaw,     kEuroc,          kTartanair,      kEth3dSlam,      kEth3dStereoPairs, kViso2Quad,
-      kPairedNames, kEth3dTwoView, kMiddlebury2014, kMiddlebury2006, kMiddlebury2005, kMiddlebury2003};
+  static const std::vector<Layout> all = {kKitti,        kKittiRaw,         kEuroc,          kTartanair,
+                                          kEth3dSlam,    kEth3dStereoPairs, kViso2Quad,      kPairedNames,
+                                          kEth3dTwoView, kMiddlebury2014,   kMiddlebury2005, kMiddlebury2003};
   return all;
 }
 

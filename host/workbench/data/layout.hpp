@@ -47,7 +47,7 @@ struct Layout {
 };
 
 extern const Layout kKitti, kKittiRaw, kEuroc, kTartanair, kEth3dSlam, kEth3dStereoPairs, kViso2Quad, kPairedNames,
-    kEth3dTwoView, kMiddlebury2014, kMiddlebury2006, kMiddlebury2005, kMiddlebury2003;
+    kEth3dTwoView, kMiddlebury2014, kMiddlebury2005, kMiddlebury2003;
 
 /// All layouts, in the order in which they are tried.
 const std::vector<Layout>& layouts();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFullFocal = 3740;  // px, 2005 and 2006 at full size
 constexpr double kBaseline = 0.16;   // m
-constexpr int kFullRows2006 = 1110;  // image rows of the full size of 2005 and 2006
+constexpr int kFullRows2005 = 1110;  // image rows of the full size of 2005 and 2006
 constexpr int kFullRows2003 = 1500;
 /// Disparities are stored as 8-bit grey values in full-size pixels (2003: in quarters of a quarter-size pixel), so that
 /// none exceeds 255 of these units, which bounds the search.
@@ -24,11 +24,6 @@ constexpr double kLargestGrey = 255;
 /// ndisp over the width is 0.09 to 0.12 in all published scenes of 2014 except Jadeplant and Vintage; used for copies
 /// without ndisp.
 constexpr double kDefaultRange2014 = 0.12;
-
-constexpr const char* kScenes2006[] = {"Aloe",       "Baby1",  "Baby2",  "Baby3",    "Bowling1",   "Bowling2",
-                                       "Cloth1",     "Cloth2", "Cloth3", "Cloth4",   "Flowerpots", "Lampshade1",
-                                       "Lampshade2", "Midd1",  "Midd2",  "Monopoly", "Plastic",    "Rocks1",
-                                       "Rocks2",     "Wood1",  "Wood2"};
 
 bool has(const fs::path& folder, const std::string& stem) { return fs::exists(image_with_stem(folder, stem)); }
 
@@ -46,8 +41,17 @@ void set_reduced_rig(Dataset& dataset, int full_rows, double offset) {
   dataset.disparity_truth_scale = 1 / reduction;
 }
 
-Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
-  Dataset dataset = still_pair(image_with_stem(folder, "view1"), image_with_stem(folder, "view5"), findings);
+bool is_opencv_sample(const fs::path& folder) { return has(folder, "aloeL"); }
+
+bool is_middlebury_2005(const fs::path& folder) {
+  return has(folder, "view1") || has(folder, "view5") || is_opencv_sample(folder);
+}
+
+/// Pairs of 2005 and 2006, and the scene Aloe under its file names in the OpenCV samples.
+Dataset read_middlebury_2005(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  const bool is_sample = is_opencv_sample(folder);
+  Dataset dataset = still_pair(image_with_stem(folder, is_sample ? "aloeL" : "view1"),
+                               image_with_stem(folder, is_sample ? "aloeR" : "view5"), findings);
   findings.attempt([&] {
     double offset = 0;
     const std::string file = (folder / "dmin.txt").string();
@@ -59,9 +63,9 @@ Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
     } else {
       dataset.notes.push_back("no dmin.txt: disparity offset assumed to be zero, depths are nominal");
     }
-    set_reduced_rig(dataset, kFullRows2006, offset);
+    set_reduced_rig(dataset, kFullRows2005, offset);
   });
-  dataset.disparity_truth = if_there(image_with_stem(folder, "disp1"));
+  dataset.disparity_truth = if_there(image_with_stem(folder, is_sample ? "aloeGT" : "disp1"));
   return dataset;
 }
 
@@ -73,29 +77,6 @@ Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions&, Find
   dataset.disparity_truth = if_there(image_with_stem(folder, "disp2"));
   dataset.notes.push_back(
       "2003 pairs have no calibration: that of 2005 is used; matches are valid, depths are nominal");
-  return dataset;
-}
-
-bool is_middlebury_2005(const fs::path& folder) { return has(folder, "view1") || has(folder, "view5"); }
-
-Dataset read_middlebury_2005(const fs::path& folder, const DatasetOptions&, Findings& findings) {
-  return read_2005_or_2006(folder, findings);
-}
-
-bool is_middlebury_2006(const fs::path& folder) {
-  if (has(folder, "aloeL")) return true;
-  const std::string name = folder_name(folder);
-  return is_middlebury_2005(folder) &&
-         std::find(std::begin(kScenes2006), std::end(kScenes2006), name) != std::end(kScenes2006);
-}
-
-Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions&, Findings& findings) {
-  if (!has(folder, "aloeL")) return read_2005_or_2006(folder, findings);
-  // The scene Aloe under its file names in the OpenCV samples.
-  Dataset dataset = still_pair(image_with_stem(folder, "aloeL"), image_with_stem(folder, "aloeR"), findings);
-  findings.attempt([&] { set_reduced_rig(dataset, kFullRows2006, 0); });
-  dataset.disparity_truth = if_there(image_with_stem(folder, "aloeGT"));
-  dataset.notes.push_back("no dmin.txt: disparity offset assumed to be zero, depths are nominal");
   return dataset;
 }
 
@@ -123,7 +104,6 @@ Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions&, Find
 }  // namespace
 
 const Layout kMiddlebury2014{"middlebury-2014", is_middlebury_2014, read_middlebury_2014};
-const Layout kMiddlebury2006{"middlebury-2006", is_middlebury_2006, read_middlebury_2006};
 const Layout kMiddlebury2005{"middlebury-2005", is_middlebury_2005, read_middlebury_2005};
 const Layout kMiddlebury2003{"middlebury-2003", is_middlebury_2003, read_middlebury_2003};
 
