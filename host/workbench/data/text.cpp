@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -203,9 +204,7 @@ std::string format_seconds(std::int64_t nanoseconds) {
   const bool negative = nanoseconds < 0;
   const std::uint64_t magnitude =
       negative ? 0 - static_cast<std::uint64_t>(nanoseconds) : static_cast<std::uint64_t>(nanoseconds);
-  std::string decimals = std::to_string(magnitude % kPerSecond);
-  decimals.insert(0, 9 - decimals.size(), '0');
-  return (negative ? "-" : "") + std::to_string(magnitude / kPerSecond) + "." + decimals;
+  return printed("%s%" PRIu64 ".%09" PRIu64, negative ? "-" : "", magnitude / kPerSecond, magnitude % kPerSecond);
 }
 
 std::string format_fixed(double value, int decimals) { return printed("%.*f", decimals, value); }

@@ -154,11 +154,18 @@ std::string box_text(const std::optional<Eigen::Vector4d>& box) {
   return text;
 }
 
-CsvRow frames_row(int number, const FrameResult& result) {
+/// The first fields of a frame's row.
+template <class Result>
+CsvRow started_row(int number, const Result& result) {
   CsvRow row;
   row.add("frame", number);
   row.add("stamp_s", data::format_seconds(result.stamp_ns));
   row.add("status", std::string(to_string(result.status)));
+  return row;
+}
+
+CsvRow frames_row(int number, const FrameResult& result) {
+  CsvRow row = started_row(number, result);
   row.add("segment", result.segment);
   row.add("key_rig", result.reference_frame);
   row.add("new_key_rig", result.new_key_rig ? 1 : 0);
@@ -180,10 +187,7 @@ CsvRow frames_row(int number, const FrameResult& result) {
 }
 
 CsvRow poses_row(int number, const FrameResult& result) {
-  CsvRow row;
-  row.add("frame", number);
-  row.add("stamp_s", data::format_seconds(result.stamp_ns));
-  row.add("status", std::string(to_string(result.status)));
+  CsvRow row = started_row(number, result);
   row.add("segment", result.segment);
   row.add("reference_frame", result.reference_frame);
   add_pose(row, "", result.pose_or_prediction());
@@ -201,10 +205,7 @@ CsvRow locations_row(int number, const Localisation& frame) {
   const auto add_located = [&](CsvRow& row, const char* name, const std::string& field) {
     row.add(name, located ? field : std::string());
   };
-  CsvRow row;
-  row.add("frame", number);
-  row.add("stamp_s", data::format_seconds(frame.stamp_ns));
-  row.add("status", std::string(to_string(frame.status)));
+  CsvRow row = started_row(number, frame);
   add_located(row, "key_rig", std::to_string(frame.key_rig));
   add_located(row, "followed", frame.is_followed ? "1" : "0");
   add_located(row, "inliers", std::to_string(frame.inliers));
@@ -218,16 +219,12 @@ CsvRow locations_row(int number, const Localisation& frame) {
 
 }  // namespace
 
-AppendFile::AppendFile(std::string path) : path_(std::move(path)), stream_(std::fopen(path_.c_str(), "wb")) {
-  if (stream_ == nullptr) fail("opened for writing");
-}
-
-AppendFile::~AppendFile() {
-  if (stream_ != nullptr) std::fclose(stream_);
+AppendFile::AppendFile(std::string path) : path_(std::move(path)), stream_(path_, std::ios::binary) {
+  if (!stream_) fail("opened for writing");
 }
 
 void AppendFile::append(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0) fail("written");
+  if (!(stream_ << text << std::flush)) fail("written");
 }
 
 void AppendFile::fail(const char* what) const {

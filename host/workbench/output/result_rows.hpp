@@ -2,7 +2,7 @@
 /// \file result_rows.hpp  The CSV files of results (doc/reference.md), row by row. Fields without a value are empty.
 
 #include <cstdint>
-#include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -20,9 +20,6 @@ class AppendFile {
  public:
   /// \throws DataError with path and reason when the file cannot be opened.
   explicit AppendFile(std::string path);
-  ~AppendFile();
-  AppendFile(const AppendFile&) = delete;
-  AppendFile& operator=(const AppendFile&) = delete;
 
   /// \throws DataError with path and reason (full disk) when the text cannot be written.
   void append(const std::string& text);
@@ -30,7 +27,7 @@ class AppendFile {
  private:
   [[noreturn]] void fail(const char* what) const;
   std::string path_;
-  std::FILE* stream_ = nullptr;
+  std::ofstream stream_;
 };
 
 /// The files of a run that get a row with every frame: trajectory.txt, trajectory_kitti.txt; frames.csv with status,
