@@ -8,7 +8,6 @@
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "output/calibration_report.hpp"
-#include "output/drawing.hpp"
 #include "output/output_folder.hpp"
 #include "quadedge/error.hpp"
 
@@ -28,8 +27,6 @@ class CalibrateCommand : public Command {
         "file for the given or the learned calibration, whichever is better, in the program's own format, for "
         "--calibration");
     export_.declare(options);
-    options.output("--picture", picture_,
-                   "draw the displacement of pixels of both images between the two calibrations (PNG)");
     options.output("--json", json_, "write verdict, numbers and covariance");
     source_.declare_layout(options);
     options.number("--most-frames", limits_.frames,
@@ -42,14 +39,13 @@ class CalibrateCommand : public Command {
   int run() override {
     if (limits_.frames < 2)
       throw UsageError("--most-frames " + std::to_string(limits_.frames) + ": expected 2 or more");
-    for (const std::string& file : {output_, picture_, json_}) report::check_output_file(file, force_);
+    for (const std::string& file : {output_, json_}) report::check_output_file(file, force_);
     export_.check(force_);
     limits_.has_k3 = !export_.lacks_k3();
     const Dataset dataset = source_.open();
     const Interruption interruption;
     const DriveCalibration result = learn_rig(dataset, limits_, quiet_, interruption);
     if (!output_.empty()) write_calibration(output_, result.calibration);
-    if (!picture_.empty()) report::draw_displacements(picture_, result);
     if (!json_.empty()) data::write_atomically(json_, report::calibration_json(result, command_line()));
     if (!quiet_) std::printf("%s\n", report::calibration_table(result).c_str());
     std::printf("%s\n", result.text().c_str());
@@ -60,7 +56,7 @@ class CalibrateCommand : public Command {
   }
 
  private:
-  std::string output_, picture_, json_;
+  std::string output_, json_;
   CalibrationExport export_;
   SourceOptions source_;
   LearningLimits limits_;

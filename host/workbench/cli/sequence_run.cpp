@@ -137,7 +137,6 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   if (options.learned) {
     write_calibration(options.output + "/rig.yaml", options.learned->calibration);
     data::write_atomically(options.output + "/rig.json", report::calibration_json(*options.learned, run.command));
-    report::draw_displacements(options.output + "/pictures/rig.png", *options.learned);
   }
   report::GrowingFiles files(options.output);
   Progress progress(options.quiet, "frames");

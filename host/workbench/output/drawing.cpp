@@ -8,7 +8,6 @@
 #include <set>
 #include <vector>
 
-#include "common/printed.hpp"
 #include "data/atomic_file.hpp"
 #include "data/image_file.hpp"
 #include "data/text.hpp"
@@ -74,8 +73,8 @@ int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::
   return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kSize, 1, &baseline).width;
 }
 
-/// The colour at a share of a turn of the colour wheel, of full saturation, in 180 steps [BGR].
-cv::Scalar wheel_colour(double turn) {
+/// The colour of a direction [rad] on the colour wheel, of full saturation, in 180 steps [BGR].
+cv::Scalar direction_colour(double direction) {
   static const std::vector<cv::Scalar> wheel = [] {
     cv::Mat hsv(1, 180, CV_8UC3), bgr;
     for (int i = 0; i < 180; ++i) hsv.at<cv::Vec3b>(0, i) = {static_cast<unsigned char>(i), 220, 255};
@@ -84,6 +83,7 @@ cv::Scalar wheel_colour(double turn) {
     for (int i = 0; i < 180; ++i) colours.emplace_back(bgr.at<cv::Vec3b>(0, i));
     return colours;
   }();
+  const double turn = direction / (2 * kPi);
   return wheel[static_cast<std::size_t>(std::min(static_cast<int>((turn - std::floor(turn)) * 180.0), 179))];
 }
 
@@ -98,8 +98,6 @@ void write_jpeg(const std::string& path, const cv::Mat& picture) {
 
 constexpr double kEdgesBrightness = 0.35;
 constexpr double kHalfStroke = 0.6;  // px of the image to either side of the edge
-
-cv::Scalar direction_colour(double direction) { return wheel_colour(direction / (2 * kPi)); }
 
 constexpr double kQuadsBrightness = 0.45;
 constexpr int kThumbnailWidth = 480;  // px
@@ -256,42 +254,6 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
   put_text(picture, std::to_string(static_cast<std::ptrdiff_t>(details.quads.size()) - inliers) + " others", x + 38, y,
            kOutlier);
-  write_png(path, picture);
-}
-
-void draw_displacements(const std::string& path, const DriveCalibration& result) {
-  constexpr int kPanel = 720, kGap = 12, kStep = 36, kDepth = 4;  // px of the picture; fractional bits
-  const PinholeCamera cameras[] = {result.given.left.camera, result.given.right.camera};
-  const double largest = std::max({result.change.largest_displacement[0], result.change.largest_displacement[1], 0.01});
-  const double enlarged = std::max(1.0, std::floor(1.5 * kStep / largest));  // in units of the picture
-  int height = 0;
-  for (const PinholeCamera& camera : cameras) height = std::max(height, camera.height * kPanel / camera.width);
-  cv::Mat picture = cv::Mat::zeros(height + kLegendLine + 8, 2 * kPanel + kGap, CV_8UC3);
-  for (const Side side : kSides) {
-    const PinholeCamera& camera = cameras[index_of(side)];
-    const double scale = static_cast<double>(kPanel) / camera.width;
-    const int left = index_of(side) * (kPanel + kGap);
-    cv::rectangle(picture, cv::Rect(left, 0, kPanel, static_cast<int>(camera.height * scale)), {60, 60, 60});
-    for (int y = kStep / 2; y < camera.height * scale; y += kStep) {
-      for (int x = kStep / 2; x < kPanel; x += kStep) {
-        const Eigen::Vector2d moved =
-            displacement(result.given, result.learned, side, Eigen::Vector2d(x / scale, y / scale));
-        if (!moved.allFinite()) continue;
-        const auto end = [&](double factor) {
-          return cv::Point(static_cast<int>(std::lround((left + x + factor * moved.x()) * (1 << kDepth))),
-                           static_cast<int>(std::lround((y + factor * moved.y()) * (1 << kDepth))));
-        };
-        cv::line(picture, end(0), end(enlarged), wheel_colour(std::atan2(moved.y(), moved.x()) / (2 * kPi)), 1,
-                 cv::LINE_AA, kDepth);
-        cv::circle(picture, end(0), 2 << kDepth, {200, 200, 200}, cv::FILLED, cv::LINE_AA, kDepth);
-      }
-    }
-  }
-  const std::string legend = printed(
-      "displacement of pixels from where the given calibration predicts them, %.0f px drawn per px; largest "
-      "%.2f px (left), %.2f px (right)",
-      enlarged, result.change.largest_displacement[0], result.change.largest_displacement[1]);
-  put_text(picture, legend, 6, height + kLegendLine - 4, {230, 230, 230});
   write_png(path, picture);
 }
 

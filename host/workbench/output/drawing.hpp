@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "quadedge/drive_calibration.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/odometry.hpp"
@@ -26,8 +25,5 @@ void draw_pair(const std::string& path, const ImageView& left, const ImageView& 
 
 /// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details);
-
-/// displacement() as arrows over both images side by side, enlarged by a factor that the legend states.
-void draw_displacements(const std::string& path, const DriveCalibration& result);
 
 }  // namespace quadedge::report
