@@ -232,16 +232,6 @@ QuadObservations changed_quads(const Problem& problem, std::uint64_t seed, const
   return quads;
 }
 
-/// A near scene, seen by a general rig without noise.
-inline Problem near_problem() {
-  Problem problem;
-  problem.rig = crooked_rig();
-  problem.near = 2;
-  problem.far = 20;
-  problem.motion.translation() << 0.1, 0.05, -0.3;
-  return problem;
-}
-
 /// Adds the quads of another scene.
 inline void append(quadedge::pose::QuadObservations& quads, const quadedge::pose::QuadObservations& others) {
   const auto both = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };

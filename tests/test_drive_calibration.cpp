@@ -1,10 +1,8 @@
 /// \file test_drive_calibration.cpp  A rig learned from a drive: from made-up points with every lens model, from
 /// rendered frames, and by the commands.
 
-#include "calibration/corner_flow.hpp"
 #include "calibration/pair_adjustment.hpp"
 #include "calibration/pair_collection.hpp"
-#include "calibration/unseen_views.hpp"
 #include "dataset_files.hpp"
 #include "geometry/calibration.hpp"
 #include "geometry/lens_mapping.hpp"
@@ -127,41 +125,6 @@ TEST_CASE("drive calibration: every lens model learns what is wrong with it", "[
   rig::PairAdjustment nothing(right, pointers_to(pairs));
   const Eigen::VectorXd none = nothing.learn();
   CHECK(none.dot(nothing.information() * none) < 1);
-}
-
-TEST_CASE("drive calibration: the motion of a pair is found from far away", "[rig]") {
-  const StereoCalibration truth = made_up_rig(LensModel::radial_tangential, {});
-  const rig::RigUnknowns unknowns(truth);
-  auto pairs = made_up_pairs(truth, 1, 0.05);
-  const Eigen::Vector3d true_translation = pairs[0].second_from_first.translation();
-  pairs[0].second_from_first.setIdentity();
-  CHECK(rig::PairAdjustment::find_motion(unknowns, pairs[0]) > 0.99);
-  CHECK((pairs[0].second_from_first.translation() - true_translation).norm() < 0.01);
-}
-
-TEST_CASE("corner flow: a shifted image is found to a few hundredths of a pixel", "[rig]") {
-  Image from(200, 160), to(200, 160);
-  const double shift_x = 7.3, shift_y = -2.6;
-  const auto grey = [](double x, double y) {
-    return static_cast<int>(std::lround(128 + 50 * std::sin(0.31 * x + 0.1 * y) + 40 * std::sin(0.27 * y - 0.05 * x) +
-                                        25 * std::sin(0.11 * x * 0.9 + 0.13 * y)));
-  };
-  for (int y = 0; y < 160; ++y) {
-    for (int x = 0; x < 200; ++x) {
-      from.set(x, y, grey(x, y));
-      to.set(x, y, grey(x - shift_x, y - shift_y) / 2 + 40);  // and half the contrast
-    }
-  }
-  const rig::FlowImage one = rig::pyramid(from.view()), other = rig::pyramid(to.view());
-  int found = 0;
-  for (const Eigen::Vector2d& corner : rig::flow_corners(one, 40)) {
-    const bool is_inside = corner.x() > 45 && corner.y() > 45 && corner.x() < 155 && corner.y() < 115;
-    const auto match = rig::follow(one, other, corner, corner);
-    if (!match || !is_inside) continue;  // brightness is compared within the image
-    ++found;
-    CHECK((match->at - corner - Eigen::Vector2d(shift_x, shift_y)).norm() < 0.06);
-  }
-  CHECK(found > 4);
 }
 
 TEST_CASE("drive calibration: points of the whole left image, where the lens shows no near point, too", "[rig]") {

@@ -20,25 +20,7 @@ KeyRig turned(int frame, double angle) {
   return KeyRig(frame_edges, {pose});
 }
 
-std::vector<int> frames_of(const std::vector<const KeyRig*>& rigs) {
-  std::vector<int> frames;
-  for (const KeyRig* rig : rigs) frames.push_back(rig->frame());
-  return frames;
-}
-
 }  // namespace
-
-TEST_CASE("earlier rigs: only different views are kept, and the nearest ones come first") {
-  EarlierRigs earlier;
-  for (int frame = 0; frame < 10; ++frame) earlier.remember(turned(frame, 0.1 * frame), 0);  // 0, 3 or 4, ...
-  const auto frames = frames_of(earlier.nearest(turned(20, 0.9).world_from_left()));
-  REQUIRE(frames.size() >= 3);
-  CHECK(frames.back() == 0);
-  for (std::size_t i = 1; i < frames.size(); ++i) CHECK(frames[i - 1] - frames[i] >= 3);
-  EarlierRigs at_one_place;
-  for (int frame = 0; frame < 10; ++frame) at_one_place.remember(turned(frame, 0), 0);
-  CHECK(frames_of(at_one_place.nearest(Eigen::Isometry3d::Identity())) == std::vector<int>{0});
-}
 
 TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leaves") {
   EarlierRigs earlier;
@@ -53,15 +35,6 @@ TEST_CASE("earlier rigs: beyond the limit the one nearest to its successor leave
   for (int i = 0; i <= most; ++i)
     CHECK((earlier.find(rigs[static_cast<std::size_t>(i)].frame_edges()) == nullptr) == (i == 4));
   CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).size() == odometry::kEarlierTrials);
-}
-
-TEST_CASE("earlier rigs: one that was returned to is kept once") {
-  EarlierRigs earlier;
-  const KeyRig first = turned(0, 0), second = turned(1, 1);
-  for (const KeyRig* rig : {&first, &second, &first}) earlier.remember(*rig, 0);
-  CHECK(frames_of(earlier.nearest(Eigen::Isometry3d::Identity())) == std::vector<int>{0, 1});
-  earlier.clear();
-  CHECK(earlier.nearest(Eigen::Isometry3d::Identity()).empty());
 }
 
 TEST_CASE(

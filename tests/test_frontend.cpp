@@ -129,62 +129,6 @@ TEST_CASE("frontend: every device finds the reference's global matches, at the p
   }
 }
 
-TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "[device]") {
-  const RenderedScene scene("cables", 120, 75, 4);
-  for (const auto& name : all_devices_and_reference()) {
-    Device device(name, kept_programs());
-    const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-    const auto held = frontend->process(scene.frame(0));
-    const StereoEdges edges = held->edges;
-    const auto* free = frontend->process(scene.frame(1)).get();
-    const auto bytes = frontend->device_bytes();
-    CHECK(free != held.get());
-    CHECK(free->frame == 1);
-    auto second = frontend->process(scene.frame(2));
-    CHECK(second.get() == free);
-    CHECK(second->frame == 2);
-    CHECK(frontend->process(scene.frame(3)).get() != free);  // in use now
-    CHECK((name == "reference" || frontend->device_bytes() > bytes));
-    CHECK(held->frame == 0);
-    CHECK(same_bytes(held->edges, edges));
-
-    const auto other = frontend::make_frontend(scene.rig, device, scene.config);
-    other->process(scene.frame(1));
-    CHECK_THROWS_AS(other->match(*held, search_around(edges, 12)), std::invalid_argument);
-    CHECK_THROWS_AS(frontend::as_global(*other).match_globally(*held, scene.config.temporal.global_edges),
-                    std::invalid_argument);
-  }
-}
-
-TEST_CASE("frontend: a rig's depths are those of the calibration and the angle that are asked for") {
-  const RenderedScene scene("cables", 120, 75, 2);
-  Device device("reference");
-  const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-  auto frame_edges = frontend->process(scene.frame(0));
-  REQUIRE(frame_edges->edges.size() > 20);
-  StereoRig nearer = scene.rig;
-  nearer.right.cx += 0.5;
-  const auto depths = [&](const StereoRig& calibration, double angle) {
-    std::vector<double> values;
-    for (const auto& edge : frame_edges->measured_edges(calibration, angle))
-      if (edge) values.push_back(edge->inverse_depth);
-    return values;
-  };
-  const auto far = depths(scene.rig, 0.07);
-  REQUIRE(far.size() > 10);
-  CHECK(depths(nearer, 0.07).front() > far.front());
-  CHECK(depths(scene.rig, 0.07) == far);
-  CHECK(depths(scene.rig, 0.5).size() < far.size());  // edges nearer to the epipolar lines have no depth
-  CHECK(depths(scene.rig, 0.07) == far);
-  frame_edges->release_measurements();
-  CHECK(depths(scene.rig, 0.07) == far);
-  const auto* memory = frame_edges.get();
-  frame_edges = nullptr;
-  frame_edges = frontend->process(scene.frame(1));
-  REQUIRE(frame_edges.get() == memory);
-  CHECK(depths(scene.rig, 0.07) != far);  // of the new frame's edges
-}
-
 TEST_CASE("frontend: every variant of every stage gives the default's bytes, and a second run gives them again",
           "[device]") {
   const RenderedScene scene("room", 161, 97, 2);

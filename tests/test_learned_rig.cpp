@@ -23,21 +23,6 @@ RigEstimate displaced(double by, double sigma) {
 
 }  // namespace
 
-TEST_CASE("learned rig: what is learned of the offset adds up") {
-  PoseConfig config;
-  config.disparity_offset = 0.1;
-  config.disparity_offset_sigma = 0.3;
-  LearnedRig rig(config);
-  CHECK(rig.estimate().disparity_offset_sigma == Approx(0.3));
-  rig.adopt(LearnedRig::refined(rig.estimate(), {}, learned(0.25, 0.0004, -0.01)));
-  rig.adopt(LearnedRig::refined(rig.estimate(), {}, learned(-0.05, 0.0003, -0.02)));
-  const RigEstimate estimate = rig.estimate();
-  CHECK(estimate.disparity_offset == Approx(0.3));
-  CHECK(estimate.disparity_offset_sigma == Approx(std::sqrt(0.0003)));
-  CHECK(estimate.disparity_offset_shared == Approx(-0.02));
-  CHECK(estimate.displacement == 0);
-}
-
 TEST_CASE("learned rig: motions show how large disparity errors are, standstill does not") {
   LearnedRig rig((PoseConfig()));
   const double prior = rig.estimate().disparity_error;
@@ -54,16 +39,6 @@ TEST_CASE("learned rig: motions show how large disparity errors are, standstill 
   CHECK(rig.estimate().disparity_error == prior);
   CHECK(after(10, -0.02, 50) < 0.05);   // by chance, quads may scatter less where a disparity error would show
   CHECK(after(1000, 0.36, 100) > 0.4);  // the rig has been hit
-}
-
-TEST_CASE("learned rig: switched off, it keeps the configured value") {
-  PoseConfig config;
-  config.disparity_offset = -0.4;
-  config.disparity_offset_sigma = 0;
-  LearnedRig rig(config);
-  rig.adopt(LearnedRig::refined(rig.estimate(), {}, learned(0, 0, 0)));
-  CHECK(rig.estimate().disparity_offset == -0.4);
-  CHECK(rig.estimate().disparity_offset_sigma == 0);
 }
 
 TEST_CASE("learned rig: offset and displacement share what is learned of their difference") {

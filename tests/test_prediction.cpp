@@ -12,15 +12,6 @@ StereoEdges edges_of(const StereoRig& rig, const std::vector<pose::OrientedPoint
   return edges;
 }
 
-TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std::optional<Eigen::Isometry3d>& motion,
-                       double radius, int step) {
-  pose::MeasuredEdges measured;
-  pose::measure_edges(rig, edges, 0.07, measured);
-  TemporalSearch search;
-  frontend::predict_positions(rig, edges, measured, motion, radius, step, search);
-  return search;
-}
-
 }  // namespace
 
 TEST_CASE("prediction: edges are predicted together as one by one, in every direction") {
@@ -65,26 +56,14 @@ TEST_CASE("prediction: without a motion everything is predicted at its previous 
   const auto rig = generated::car_rig();
   const auto edges =
       edges_of(rig, {{Vector3d(0, 0, 5), Vector3d::UnitY()}, {Vector3d(1, 0, 9), Vector3d(0.5, 1, 0).normalized()}});
-  const auto search = predict(rig, edges, std::nullopt, 30, 8);
+  pose::MeasuredEdges measured;
+  pose::measure_edges(rig, edges, 0.07, measured);
+  TemporalSearch search;
+  frontend::predict_positions(rig, edges, measured, std::nullopt, 30, 8, search);
   CHECK(search.left.x == edges.left_x);
   CHECK(search.left.direction == edges.left_direction);
   CHECK(search.right.y == edges.right_y);
   CHECK(search.step == 8);
-}
-
-TEST_CASE("prediction: edges without depth or behind the camera have no position") {
-  const auto rig = generated::car_rig();
-  auto edges = edges_of(rig, {{Vector3d(0, 0.2, 5), Vector3d::UnitY()},
-                              {Vector3d(0.5, 0.2, 3), Vector3d::UnitY()},
-                              {Vector3d(0, 0.2, 5), Vector3d::UnitX()}});
-  edges.right_x[0] = edges.left_x[0] + 2;  // negative disparity
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.translation() = Vector3d(0, 0, -4);  // the camera passes the second point
-  const auto search = predict(rig, edges, motion, 10, 1);
-  for (std::size_t i = 0; i < 3; ++i) {  // the third one lies along its epipolar line
-    CHECK(std::isnan(search.left.x[i]));
-    CHECK(std::isnan(search.right.x[i]));
-  }
 }
 
 TEST_CASE("prediction: edges in view are counted, and shifts are averaged where both positions are valid") {

@@ -43,16 +43,6 @@ double follow(RangeFollower& follower, double largest, int& searches) {
 
 }  // namespace
 
-TEST_CASE("range follower: a range that suffices is kept") {
-  RangeFollower follower(rig_of_30_px(), Config{});
-  CHECK(follower.disparity() == Approx(30));
-  int searches = 0;
-  for (int frame = 0; frame < 20; ++frame) {
-    CHECK(follow(follower, 10, searches) == Approx(30));
-    CHECK(searches == 1);
-  }
-}
-
 TEST_CASE("range follower: a near wall with few edges widens the range, though little else than probes is found") {
   RangeFollower follower(rig_of_30_px(), Config{});
   constexpr int kFew = 120;

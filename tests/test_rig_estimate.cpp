@@ -187,32 +187,6 @@ TEST_CASE("rig estimate: a saved map of displaced keyframes locates images that 
   }
 }
 
-TEST_CASE("rig estimate: a search is a function, whatever it finds of the rig", "[rig][odometry][device]") {
-  Device device(all_devices().front(), kept_programs());
-  const auto frontend = frontend::make_frontend(estimated_room().rig, device, estimated_room().config);
-  odometry::MotionSearch search(estimated_room().config, frontend::as_global(*frontend), estimated_room().rig);
-  odometry::MotionQuery query;
-  query.base = frontend->process(estimated_room().frame(0));
-  const Image right = displaced(estimated_room().right[1], 3);
-  query.current = frontend->process({1, estimated_room().left[1].view(), right.view()});
-  query.prediction = estimated_room().world_from_left[1].inverse() * estimated_room().world_from_left[0];
-  query.displacement = {0.6, 3};
-  query.rig.disparity_offset_sigma = 0.3;
-  const auto once = search.find(query);
-  REQUIRE(once->ok());
-  CHECK(once->rig.displacement == Approx(3).margin(0.3));
-  CHECK(query.current->rig().displacement == 0);  // nobody has adopted it
-  const auto twice = search.find(query);
-  CHECK(twice->rig.displacement == once->rig.displacement);
-  CHECK(twice->motion.current_from_previous.matrix() == once->motion.current_from_previous.matrix());
-  CHECK(twice->motion.learned.offset == once->motion.learned.offset);
-  CHECK(twice->motion.learned.covariance == once->motion.learned.covariance);
-  CHECK(twice->motion.inlier == once->motion.inlier);
-  // The same question about a rig that is known to be rigid has another answer.
-  query.displacement = {};
-  CHECK(search.find(query)->rig.displacement == 0);
-}
-
 TEST_CASE("rig estimate: nothing of the frames before a restart is left", "[rig][odometry][device]") {
   Config config = estimated_room().config;
   config.pose.disparity_offset_sigma = 0;  // the offset learned is the rig's, and stays

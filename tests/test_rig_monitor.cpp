@@ -176,19 +176,6 @@ TEST_CASE("rig monitor: implausible numbers are reported", "[rig]") {
   CHECK_THAT(first_of(rig), Contains("not square"));
 }
 
-TEST_CASE("rig monitor: aligned patches measure a pitch error of 0.3 degrees", "[rig][device]") {
-  const StereoRig rig = turned_rig(0.3, Eigen::Vector3d::UnitX());
-  Device device(all_devices().front(), kept_programs());
-  const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
-  const auto seen = frontend->process(evidence_room().frame(0));
-  std::vector<rig::CornerMatch> matches;
-  rig::CornerMatcher(rig).align(evidence_room().frame(0), seen->edges, matches);
-  REQUIRE(matches.size() > 30);
-  rig::RowModel rows(rig.right);
-  rows.add(matches);
-  CHECK(rows.error().offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));
-}
-
 TEST_CASE("rig monitor: crossings of cables off their lines are no error of the rig, and a pitched camera is one",
           "[rig][device]") {
   for (const char* rig_name : {"rectified", "eth3d-slam"}) {

@@ -8,24 +8,6 @@ using odometry::KeyRigFitness;
 
 namespace {
 
-/// `count` stereo edges at left (10 i, 0), right (10 i - 5, 0), all shifted by `shift` px.
-StereoEdges row_of_edges(int count, float shift = 0) {
-  StereoEdges edges;
-  for (int i = 0; i < count; ++i) {
-    const auto x = 10.0f * static_cast<float>(i) + shift;
-    edges.left_index.push_back(i);
-    edges.right_index.push_back(i);
-    edges.left_x.push_back(x);
-    edges.left_y.push_back(0);
-    edges.left_direction.push_back(1.5f);
-    edges.right_x.push_back(x - 5);
-    edges.right_y.push_back(0);
-    edges.right_direction.push_back(1.5f);
-    edges.ncc.push_back(0.9f);
-  }
-  return edges;
-}
-
 KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isometry3d::Identity()) {
   auto frame_edges = std::make_shared<frontend::FrameEdges>();
   frame_edges->start(frame);
@@ -33,19 +15,6 @@ KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isom
 }
 
 }  // namespace
-
-TEST_CASE("keyframe: parallax is the median distance between both ends") {
-  StereoEdges current = row_of_edges(3);
-  current.left_x[0] += 3;
-  current.left_y[0] += 4;   // 5 px
-  current.left_x[1] += 1;   // 1 px
-  current.left_y[2] -= 20;  // 20 px
-  TemporalMatches quads;
-  for (int i = 0; i < 3; ++i) quads.append(i, i, current, 0.9f, 0);
-  std::vector<double> distances;
-  CHECK(odometry::median_parallax(row_of_edges(3), quads, distances) == Approx(5));
-  CHECK(odometry::median_parallax(row_of_edges(3), {}, distances) == 0);
-}
 
 TEST_CASE("keyframe: each criterion alone triggers a replacement") {
   OdometryConfig config;
@@ -76,16 +45,6 @@ TEST_CASE("keyframe: each criterion alone triggers a replacement") {
   rig = key_rig(9);
   fit.quads = 2;
   CHECK_FALSE(rig.needs_replacement(fit, config));
-}
-
-TEST_CASE("keyframe: one with a predicted pose is replaced by the first tracked frame") {
-  OdometryConfig config;
-  KeyRigFitness fitness;
-  fitness.quads = 1000;
-  KeyRig found = key_rig(3);
-  CHECK_FALSE(found.needs_replacement(fitness, config));
-  KeyRig predicted(found.frame_edges(), {found.world_from_left()}, odometry::PoseOrigin::predicted);
-  CHECK(predicted.needs_replacement(fitness, config));
 }
 
 TEST_CASE("constant velocity: a motion over several intervals is divided evenly and repeated along its curve") {
