@@ -110,3 +110,15 @@ TEST_CASE("Two coincident points fail", "[pose]") {
   CHECK_FALSE(check_constraints(pair, example()).all());
   CHECK_FALSE(check_constraints(example(), pair).all());
 }
+
+TEST_CASE("Two quads give no motion where the chord is parallel to the first tangent or has no length", "[pose]") {
+  const OrientedPair good{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{1, 0, 4}, Eigen::Vector3d::UnitZ()}};
+  OrientedPair along = good, one_spot = good;
+  along.first.tangent = Eigen::Vector3d::UnitX();
+  one_spot.second.point = one_spot.first.point;
+  CHECK(solve_two_quads(good, good));
+  for (const OrientedPair& degenerate : {along, one_spot}) {
+    CHECK_FALSE(solve_two_quads(degenerate, good));
+    CHECK_FALSE(solve_two_quads(good, degenerate));
+  }
+}
