@@ -1,5 +1,3 @@
-#include <opencv2/calib3d.hpp>
-
 #include "dataset_files.hpp"
 #include "geometry/lens_mapping.hpp"
 
@@ -24,27 +22,6 @@ std::size_t hidden_pixels(const PixelMask& mask) {
 }
 
 }  // namespace
-
-TEST_CASE("calibrated rig: the table equals OpenCV's for both models that OpenCV has") {
-  const cv::Matx33d k(100, 0, 79.5, 0, 101, 60.25, 0, 0, 1);
-  const auto compare = [](const UndistortionTable& table, const cv::Mat& x, const cv::Mat& y) {
-    REQUIRE(table.source_x.size() == 160u * 120u);
-    double largest = 0;
-    for (int i = 0; i < 160 * 120; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      largest = std::max({largest, std::abs(static_cast<double>(table.source_x[at] - x.at<float>(i / 160, i % 160))),
-                          std::abs(static_cast<double>(table.source_y[at] - y.at<float>(i / 160, i % 160)))});
-    }
-    CHECK(largest < 2e-5);  // rounded to floats
-  };
-  cv::Mat x, y;
-  const std::vector<double> radial = {-0.28, 0.074, 2e-4, 2e-5};
-  cv::initUndistortRectifyMap(k, radial, cv::Matx33d::eye(), k, {160, 120}, CV_32FC1, x, y);
-  compare(make_rig(calibration_of(LensModel::radial_tangential, radial)).left_undistortion, x, y);
-  const std::vector<double> fisheye = {0.0035, 0.0007, -0.0021, 0.0002};
-  cv::fisheye::initUndistortRectifyMap(k, fisheye, cv::Matx33d::eye(), k, {160, 120}, CV_32FC1, x, y);
-  compare(make_rig(calibration_of(LensModel::equidistant, fisheye)).right_undistortion, x, y);
-}
 
 TEST_CASE("calibrated rig: images of pinhole cameras stay unchanged") {
   const StereoRig rig = make_rig(calibration_of(LensModel::radial_tangential, {0, 0, 0, 0}));

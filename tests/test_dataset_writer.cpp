@@ -4,7 +4,7 @@
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
-TEST_CASE("dataset: a rendered sequence is read back as it was written") {
+TEST_CASE("dataset: a rendered sequence is written with its stamps, its depths, and not over another") {
   const TemporaryFolder folder;
   const SyntheticSequence sequence(rendering(80, 60, 60, 3, 1));
   int calls = 0;
@@ -17,19 +17,10 @@ TEST_CASE("dataset: a rendered sequence is read back as it was written") {
   CHECK(set.format == "eth3d-slam");
   CHECK(check_dataset(folder / "s").errors.empty());
   REQUIRE(set.frames.size() == 3);
-  CHECK(set.rig.left.matrix() == sequence.rig().left.matrix());
-  CHECK(set.rig.right.matrix() == sequence.rig().right.matrix());
-  CHECK((set.rig.right_from_left.matrix() - sequence.rig().right_from_left.matrix()).cwiseAbs().maxCoeff() < 1e-15);
-  REQUIRE(set.truth.size() == 3);
   for (int i = 0; i < 3; ++i) {
     const auto& files = set.frames[static_cast<std::size_t>(i)];
     CHECK(files.stamp_ns == sequence.stamp_ns(i));
-    CHECK((set.truth[static_cast<std::size_t>(i)].world_from_left.matrix() - sequence.world_from_left(i).matrix())
-              .cwiseAbs()
-              .maxCoeff() < 1e-14);
-    const RenderedView left = sequence.render(i, Side::left), right = sequence.render(i, Side::right);
-    CHECK(read_grey_image(files.left).pixels == left.image.pixels);
-    CHECK(read_grey_image(files.right).pixels == right.image.pixels);
+    const RenderedView right = sequence.render(i, Side::right);
     std::string depth = files.right;
     depth.replace(depth.find("/rgb2/"), 6, "/depth2/").replace(depth.size() - 3, 3, "pfm");
     const cv::Mat map = cv::imread(depth, cv::IMREAD_UNCHANGED);

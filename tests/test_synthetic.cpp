@@ -1,4 +1,4 @@
-// The built-in sequences: poses, depth, photometry, noise.
+// The built-in sequences: poses, depth, noise; that images show it, test_synthetic_geometry and test_edges.py hold.
 #include "testing.hpp"
 
 using namespace quadedge;
@@ -73,52 +73,6 @@ Agreement compare(const RenderedView& from, const RenderedView& to, const Pinhol
         ++result.impossible;
     }
   }
-  return result;
-}
-
-/// Shift [px] of `to` against `from` warped with its exact depth, by least squares over smooth positions (one
-/// Lucas-Kanade step), and the median absolute grey difference there.
-struct Photometry {
-  Vector2d shift = Vector2d::Zero();
-  double median_difference = 0.0;
-};
-Photometry photometry(const RenderedView& from, const RenderedView& to, const PinholeCamera& camera,
-                      const Isometry3d& to_from_from, const Vector2d& bias = Vector2d::Zero()) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Vector2d side = Vector2d::Zero();
-  std::vector<double> differences;
-  const auto grey = [&](const Vector2d& p) {
-    const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
-    const double fx = p.x() - x, fy = p.y() - y;
-    const ImageView v = to.image.view();
-    return (1 - fy) * ((1 - fx) * v.at(x, y) + fx * v.at(x + 1, y)) +
-           fy * ((1 - fx) * v.at(x, y + 1) + fx * v.at(x + 1, y + 1));
-  };
-  const auto is_smooth = [](const RenderedView& view, const Vector2d& p) {  // no depth step within two pixels
-    for (int dy = -2; dy <= 2; ++dy)
-      for (int dx = -2; dx <= 2; ++dx)
-        if (smooth_depth(view, p + Vector2d(dx, dy)) == 0.0) return false;
-    return true;
-  };
-  for (int y = 0; y < camera.height; ++y) {
-    for (int x = 0; x < camera.width; ++x) {
-      const Vector3d point = to_from_from * Vector3d(depth_at(from, x, y) * camera.ray(Vector2d(x, y)));
-      const Vector2d p = camera.project(point) + bias;
-      if (!is_smooth(from, Vector2d(x, y)) || !is_smooth(to, p)) continue;
-      if (std::abs(point.z() / smooth_depth(to, p) - 1.0) > 0.02) continue;
-      const Vector2d slope(0.5 * (grey(p + Vector2d::UnitX()) - grey(p - Vector2d::UnitX())),
-                           0.5 * (grey(p + Vector2d::UnitY()) - grey(p - Vector2d::UnitY())));
-      const double difference = from.image.view().at(x, y) - grey(p);
-      normal += slope * slope.transpose();
-      side += slope * difference;
-      differences.push_back(std::abs(difference));
-    }
-  }
-  Photometry result;
-  result.shift = normal.ldlt().solve(side);
-  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
-                   differences.end());
-  result.median_difference = differences[differences.size() / 2];
   return result;
 }
 
@@ -200,79 +154,6 @@ TEST_CASE("synthetic depth agrees between the views wherever it is visible in bo
       CHECK(result.impossible < 0.01 * result.visible);  // creases between two planes, where depth is interpolated
     }
   }
-}
-
-TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]") {
-  const SyntheticSequence sequence(small_options("room"));
-  const StereoRig& rig = sequence.rig();
-  const RenderedView left = sequence.render(0, Side::left);
-  int steps = 0;
-  for (int y = 0; y < rig.left.height; ++y)
-    for (int x = 0; x + 1 < rig.left.width; ++x)
-      steps += std::abs(depth_at(left, x + 1, y) / depth_at(left, x, y) - 1.0) > 0.2;
-  CHECK(steps > rig.left.height);  // objects occlude one another
-  // The right view shows the same grey level f b / Z farther left, to a fraction of a pixel.
-  for (const char* scene : {"room", "facade"}) {
-    auto clean = rendering(314, 166, 180, 8, 4);
-    clean.scene = scene;
-    clean.noise = 0;
-    const SyntheticSequence quiet(clean);
-    const PinholeCamera& camera = quiet.rig().left;
-    const RenderedView a = quiet.render(0, Side::left), b = quiet.render(0, Side::right),
-                       c = quiet.render(2, Side::left);
-    const Isometry3d next = quiet.world_from_left(2).inverse();
-    CAPTURE(scene);
-    CHECK(photometry(a, b, camera, quiet.rig().right_from_left).shift.norm() < 0.02);
-    CHECK(photometry(a, c, camera, next).shift.norm() < 0.02);
-    const double aligned = photometry(a, b, camera, quiet.rig().right_from_left).median_difference;
-    const double displaced = photometry(a, b, camera, quiet.rig().right_from_left, {1.0, 0.0}).median_difference;
-    CAPTURE(aligned, displaced);
-    CHECK(aligned < 0.5 * displaced);
-  }
-}
-
-TEST_CASE("the facade is textured nearly everywhere, and repeats", "[synthetic]") {
-  auto options = rendering(471, 245, 271, 8, 2);
-  options.scene = "facade";
-  options.noise = 0;
-  const RenderedView view = SyntheticSequence(options).render(0, Side::left);
-  const ImageView image = view.image.view();
-  // Fraction of 16 px squares whose grey levels vary by more than twice the default noise.
-  constexpr int kSide = 16;
-  int squares = 0, textured = 0, light = 0, dark = 0;
-  for (int y = 0; y + kSide <= options.height; y += kSide) {
-    for (int x = 0; x + kSide <= options.width; x += kSide, ++squares) {
-      double sum = 0.0, squared = 0.0;
-      for (int j = 0; j < kSide; ++j)
-        for (int i = 0; i < kSide; ++i) {
-          const double grey = image.at(x + i, y + j);
-          sum += grey;
-          squared += grey * grey;
-          light += grey > 250;
-          dark += grey < 5;
-        }
-      const double mean = sum / (kSide * kSide);
-      textured += squared / (kSide * kSide) - mean * mean > 9.0;
-    }
-  }
-  CAPTURE(squares, textured, light, dark);
-  CHECK(textured > 0.95 * squares);
-  CHECK(light + dark < 0.001 * options.width * options.height);
-  // Some row of the wall correlates with itself one board or brick farther.
-  double highest = 0.0;
-  for (int y = 10; y < options.height / 3; ++y) {
-    for (int period = 4; period < 40; ++period) {
-      Eigen::ArrayXd here(60), there(60);
-      for (int i = 0; i < 60; ++i) {
-        here[i] = image.at(240 + i, y);
-        there[i] = image.at(240 + period + i, y);
-      }
-      here -= here.mean();
-      there -= there.mean();
-      highest = std::max(highest, (here * there).sum() / std::sqrt(here.square().sum() * there.square().sum()));
-    }
-  }
-  CHECK(highest > 0.6);
 }
 
 TEST_CASE("synthetic camera noise has the requested standard deviation and is independent", "[synthetic]") {
