@@ -72,14 +72,6 @@ const std::vector<LibraryAttack>& library_attacks() {
          c.frame.right.stride = 319;
        },
        "right image has a stride of 319 bytes, expected at least the 320"},
-      {"a timestamp that goes back",
-       [](C c) {
-         StereoOdometry odometry(c.rig, c.device, c.config);
-         odometry.track(c.frame);
-         c.frame.stamp_ns = -1;
-         odometry.track(c.frame);
-       },
-       "-1"},
       {"no baseline", [](C c) { c.rig.right_from_left.setIdentity(); }, "baseline"},
       {"an infinite baseline",
        [](C c) { c.rig.right_from_left.translation().x() = -std::numeric_limits<double>::infinity(); }, ""},

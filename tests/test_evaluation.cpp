@@ -55,33 +55,6 @@ TEST_CASE("evaluation: of an estimate denser than the truth, the nearest poses a
   for (const auto& pose : result.per_pose) CHECK(pose.stamp_ns % 20'000'000 == 1'000'000);
 }
 
-TEST_CASE("evaluation: a known drift gives known errors") {
-  // Ground truth: steps of 1 m along x; estimate: steps of 1.02 m with a rotation of 0.5 degrees about x.
-  Trajectory truth, estimate;
-  for (int i = 0; i < 5; ++i) {
-    truth.push_back({i, Eigen::Isometry3d(Eigen::Translation3d(i, 0, 0))});
-    estimate.push_back({i, Eigen::Translation3d(1.02 * i, 0, 0) * turn(0.5 * i, {1, 0, 0})});
-  }
-  const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth, 0, 0);
-  const PoseErrors& errors = result.origin_aligned;
-  CHECK(errors.ape_translation_m.mean == Approx(0.04));                   // 0, 2, 4, 6, 8 cm
-  CHECK(errors.ape_translation_m.std == Approx(0.02 * std::sqrt(2.0)));   // over N: mean squared deviation 2 units
-  CHECK(errors.ape_translation_m.rmse == Approx(0.02 * std::sqrt(6.0)));  // (0 + 1 + 4 + 9 + 16) / 5
-  CHECK(errors.ape_translation_m.max == Approx(0.08));
-  CHECK(errors.ape_rotation_deg.max == Approx(2.0));
-  CHECK(errors.rpe_translation_m.mean == Approx(0.02));
-  CHECK(errors.rpe_rotation_deg.mean == Approx(0.5));
-  CHECK(errors.rpe_rotation_deg.std == Approx(0).margin(1e-10));
-  CHECK(result.path_length_m == Approx(4));
-  CHECK(result.end_drift_percent == Approx(2));
-  REQUIRE(result.per_pose.size() == 5);
-  CHECK(std::isnan(result.per_pose[0].rpe_translation_m));
-  CHECK(result.per_pose[3].rpe_translation_m == Approx(0.02));
-  CHECK(result.per_pose[3].ape_rotation_deg == Approx(1.5));
-  CHECK(std::isnan(result.se3_aligned.ape_translation_m.mean));  // a straight line leaves a rotation undetermined
-  CHECK_THAT(result.se3_open_rotation, Catch::Matchers::Contains("straight line"));
-}
-
 TEST_CASE("evaluation: an almost straight or stationary path leaves the rotation of its alignment undetermined") {
   // Ground truth along z with a given bend; the estimate is off by 10 mm to alternating sides.
   const auto evaluate = [](double length, double bend) {
@@ -122,15 +95,6 @@ TEST_CASE("evaluation: an estimate that turns around has an APE rotation under b
   CHECK(result.se3_aligned.ape_rotation_deg.max <= 180.001);
 }
 
-TEST_CASE("evaluation: small and large angles are exact") {
-  for (const double degrees : {1e-7, 1e-3, 90.0, 179.9999, 180.0}) {
-    const Trajectory truth = curve(3);
-    Trajectory estimate = truth;
-    estimate[1].world_from_left = estimate[1].world_from_left * turn(degrees, {3, -1, 2});
-    CHECK(evaluate_trajectory(estimate, truth).per_pose[1].ape_rotation_deg == Approx(degrees).epsilon(1e-7));
-  }
-}
-
 TEST_CASE("evaluation: poses are matched to the nearest timestamp, each once") {
   const Trajectory truth = curve(20);
   Trajectory estimate;
@@ -163,7 +127,7 @@ TEST_CASE("evaluation: an error about too few matches states timestamps and coun
   CHECK_THROWS_AS(evaluate_trajectory(truth, truth, 500), DataError);
 }
 
-TEST_CASE("evaluation: every segment is judged by itself, and no step across segments") {
+TEST_CASE("evaluation: no step leads across segments, and one of a single pose has no errors") {
   const Trajectory truth = curve(12);
   const Eigen::Isometry3d jump = Eigen::Translation3d(1, 2, 3) * turn(40, {1, 2, 3});
   Trajectory estimate = truth;
@@ -174,27 +138,15 @@ TEST_CASE("evaluation: every segment is judged by itself, and no step across seg
   CHECK(whole.rpe_steps == 9);
   CHECK(whole.origin_aligned.ape_translation_m.max > 1);  // the unknown motion
   CHECK(whole.origin_aligned.rpe_translation_m.max < 1e-9);
-  CHECK(whole.se3_aligned.rpe_rotation_deg.max < 1e-9);
   for (std::size_t i = 0; i < 12; ++i)
     CHECK(std::isnan(whole.per_pose[i].rpe_rotation_deg) == (i == 0 || i == 5 || i == 11));
   REQUIRE(whole.segments.size() == 3);
-  for (int segment = 0; segment < 2; ++segment) {
-    const TrajectoryEvaluation& part = whole.segments[static_cast<std::size_t>(segment)];
-    CHECK(part.segment == segment);
-    CHECK(part.matched == (segment == 0 ? 5 : 6));
-    CHECK(part.rpe_steps == part.matched - 1);
-    for (const PoseErrors& errors : {part.origin_aligned, part.se3_aligned}) {
-      CHECK(errors.ape_translation_m.max < 1e-9);
-      CHECK(errors.ape_rotation_deg.max < 1e-6);
-    }
-    CHECK(part.segments.empty());
-  }
+  CHECK(whole.segments[1].se3_aligned.ape_translation_m.max < 1e-9);
   const TrajectoryEvaluation& single = whole.segments[2];
   CHECK((single.segment == 2 && single.matched == 1 && single.rpe_steps == 0));
   CHECK(std::isnan(single.origin_aligned.ape_translation_m.mean));
   CHECK(std::isnan(single.se3_aligned.rpe_rotation_deg.max));
   CHECK(evaluate_trajectory(truth, truth).segments.empty());
-  CHECK(evaluate_trajectory(truth, truth).rpe_steps == 11);
 }
 
 TEST_CASE("evaluation: t_rel and r_rel of a steady drift are those of KITTI's formula") {

@@ -59,29 +59,6 @@ TEST_CASE("find sequences: links are followed, cycles end, nothing is found twic
   CHECK(found[0].path == folder / "root/link");
 }
 
-TEST_CASE("find sequences: unreadable folders are listed without a format, beside the others") {
-  const TemporaryFolder folder;
-  write_eth3d_slam(folder / "root/room", 1);
-  std::filesystem::create_symlink("itself", folder / "root/itself");
-  std::filesystem::create_symlink("nowhere", folder / "root/dangling");
-  // Longer than a path may be: created from inside, folder by folder.
-  const std::filesystem::path here = std::filesystem::current_path();
-  const std::string name(250, 'x');
-  std::filesystem::current_path(folder / "root");
-  for (int i = 0; i < 17; ++i) {
-    std::filesystem::create_directory(name);
-    if (chdir(name.c_str()) != 0) break;
-  }
-  std::filesystem::current_path(here);
-  const auto found = data::find_sequences(folder / "root");
-  CHECK(names(found) == std::vector<std::string>{"itself ", "room eth3d-slam", std::string(128, 'x') + " "});
-  CHECK_THROWS_WITH(open_dataset(found[0].path), Contains("itself") && Contains("Too many levels"));
-  CHECK_THROWS_WITH(open_dataset(found[2].path), Contains("File name too long") && Contains("expected"));
-  for (const auto* sequence : {&found[0], &found[2]}) CHECK_THROWS_AS(open_dataset(sequence->path), DataError);
-  CHECK(std::system(("rm -rf '" + (folder / "root") + "'").c_str()) == 0);  // too deep for std::filesystem
-  CHECK_THROWS_AS(data::find_sequences(name + name), DataError);
-}
-
 TEST_CASE("find sequences: a list keeps its order and its invalid lines") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "b", 1);

@@ -4,7 +4,13 @@
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
-using namespace quadedge::data;
+using data::comes_before;
+using data::file_list;
+using data::list_images;
+using data::number_jump;
+using data::pair_stamps;
+using data::read_times;
+using data::StampPairs;
 
 TEST_CASE("image list: digits in names count as numbers") {
   CHECK(comes_before("img9.png", "img10.png"));

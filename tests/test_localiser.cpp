@@ -121,16 +121,3 @@ TEST_CASE("localiser: exchanged cameras do not fit the calibration", "[device]")
   const Localisation found = localiser.locate({0, pair.right.view(), pair.left.view()});
   CHECK(found.status != LocalisationStatus::located);
 }
-
-TEST_CASE("localiser: a configuration whose edges differ from the map's is a usage error", "[device]") {
-  Device device("reference");
-  const StereoRig& rig = saved_maps::room_map().rig();
-  Config config;
-  config.edges.sigma = 3;
-  CHECK_THROWS_AS(Localiser(saved_maps::room_map(), rig, device, config), UsageError);
-  CHECK_THROWS_WITH(Localiser(saved_maps::room_map(), rig, device, config),
-                    Catch::Matchers::Contains("edges.sigma = 2"));
-  config = {};
-  config.temporal.global_edges = 0;
-  CHECK_THROWS_AS(Localiser(saved_maps::room_map(), rig, device, config), UsageError);
-}

@@ -6,7 +6,8 @@
 
 using Catch::Matchers::Contains;
 using namespace quadedge;
-using namespace quadedge::data;
+using data::make_picture_pipe;
+using data::Split;
 
 namespace {
 
@@ -132,15 +133,6 @@ TEST_CASE("pipe: a slow reader drops the oldest pairs and counts them") {
   }
   CHECK_FALSE(frames.next());
   CHECK_THROWS_AS(stream->open(), UsageError);
-}
-
-TEST_CASE("pipe: without a queue every pair waits for its reader") {
-  const Source source(pairs(9));
-  FramePrefetcher frames(dataset_of(make_picture_pipe(source.descriptor(), {Split::none, 10, 0})));
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  for (int i = 0; i < 9; ++i) CHECK(frames.next()->number == i);
-  CHECK_FALSE(frames.next());
-  CHECK(frames.dropped() == 0);
 }
 
 TEST_CASE("pipe: waiting for an image that never arrives can be interrupted") {

@@ -148,26 +148,9 @@ TEST_CASE("points: corrected poses move the views with their points, other views
   CHECK(same + with_view == some.size());
 }
 
-TEST_CASE("points: files describe their content and are either complete or absent") {
+TEST_CASE("points: a file is either complete or absent, also without points") {
   const TemporaryFolder folder;
-  CloudPoint point;
-  point.position = {1.25, -2.5, 3};
-  point.tangent = {0, 1, 0};
-  point.grey = 77.4F;
-  point.sigma = 0.125F;
-  point.views = 9;
-  write_ply(folder / "map.ply", {point, point});
-  const std::string text = read_text(folder / "map.ply");
-  const std::size_t head = text.find("end_header\n") + 11;
-  CHECK_THAT(text.substr(0, head), Contains("format binary_little_endian 1.0\n") && Contains("element vertex 2\n") &&
-                                       Contains("property float tangent_x\n") && Contains("property int views\n"));
-  constexpr std::size_t kRow = 3 * 8 + 5 * 4 + 4 + 3;
-  REQUIRE(text.size() == head + 2 * kRow);
-  double z = 0;
-  std::memcpy(&z, text.data() + head + 16, sizeof z);
-  CHECK(z == 3);
-  CHECK(text[head + kRow - 1] == 77);
-  CHECK_THROWS_AS(write_ply(folder / "absent/map.ply", {point}), DataError);
+  CHECK_THROWS_AS(write_ply(folder / "absent/map.ply", {CloudPoint()}), DataError);
   write_ply(folder / "empty.ply", {});
   CHECK_THAT(read_text(folder / "empty.ply"), Contains("element vertex 0\n"));
 }

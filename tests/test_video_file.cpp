@@ -82,17 +82,6 @@ TEST_CASE("video: colour becomes full-range luma, and RGB becomes grey as in ima
   }
 }
 
-TEST_CASE("video: an early end is reported after all existing images") {
-  const TemporaryFolder folder;
-  const std::string file = video(folder, stream(0, 40, 160, 120), "-c:v ffv1 -pix_fmt gray -g 1", "whole.mkv");
-  int pictures = 0;
-  CHECK(read_all(file, pictures).empty());
-  CHECK(pictures == 40);
-  fs::resize_file(file, fs::file_size(file) / 2);
-  CHECK_THAT(read_all(file, pictures), Contains(file) && Contains("the 40 announced by its header"));
-  CHECK((pictures > 10 && pictures < 30));
-}
-
 TEST_CASE("video: an image of another size and a damaged one are reported by number") {
   const TemporaryFolder folder;
   const std::string small = read_text(video(folder, stream(0, 1, 32, 32), "-c:v mjpeg", "small.mjpeg"));

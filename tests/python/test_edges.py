@@ -69,13 +69,6 @@ def test_images_that_are_no_pair_are_refused(command, room_folder, tmp_path, sha
     command("match", left, code=2)
 
 
-def test_a_device_can_be_reused(frames):
-    device = quadedge.Device("auto")
-    first, second = (quadedge.detect_edges(frames[0].left, device) for _ in range(2))
-    numpy.testing.assert_array_equal(first.x, second.x)
-    assert device.info.type in ("cpu", "gpu", "accelerator")
-
-
 def test_stereo_edges_agree_with_the_rendered_depth(room, frames):
     edges = quadedge.match(frames[0].left, frames[0].right, room)
     xyz, left, right = edges.xyz, edges.left, edges.right

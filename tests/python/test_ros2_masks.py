@@ -10,9 +10,7 @@ pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: quadedge.
 pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.ros2 cannot be tested")
 
 import quadedge  # noqa: E402
-from quadedge.ros2.masks import Masks, MaskTopic  # noqa: E402
-from quadedge.ros2.pairs import LEFT, RIGHT, PairQueue  # noqa: E402
-from quadedge.ros_messages import stamp_ns  # noqa: E402
+from quadedge.ros2.pairs import LEFT, RIGHT  # noqa: E402
 from robot import SECOND, Robot, expected_pose, image_message, pose_of  # noqa: E402
 
 STEP = 50_000_000
@@ -162,44 +160,3 @@ def test_pairs_do_not_wait_for_ever_for_masks_that_nobody_publishes(walk, tmp_pa
             return says(f"masks of {TOPICS[0]} come again")
 
         robot.until(comes_again, "an end of the silence")
-
-
-def test_the_newest_pair_with_its_masks_goes_first_and_others_wait_for_a_while():
-    domain, pairs = Robot(listens=False).domain, [(ms * 1_000_000,) * 2 for ms in (100, 150, 200)]
-    publisher, said = domain.advertise("/m", "sensor_msgs/msg/Image"), []
-    topic = MaskTopic(domain, "/m", LEFT, False, said.append)
-    masks, mask = Masks({LEFT: topic}, 5_000_000, 0.2), numpy.zeros((2, 3), numpy.uint8)
-
-    def receives(stamp: int) -> None:
-        end = time.monotonic() + 30
-        publisher.publish(image_message(stamp, mask))
-        while stamp not in topic._waiting:
-            assert time.monotonic() < end
-            domain.wait(0.1)
-            masks.receive()
-
-    assert masks.ready(pairs, False) == 0 and 0 < masks.rest_s(1) <= 0.2 and masks.rest_s(0.01) == 0.01
-    assert masks.ready(pairs, True) == 1 and masks.ready([], True) == 0
-    receives(150_000_000 + 1_000_000)
-    assert masks.ready(pairs, False) == 2
-    taken = masks.take(pairs[1], [mask, mask])
-    assert numpy.array_equal(taken[LEFT], mask) and taken[RIGHT] is None
-    assert masks.ready(pairs[2:], False) == 0
-    time.sleep(0.25)
-    assert masks.ready(pairs[2:], False) == 1 and masks.take(pairs[2], [mask, mask]) == [None, None]
-    receives(900_000_000)
-    masks.forget()
-    assert masks.ready([(900_000_000,) * 2], False) == 0
-
-
-def test_pairs_that_are_not_ready_stay_in_the_queue():
-    queue, fulls = PairQueue(5_000_000), []
-    for ms in range(100, 1100, 100):
-        for side in (LEFT, RIGHT):
-            queue.add(side, image_message(ms * 1_000_000, numpy.zeros((1, 1), numpy.uint8)))
-        if ms == 500:
-            assert queue.newest(lambda pairs, full: fulls.append(full) or 0) is None
-    given = queue.newest(lambda pairs, full: fulls.append(full) or 3)
-    assert fulls == [False, True] and [stamp_ns(message) for message in given] == [300_000_000] * 2
-    assert queue.counts.behind == 2 and queue.counts.alone == [0, 0]
-    assert stamp_ns(queue.newest(lambda pairs, _: len(pairs))[LEFT]) == 1_000_000_000 and queue.counts.behind == 8
