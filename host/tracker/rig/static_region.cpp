@@ -14,14 +14,13 @@ namespace {
 constexpr int kReducedCell = PinholeView::kBlock, kReduction = kStaticCell / kReducedCell;  ///< px per reduced pixel
 constexpr int kReducedStep = kStaticStep / kReduction, kStepsPerCell = kStaticCell / kStaticStep;
 
-/// Sets reduced grey levels of the whole cells of a view, row-major.
+/// Sets reduced grey levels of the whole cells of a view, row-major: samples between four pixels, which are their mean.
 void reduce_levels(const PinholeView& view, int columns, int rows, std::vector<float>& levels) {
   const int width = columns * kReducedCell;
   levels.resize(static_cast<std::size_t>(width * rows * kReducedCell));
   float block[kReducedCell * kReducedCell];
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      // Between four pixels, whose mean it is.
       const Eigen::Vector2d middle = kStaticCell * (Eigen::Vector2d(column, row).array() + 0.5) + 0.5;
       view.patch(middle, static_cast<double>(kReduction) * Eigen::Matrix2d::Identity())
           .sample(-kReducedCell / 2, kReducedCell / 2 - 1, block);
