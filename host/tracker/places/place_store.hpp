@@ -27,7 +27,7 @@ constexpr int kWords = 16;
 /// Unit length; similar places have a large scalar product.
 using PlaceSignature = Eigen::Matrix<float, kWords * kWordNumbers, 1>;
 
-/// Table of words and the projection that precedes it, of rendered scenes (bench/place_words.cpp of commit 9dfc0cc).
+/// Table of words and the projection that precedes it, of rendered scenes (`place_words` of commit 9dfc0cc).
 struct PlaceWords {
   Eigen::Matrix<float, kWideBytes, 1> mean;
   Eigen::Matrix<float, kWordNumbers, kWideBytes> projection;
