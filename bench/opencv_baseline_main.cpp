@@ -2,13 +2,13 @@
 /// read, or a rendered scene, and writes trajectories for `quadedge evaluate trajectory`.
 ///
 ///   opencv_baseline PATH -o OUT         a recorded sequence
-///   opencv_baseline cables -o OUT       a rendered scene: room, cables, facade
+///   opencv_baseline cables -o OUT       a rendered scene: room, cables, facade, yard; ./cables is a folder
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/frame_source.hpp"
-#include "cli/source_options.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
 #include "output/output_folder.hpp"
@@ -20,7 +20,7 @@ namespace {
 using namespace quadedge;
 
 cli::FrameSource open_source(const std::string& path, int frames, SyntheticOptions scene) {
-  if (cli::is_scene(path)) {
+  if (const auto& scenes = synthetic_scenes(); std::count(scenes.begin(), scenes.end(), path) > 0) {
     scene.scene = path;
     if (frames > 0) scene.frames = frames;
     return cli::FrameSource(scene);

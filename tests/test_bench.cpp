@@ -15,9 +15,8 @@ namespace {
 /// A small benchmark, shared by the tests that read its files.
 struct SharedBench {
   TemporaryFolder folder;
-  ProgramResult result =
-      run_program({"bench", "--size", "160x100", "--edges", "1500", "--frames", "2", "--warm-up", "3", "--baseline",
-                   "--json", folder / "bench.json", "--quiet"});
+  ProgramResult result = run_program({"bench", "--size", "160x100", "--edges", "1500", "--frames", "2", "--warm-up",
+                                      "3", "--baseline", "--json", folder / "bench.json", "--quiet"});
   Json parsed() const { return Json::parse(read_text(folder / "bench.json")); }
 };
 const SharedBench& shared_bench() {

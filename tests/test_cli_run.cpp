@@ -12,8 +12,7 @@ namespace {
 /// A run of the small sequence, shared by the tests that only read its files.
 struct SharedRun {
   TemporaryFolder folder;
-  ProgramResult result =
-      run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2"});
+  ProgramResult result = run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2"});
   std::string out(const std::string& name) const { return folder / ("out/" + name); }
 };
 const SharedRun& shared_run() {

@@ -119,9 +119,8 @@ std::string length(double metres) {
 void print_time(const report::RunRecord& run) {
   const report::LatencySummary time = report::latency_summary(run.frames);
   const auto first = run.frames.begin() + (run.frames.empty() ? 0 : 1);  // the first frame is reported by itself
-  const auto slowest = std::max_element(first, run.frames.end(), [](const auto& a, const auto& b) {
-    return a.timing.latency_ms < b.timing.latency_ms;
-  });
+  const auto slowest = std::max_element(
+      first, run.frames.end(), [](const auto& a, const auto& b) { return a.timing.latency_ms < b.timing.latency_ms; });
   std::printf("time       %s per frame (median), p99 %s, at most %s in frame %td\n", milliseconds(time.median).c_str(),
               milliseconds(time.p99).c_str(), milliseconds(time.max).c_str(), slowest - run.frames.begin());
   if (run.loops)

@@ -148,8 +148,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   };
   try {
     while (const auto frame = source.next()) {
-      if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().stamp_ns)
-        odometry.restart();
+      if (options.restarts && !run.frames.empty() && frame->stamp_ns < run.frames.back().stamp_ns) odometry.restart();
       FrameResult result = odometry.track(frame->view());
       files.add(result);
       report_warnings(result, run);
