@@ -207,6 +207,6 @@ TEST_CASE("check and bench read own cameras", "[cli][device]") {
   CHECK_THAT(read_text(folder / "bench.json"), Contains(camera().video));
   check_error(with_source({"run", small_sequence()}), 2);
   check_error({"run", small_sequence(), "--fps", "3"}, 2);
-  const FrameFiles frame = own_camera::small_dataset().frames[2];
+  const auto frame = own_camera::small_dataset().frames[2];
   check_error({"match", frame.left, frame.right, "--fov", "90"}, 2, {"need --calibration"});
 }

@@ -3,6 +3,7 @@
 
 #include "calibration/pair_adjustment.hpp"
 #include "calibration/pair_collection.hpp"
+#include "calibration/unseen_views.hpp"
 #include "dataset_files.hpp"
 #include "geometry/calibration.hpp"
 #include "geometry/lens_mapping.hpp"
