@@ -44,7 +44,7 @@ MOST_LINES = {
     "python": 9318,
     "ros2": 90,
     "scripts": 2088,
-    "tests": 29989,
+    "tests": 29996,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.

@@ -101,3 +101,10 @@ TEST_CASE("Quads that do not determine a motion are reported as unsolved", "[pos
     CHECK_FALSE(refine(quads, problem.rig, config, 0, workspace, motion));
   }
 }
+
+TEST_CASE("The scale of errors is their median over the expected one, never zero", "[pose]") {
+  std::vector<double> values;
+  CHECK(measured_scale({8, 2, 1e9, 4, 3}, 5, 2.0, values) == 2.0);
+  CHECK(measured_scale({8, 2, 6, 4, 3}, 3, 2.0, values) == 3.0);  // only the first three
+  CHECK(measured_scale({0, 0, 0}, 3, 2.0, values) == kSmallestScale);
+}
