@@ -27,7 +27,7 @@ MOST_LINES = {
     "host/tracker/edges": 2892,
     "host/tracker/geometry": 2199,
     "host/tracker/motion": 6615,
-    "host/tracker/places": 2268,
+    "host/tracker/places": 2263,
     "host/tracker/rig": 2136,
     "host/workbench/benchmark": 1078,
     "host/workbench/calibration": 1770,

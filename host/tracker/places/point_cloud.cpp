@@ -261,13 +261,8 @@ void PointCloud::Implementation::correct(const std::function<std::optional<Eigen
 
 template <class Keep>
 void PointCloud::Implementation::keep_only(const Keep& keep) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (!keep(points_[i])) continue;
-    points_[kept] = points_[i];
-    ++kept;
-  }
-  points_.resize(kept);
+  const auto is_dropped = [&](const Point& point) { return !keep(point); };
+  points_.erase(std::remove_if(points_.begin(), points_.end(), is_dropped), points_.end());
 }
 
 /// If there are too many points, discards those with the fewest views until a tenth of the capacity is free; of points
