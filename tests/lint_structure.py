@@ -26,7 +26,7 @@ MOST_LINES = {
     "host/tracker/device": 4571,
     "host/tracker/edges": 2892,
     "host/tracker/geometry": 2199,
-    "host/tracker/motion": 6615,
+    "host/tracker/motion": 6612,
     "host/tracker/places": 2263,
     "host/tracker/rig": 2136,
     "host/workbench/benchmark": 1078,
@@ -41,10 +41,10 @@ MOST_LINES = {
     "host/workbench/scenes": 2775,
     "include": 2233,
     "kernels": 6276,
-    "python": 9318,
+    "python": 9317,
     "ros2": 90,
     "scripts": 2088,
-    "tests": 29996,
+    "tests": 29995,
 }
 TRACKER, WORKBENCH = "host/tracker/", "host/workbench/"
 # Lines of systems that do the same, counted alike.

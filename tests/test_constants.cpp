@@ -8,9 +8,8 @@ using Catch::Matchers::Contains;
 namespace {
 
 const Constant& constant_named(const std::string& key) {
-  for (const auto& constant : constants()) {
+  for (const auto& constant : constants())
     if (constant.key() == key) return constant;
-  }
   throw std::runtime_error("no constant " + key);
 }
 

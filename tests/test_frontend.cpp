@@ -33,9 +33,8 @@ template <class Passes>
 void check_cue(const CandidateLists& before, const CandidateLists& after, const Passes& passes) {
   REQUIRE(before.cue.size() == before.target.size());
   std::vector<std::int32_t> expected;
-  for (std::size_t c = 0; c < before.target.size(); ++c) {
+  for (std::size_t c = 0; c < before.target.size(); ++c)
     if (passes(before.cue[c])) expected.push_back(before.target[c]);
-  }
   CHECK(expected == after.target);
 }
 

@@ -30,8 +30,7 @@ class Tap {
   /// Called before every temporal search.
   virtual void temporal_search(const ObservedSearch& search) { (void)search; }
   /// Called after every filter of that search between the baseline and the best, for the left and the right image. Row
-  /// r is stereo edge r * step of the base; targets are current stereo edges. The quad agreement leaves one list, which
-  /// is passed for both sides.
+  /// r is stereo edge r * step of the base; targets are current stereo edges. The quad agreement leaves one for both.
   virtual void temporal_filter(TemporalFilter filter, Side side, const CandidateLists& candidates) {
     (void)filter, (void)side, (void)candidates;
   }

@@ -58,8 +58,8 @@ void bind_devices(nb::module_& module) {
 
   module.def("limit_threads", &limit_threads, "count"_a,
              "At most ``count`` threads for the library's loops and for OpenCL on CPUs (PoCL, Intel's runtime). To be\n"
-             "called before the first device is opened. Results do not depend on it. Raises UsageError for a number\n"
-             "below 1.");
+             "called before the first device is opened. Results do not depend on it. 0: no limit, and each of PoCL's\n"
+             "threads on one processor. Raises UsageError for a negative number.");
   module.def("devices", &list_devices,
              "All OpenCL devices in a fixed order; empty without a driver or without libOpenCL.so.1.\n\n"
              "Raises DeviceError in a process that was forked after OpenCL had been used.");

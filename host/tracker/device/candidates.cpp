@@ -20,9 +20,7 @@ cl::Program candidates_program(opencl::Context& context, const opencl::Variant& 
 }
 
 CandidateFilters::CandidateFilters(opencl::Context& context, const opencl::VariantChoice& variants)
-    : Stage(context, "candidate_filters", variants) {
-  kernel_ = {context, variant_.program(context), "candidate_filters"};
-}
+    : Stage(context, "candidate_filters", variants), kernel_(context, variant_.program(context), "candidate_filters") {}
 
 void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step,
                            bool all_scores, DeviceCandidates& candidates) {

@@ -151,9 +151,8 @@ std::string lower(std::string text) {
 }
 
 std::optional<std::size_t> first_of_type(const std::vector<FoundDevice>& devices, const std::string& type) {
-  for (std::size_t i = 0; i < devices.size(); ++i) {
+  for (std::size_t i = 0; i < devices.size(); ++i)
     if (devices[i].info.type == type) return i;
-  }
   return std::nullopt;
 }
 

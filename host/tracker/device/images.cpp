@@ -19,10 +19,9 @@ std::string float_literal(double value) { return printed("%#.9gf", value); }
 std::vector<cl_float> pair_taps(double sigma) {
   const int radius = kernel_radius(sigma);
   std::vector<cl_float> taps;
-  for (std::size_t order = 0; order < 2; ++order) {
+  for (std::size_t order = 0; order < 2; ++order)
     for (int k = 0; k <= radius; ++k)
       taps.push_back(static_cast<cl_float>(gaussian_derivatives(-k, sigma)[order]));  // the pixel at k, from the centre
-  }
   return taps;
 }
 

@@ -5,13 +5,17 @@
 #include <memory>
 #include <string>
 #include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <unistd.h>
 
 #include "quadedge/error.hpp"
 
 namespace quadedge {
 
 void limit_threads(int count) {
-  if (count < 1) throw UsageError("threads: found " + std::to_string(count) + ", expected 1 or more");
+  if (count < 0) throw UsageError("threads: found " + std::to_string(count) + ", expected 0 or more");
+  if (count == 0 && tbb::info::default_concurrency() == sysconf(_SC_NPROCESSORS_ONLN)) setenv("POCL_AFFINITY", "1", 0);
+  if (count == 0) return;
   static std::unique_ptr<tbb::global_control> limit;
   limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                 static_cast<std::size_t>(count));

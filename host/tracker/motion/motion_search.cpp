@@ -252,7 +252,6 @@ StepHandle MotionSearch::propose(Hypothesis hypothesis, const MotionQuery& query
 StepHandle MotionSearch::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                                  const Others& others) {
   PoseConfig limits = config_.pose;
-  limits.min_hypotheses = 0;  // the proposal has drawn them; more are drawn only as its inlier ratio requires
   if (closely) limits.inlier_distance *= kCloseAgreement;
   if (query.key) {
     StepHandle step = confirm_with(query.key, query, limits, current_from_base * query.base_from_key, others);
@@ -269,10 +268,8 @@ bool MotionSearch::use_support_of_base(const MotionQuery& query, Candidate& by_k
   if (step.base != query.key || step.verdict.support >= record_.confident_support() ||
       std::exchange(by_key.has_support_of_base, true))
     return false;
-  PoseConfig limits = config_.pose;
-  limits.min_hypotheses = 0;
   const Eigen::Isometry3d current_from_base = motion_since(query.base, query, step);
-  const StepHandle by_base = confirm_with(query.base, query, limits, current_from_base, {});
+  const StepHandle by_base = confirm_with(query.base, query, config_.pose, current_from_base, {});
   if (!by_base->ok() || by_base->verdict.support <= step.verdict.support) return false;
   if (!evidence_.is_same_motion(*by_base, current_from_base)) return false;
   step.verdict.support = by_base->verdict.support;
@@ -304,8 +301,9 @@ bool MotionSearch::may_stand_still(const MotionQuery& query) {
 /// Matches all edges of a frame within a few pixels of the positions that a motion predicts, and repeats this with the
 /// motion found until the predicted positions no longer change.
 StepHandle MotionSearch::confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query,
-                                      const PoseConfig& limits, Eigen::Isometry3d current_from_base,
-                                      const Others& others) {
+                                      PoseConfig limits, Eigen::Isometry3d current_from_base, const Others& others) {
+  // The proposal has drawn hypotheses and is near; more are drawn only as its inlier ratio requires.
+  limits.min_hypotheses = limits.local_optimisation_rounds = 0;
   const auto predict = [&](const Eigen::Isometry3d& motion, int every, TemporalSearch& search) {
     frontend::predict_positions(fits_.calibration(query), base->edges, fits_.measured(*base, query), motion,
                                 config_.temporal.radius, every, search);
@@ -428,10 +426,8 @@ Ambiguity MotionSearch::search_still_edges(const MotionQuery& query, const Motio
 OtherPart MotionSearch::compare_in_free_cells(const MotionQuery& query, const MotionStep& chosen,
                                               const MotionStep& matches, const MotionStep& proposed) {
   OtherPart part;
-  PoseConfig limits = limits_of_proposals(config_);
-  limits.min_hypotheses = 0;
-  const StepHandle other =
-      confirm_with(query.base, query, limits, proposed.motion.current_from_previous, {nullptr, &chosen.cells, 0});
+  const StepHandle other = confirm_with(query.base, query, limits_of_proposals(config_),
+                                        proposed.motion.current_from_previous, {nullptr, &chosen.cells, 0});
   if (!other->ok()) return part;
   const Eigen::Isometry3d by_chosen = motion_since(query.base, query, chosen);
   const ExplainedCells cells = evidence_.explained_beside(*other, by_chosen, config_.pose.inlier_distance);

@@ -92,7 +92,7 @@ class MotionSearch : public MotionFinder {
   StepHandle match_at_rest(const MotionQuery& query);
   bool may_stand_still(const MotionQuery& query);
   bool use_support_of_base(const MotionQuery& query, Candidate& by_key);
-  StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, const PoseConfig& limits,
+  StepHandle confirm_with(const frontend::FrameEdgesHandle& base, const MotionQuery& query, PoseConfig limits,
                           Eigen::Isometry3d current_from_base, const Others& others);
   std::vector<Verdict> verdicts_on(const Candidates& candidates, const MotionQuery& query) const;
   /// Completes the verdict on the motion chosen. Returns its index.

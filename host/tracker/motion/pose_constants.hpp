@@ -34,7 +34,7 @@ constexpr double kInflationCell = 16.0;
 constexpr int kFitSteps = 5;
 
 /// Step length below which a fit ends [standard deviations of the pose], far below the effect of noise.
-constexpr double kFitTolerance = 0.01;
+constexpr double kFitTolerance = 0.05;
 
 /// Number of quads on which all hypotheses are compared, and of those on which the promising ones are.
 constexpr std::size_t kPreviewQuads = 512, kScoringQuads = 4096;
@@ -54,7 +54,7 @@ constexpr double kDrawsForConsensus = 70;
 constexpr std::size_t kSelectionQuads = 4000, kScaleErrors = 4000;
 
 /// If the selection changes in fewer than one row out of this many, no further fit is made.
-constexpr std::size_t kSameSelection = 500;
+constexpr std::size_t kSameSelection = 100;
 
 /// Lower limit of the ratio of measured to assumed variances, for noise-free data.
 constexpr double kSmallestScale = 1e-6;

@@ -32,7 +32,8 @@ double NoiseModel::on_epipolar_line(double epipolar_sine) const {
 }
 
 double NoiseModel::along_in_time(double half_length, double scale) const {
-  return std::hypot(along, kSliding * half_length / scale);
+  const double sliding = kSliding * half_length / scale;
+  return std::sqrt(along * along + sliding * sliding);
 }
 
 ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const PinholeCamera& left,

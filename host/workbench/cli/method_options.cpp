@@ -144,7 +144,7 @@ Device MethodOptions::open_device(const std::string& choice, const DeviceOptions
 }
 
 Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
-  if (threads_ != 0) limit_threads(threads_);
+  limit_threads(threads_);
   DeviceOptions options;
   options.kernel_folder = kernels_;
   options.profiling = profiling;
