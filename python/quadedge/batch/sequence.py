@@ -54,9 +54,10 @@ def run(name: str) -> None:
     folder = Path("unfinished", f"{name}.{os.getpid()}").absolute()
     folder.mkdir(parents=True)
     command = [plan["program"], "run", "--output", str(folder), *plan["options"], *sequence["words"]]
+    shared = {"POCL_AFFINITY": "0"} if plan["jobs"] > 1 else {}  # several programs need their threads moved about
     with open(folder / "log.txt", "wb") as log:
         process = subprocess.run(command, cwd=plan["directory"], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                 preexec_fn=die_with_parent, check=False)
+                                 env=shared | os.environ, preexec_fn=die_with_parent, check=False)
     code = process.returncode if 0 <= process.returncode <= LARGEST_EXIT_CODE else Error.exit_code
     member = {"schema": SCHEMA, "name": name, "path": sequence["path"], "format": sequence["format"],
               "exit_code": code, "message": _failure(process.returncode, folder) if code else "", "jobs": plan["jobs"]}
