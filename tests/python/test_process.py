@@ -15,7 +15,7 @@ if sys.argv[2]:
     locale.setlocale(locale.LC_ALL, sys.argv[2])
     assert locale.localeconv()["decimal_point"] == ","
 room, folder = quadedge.synthetic(frames=3, width=320, height=200), sys.argv[1]
-with quadedge.Odometry(room, preset="fast") as odometry:
+with quadedge.Odometry(room, "cpu", "fast") as odometry:
     files = quadedge.ResultFiles(folder, odometry, "room")
     for frame in room:
         files.add(odometry.track(frame.stamp_ns, frame.left, frame.right))
@@ -47,7 +47,7 @@ import os, sys
 import quadedge
 quadedge.limit_threads(int(sys.argv[1]))
 room = quadedge.synthetic(frames=3, width=320, height=200)
-with quadedge.Odometry(room, preset="fast") as odometry:
+with quadedge.Odometry(room, "cpu", "fast") as odometry:
     poses = [odometry.track(frame.stamp_ns, frame.left, frame.right).world_from_left.tolist() for frame in room]
     tasks = os.listdir("/proc/self/task")
     print(len(tasks), sum(len(os.sched_getaffinity(int(task))) == 1 for task in tasks), poses)
