@@ -57,9 +57,8 @@ void bind_devices(nb::module_& module) {
       .def_prop_ro("info", [](const SharedDevice& self) { return self.device.info(); });
 
   module.def("limit_threads", &limit_threads, "count"_a,
-             "At most ``count`` threads for the library's loops and for OpenCL on CPUs (PoCL, Intel's runtime). To be\n"
-             "called before the first device is opened. Results do not depend on it. 0: no limit, and each of PoCL's\n"
-             "threads on one processor. Raises UsageError for a negative number.");
+             "At most ``count`` threads for loops and OpenCL on CPUs. 0: all, each of PoCL's stays on one processor.\n"
+             "To be called before the first device is opened. Results do not depend on it. Raises UsageError below 0.");
   module.def("devices", &list_devices,
              "All OpenCL devices in a fixed order; empty without a driver or without libOpenCL.so.1.\n\n"
              "Raises DeviceError in a process that was forked after OpenCL had been used.");

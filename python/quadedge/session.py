@@ -43,7 +43,8 @@ def check_session_options(options: argparse.Namespace) -> None:
     """Limits the threads. Raises UsageError, DataError or DeviceError for options that a Session would refuse."""
     from . import Device, configuration, limit_threads
 
-    limit_threads(options.threads or 0)
+    if options.threads is not None:
+        limit_threads(options.threads)
     configuration(options.preset, options.config)
     Device(options.device)
     if not options.output:

@@ -15,7 +15,7 @@ if sys.argv[2]:
     locale.setlocale(locale.LC_ALL, sys.argv[2])
     assert locale.localeconv()["decimal_point"] == ","
 room, folder = quadedge.synthetic(frames=3, width=320, height=200), sys.argv[1]
-with quadedge.Odometry(room, "cpu", "fast") as odometry:
+with quadedge.Odometry(room, preset="fast") as odometry:
     files = quadedge.ResultFiles(folder, odometry, "room")
     for frame in room:
         files.add(odometry.track(frame.stamp_ns, frame.left, frame.right))

@@ -42,8 +42,9 @@ class Search {
       arrays->assign_rows(quads.scoring, *numbers);
     }
     work_.preview_terms.clear();
-    for (std::int32_t row : config.local_optimisation_rounds > 0 ? preview_rows : std::vector<std::int32_t>())
-      work_.preview_terms.push_back(make_sample_term(quads, static_cast<std::size_t>(row), noise_, rig.left));
+    if (config.local_optimisation_rounds > 0)
+      for (std::int32_t row : preview_rows)
+        work_.preview_terms.push_back(make_sample_term(quads, static_cast<std::size_t>(row), noise_, rig.left));
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
     min_distance_squared_ = std::pow(kMinPairDistance * diagonal, 2);
   }

@@ -32,8 +32,7 @@ double NoiseModel::on_epipolar_line(double epipolar_sine) const {
 }
 
 double NoiseModel::along_in_time(double half_length, double scale) const {
-  const double sliding = kSliding * half_length / scale;
-  return std::sqrt(along * along + sliding * sliding);
+  return std::sqrt(along * along + std::pow(kSliding * half_length / scale, 2));
 }
 
 ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const PinholeCamera& left,
